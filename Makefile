@@ -67,6 +67,7 @@ bench: .venv/.runtime
 	@$(PYTHON) -P -m bench.pages
 	@$(PYTHON) -P -m bench.systems
 	@$(PYTHON) -P -m bench.equality
+	@$(PYTHON) -P -m bench.documents
 	@$(PYTHON) -P -m bench.scale
 	@$(PYTHON) -P -m bench.problems
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
@@ -14,11 +15,16 @@ from sympy import MatrixBase, Symbol
 
 from derive.audit.assumed import Assumed
 from derive.audit.claims import Claim, Definition, Outcome, Verdict
-from derive.audit.deciding import Decision, same
+from derive.audit.deciding import Decision, counterexample, same
+from derive.audit.dimensions import odd_claim
 from derive.audit.expected import Compared, Expected, compared
 from derive.audit.known import ASSUMED, Known
 from derive.audit.limited import FAULTS, OutOfTime, limited
-from derive.audit.slips import WHY, nearest_edit
+from derive.audit.near import Nearness, letters_in, root
+from derive.audit.numeric import FAULTS as NUMERIC_FAULTS
+from derive.audit.numeric import NoNumber
+from derive.audit.slips import WHY, Edit, nearest_edit
+from derive.audit.systems import equations_of, expanded, root_equation
 from derive.documents.choices import Choice, readings
 from derive.documents.facts import Facts, Identity, facts_of, shape_of
 from derive.documents.layout import Cue, Document, Row, Statement
@@ -31,7 +37,11 @@ SECONDS = 3.0  # of processor time for one claim
 LEAST_SECONDS = 0.4  # the limit for a claim once a document has used much time
 USUAL_SECONDS = 0.3
 MOST_LATE = 40.0  # seconds beyond the usual time of its claims that a document may use before the limit is low
-SECONDS_OF_SUGGESTION = 2.0  # of processor time for the search of the nearest change
+SECONDS_OF_SEARCH = 2.0  # of processor time for the change that would make a claim right
+MOST_INDICES = 12
+MOST_FIXED = 5  # earlier rows in which a slip is looked for
+SPECIAL = frozenset({Cue.GIVEN, Cue.PUT_IN, Cue.ZERO, Cue.APPROXIMATE})  # words with which terms may vanish
+PIVOT = Symbol("pivot_", real=True)
 MOST_READINGS = 8
 PLAIN = ("", "unmarked", "all", "tensors")
 GOOD = (Outcome.HOLDS, Outcome.APPROXIMATES, Outcome.DEFINES)
@@ -136,9 +146,20 @@ def audited(
         if progress is not None:
             progress(claim.row.line, len(claims) - done)
         auditor.decide(claim)
+    auditor.blame_earlier_rows()
+    auditor.blame_odd_dimensions()
     scopes = [scope_of(document, claim.row) for claim in claims]
     found = compared(claims, scopes, auditor.scopes, facts, auditor.meaning_of, expected) if expected else []
     return Audit(document, facts, claims, unread, found)
+
+
+@dataclass(frozen=True)
+class Fix:
+    """A change of an earlier row with which a wrong claim holds."""
+
+    claim: Claim
+    earlier: Claim
+    edit: Edit
 
 
 class _Auditor:
@@ -149,6 +170,8 @@ class _Auditor:
         self.known = Known(self.meaning)
         self.scopes: dict[int, Known] = {}
         self.late = 0.0  # seconds used beyond the usual time
+        self.fixes: list[Fix] = []
+        self.claims: list[Claim] = []
 
     def begin(self, scope: int) -> None:
         """Begin a problem or section: only what is assumed is known."""
@@ -180,6 +203,7 @@ class _Auditor:
         )
 
     def decide(self, claim: Claim) -> None:
+        self.claims.append(claim)
         scope = scope_of(self.document, claim.row)
         if scope != self.scope:
             self.begin(scope)
@@ -200,6 +224,13 @@ class _Auditor:
             claim.verdict = Verdict(Outcome.UNDECIDED, f"this takes more than {seconds:.1g} seconds")
         except RecursionError:
             claim.verdict = Verdict(Outcome.UNDECIDED, "this formula is nested too deep")
+        search = min(seconds, SECONDS_OF_SEARCH)
+        if claim.verdict.outcome is Outcome.UNDECIDED and claim.row.block.display:
+            with suppress(OutOfTime, RecursionError), limited(search):
+                self.accuse_if_near(claim, claim.verdict)
+        if claim.verdict.outcome is Outcome.DIFFERS and claim.verdict.inherits is None:
+            with suppress(OutOfTime, RecursionError), limited(search):
+                self.fixes += self.fixes_before(claim)
         with suppress(OutOfTime, RecursionError), limited(seconds):
             self.remark(claim, claim.verdict)
             self.remember(claim)
@@ -258,7 +289,7 @@ class _Auditor:
                     if (left, right) in seen:
                         continue
                     seen.append((left, right))
-                    verdict = self.of_values(claim, left, right, meaning, cues)
+                    verdict = self.of_values(claim, left, right, meaning, cues, thorough=len(seen) == 1)
                 except Meaningless as error:
                     reason = reason or error.reason
                     continue
@@ -281,7 +312,7 @@ class _Auditor:
             self.compare_repeated(claim, left_side, first)
         if first.outcome is Outcome.DIFFERS and not first.suggestion:
             self.suggest(claim, left_side, first)
-            if not first.suggestion and self.loses_letters(claim):
+            if not first.suggestion and first.counterexample and self.loses_letters(claim):
                 return Verdict(Outcome.UNDECIDED, "only the left side contains some letters; they may have got values")
         return first
 
@@ -289,10 +320,177 @@ class _Auditor:
         """A row that repeats an earlier result was copied wrongly if one change makes it this result."""
         assert claim.right is not None and verdict.repeated is not None
         right_node = readings(claim.right, self.facts)[0][0]
-        until = process_time() + SECONDS_OF_SUGGESTION
+        until = process_time() + SECONDS_OF_SEARCH
         if self.find_edit(claim, verdict.repeated.value, right_node, left_side, verdict, until):
             verdict.outcome = Outcome.DIFFERS
             verdict.because = "the row repeats an earlier result with a change"
+
+    def accuse_if_near(self, claim: Claim, verdict: Verdict) -> None:
+        """A row that does not follow, but would with one small change, is probably a slip."""
+        left_side = self.last_good_side(claim)
+        if claim.values is None or claim.right is None or left_side is None or claim.relation not in ("=", ":="):
+            return
+        if claim.row.block.cues & {Cue.APPROXIMATE, Cue.INCORRECT}:
+            return
+        left, right = claim.values
+        if isinstance(left, MatrixBase) or isinstance(right, MatrixBase):
+            return
+        text = self.document.source.text
+        right_node, left_node = readings(claim.right, self.facts)[0][0], readings(left_side, self.facts)[0][0]
+        near = Nearness(
+            self.meaning, self.known, self.with_other_indices(letters_in(left_node, right_node)),
+            lambda span: text[span.start : span.end].strip(),
+        )  # fmt: skip
+        found = self.near_value(claim, left, right_node, near) if isinstance(left, Symbol) or claim.is_step else None
+        if found is None and not claim.is_step:
+            equations = equations_of(self.known, self.meaning, sure=True)
+            wanted, _ = expanded(self.known, left - right, sure=True)
+            pair = near.of_equation(left_node, right_node, equations, wanted)
+            found = (pair[0], pair[1].name, pair[1].claims) if pair is not None else None
+        if found is None:
+            self.accuse_if_letters_agree(claim, verdict)
+            return
+        edit, because, given = found
+        verdict.outcome, verdict.given = Outcome.DIFFERS, given
+        verdict.because = f"it does not follow from {because}, but would with one change"
+        verdict.suggestion = suggestion_of(edit)
+        verdict.why_plausible, verdict.span = WHY[edit.kind], edit.span
+
+    def with_other_indices(self, letters: list[Letter]) -> list[Letter]:
+        """Add the letters of the document that differ from these in the index only."""
+        bases = {(each.base, each.dots) for each in letters if each.sub}
+        known = {(each.identity, each.dots) for each in letters}
+        more = [each for each in self.meaning.symbols.values() if (each.base, each.dots) in bases]
+        return letters + [each for each in more if (each.identity, each.dots) not in known][:MOST_INDICES]
+
+    def accuse_if_letters_agree(self, claim: Claim, verdict: Verdict) -> None:
+        """An equation under another one of the same letters, without words between them, must follow from it."""
+        rows = claim.row.block.rows
+        at = rows.index(claim.row)
+        if claim.is_step or claim.values is None or at == 0 or claim.row.statements[0] is not claim.statement:
+            return
+        before = [each for each in self.claims[: claim.number] if each.row is rows[at - 1]]
+        if len(before) != 1 or before[0].values is None or before[0].relation != "=" or before[0].verdict is None:
+            return
+        if before[0].verdict.outcome is Outcome.DIFFERS or claim.values[1] != 0 or before[0].values[1] != 0:
+            return
+        one, other = (expanded(self.known, each.values[0], sure=True)[0] for each in (before[0], claim) if each.values)
+        if isinstance(one, MatrixBase) or isinstance(other, MatrixBase):
+            return
+        alike = other.free_symbols == one.free_symbols or any(
+            (letter := self.meaning.symbols.get(each)) is not None and letter.dots >= 2
+            for each in one.free_symbols & other.free_symbols
+        )
+        if alike and other.free_symbols <= one.free_symbols and (example := counterexample(one, other)):
+            verdict.outcome, verdict.given = Outcome.DIFFERS, (before[0].number,)
+            verdict.because, verdict.counterexample = "it does not follow from the row above it", example
+
+    def fixes_before(self, claim: Claim) -> list[Fix]:
+        """Return changes of the rows that define letters of a wrong claim, each of which makes the claim hold."""
+        if claim.values is None or any(isinstance(each, MatrixBase) for each in claim.values):
+            return []
+        difference = claim.values[0] - claim.values[1]
+        found: list[Fix] = []
+        _, used = expanded(self.known, difference)
+        own = {claim.row.number} | ({claim.before.row.number} if claim.before is not None else set())
+        for number in sorted(set(used) - {ASSUMED}, reverse=True)[:MOST_FIXED]:
+            earlier = self.claims[number]
+            if earlier.right is None or earlier.values is None or earlier.row.number in own or earlier.is_step:
+                continue
+            if earlier.verdict is None or earlier.verdict.outcome is not Outcome.DEFINES:
+                continue
+            letter, power = earlier.values[0], 1
+            if isinstance(letter, sympy.Pow):
+                letter, power = letter.base, 2
+            if isinstance(letter, Symbol) and not isinstance(earlier.values[1], MatrixBase):
+                edit = self.edit_of_definition(claim, earlier, letter, power)
+                found += [Fix(claim, earlier, edit)] if edit is not None else []
+        return found
+
+    def edit_of_definition(self, claim: Claim, earlier: Claim, letter: Symbol, power: int) -> Edit | None:
+        """Return a change of a definition with which a later claim holds."""
+        assert claim.values is not None and earlier.right is not None
+        wanted, _ = expanded(self.known, claim.values[0] - claim.values[1], letter)
+        value = wanted.subs(letter, sympy.sqrt(PIVOT)) if power == 2 else wanted.subs(letter, PIVOT)
+        if letter in value.free_symbols or sympy.diff(value, PIVOT, 2) != 0:
+            return None
+        node = readings(earlier.right, self.facts)[0][0]
+        text = self.document.source.text
+        near = Nearness(
+            self.meaning, self.known, letters_in(node, claim.left, claim.right),
+            lambda span: text[span.start : span.end].strip(),
+        )  # fmt: skip
+        try:
+            roots = [root(value, point, PIVOT) for point in near.points(letter)]
+            targets = [each for each in roots if each is not None and abs(each) > 1e-9]
+            return near.of_value(node, targets, letter) if len(targets) == len(roots) else None
+        except (*NUMERIC_FAULTS, NoNumber):
+            return None
+
+    def blame_earlier_rows(self) -> None:
+        """Blame an earlier row if one change of it makes several wrong claims hold, or one that no own change does."""
+        for earlier in {fix.earlier.number: fix.earlier for fix in self.fixes}.values():
+            edits = Counter((fix.edit.was, fix.edit.meant) for fix in self.fixes if fix.earlier is earlier)
+            chosen, _count = edits.most_common(1)[0]
+            fixes = [f for f in self.fixes if f.earlier is earlier and (f.edit.was, f.edit.meant) == chosen]
+            alone = all(fix.claim.verdict is None or not fix.claim.verdict.suggestion for fix in fixes)
+            meant = suggestion_of(fixes[0].edit)
+            if len(fixes) > 1 or alone:
+                lines = ", ".join(str(fix.claim.row.line) for fix in fixes)
+                verdict = Verdict(Outcome.DIFFERS, f"line {lines} would follow after one change here")
+                verdict.suggestion, verdict.why_plausible = meant, WHY[fixes[0].edit.kind]
+                verdict.span = fixes[0].edit.span
+                earlier.verdict = verdict
+                for fix in fixes:
+                    fix.claim.verdict = Verdict(
+                        Outcome.HOLDS, "it follows from a row that is probably wrong", inherits=earlier.number
+                    )
+                continue
+            for fix in fixes:
+                if fix.claim.verdict is not None and fix.claim.verdict.outcome is Outcome.DIFFERS:
+                    fix.claim.verdict.or_lines += (earlier.row.line,)
+                    fix.claim.verdict.because += f"; or line {earlier.row.line} has the slip: {meant}"
+
+    def blame_odd_dimensions(self) -> None:
+        """Blame the row of a scope whose terms have not the dimensions that all other rows give."""
+        by_scope: dict[int, list[Claim]] = {}
+        for claim in self.claims:
+            by_scope.setdefault(scope_of(self.document, claim.row), []).append(claim)
+        for claims in by_scope.values():
+            odd = odd_claim(claims, self.meaning)
+            if odd is not None:
+                because = "its terms have other dimensions than the rest of the document gives them"
+                odd.verdict = Verdict(Outcome.DIFFERS, because)
+
+    def near_value(
+        self, claim: Claim, left: Value, right_node: Node, near: Nearness
+    ) -> tuple[Edit, str, tuple[int, ...]] | None:
+        """Return a change with which the right side has the value that earlier rows give to the left side."""
+        try:
+            if isinstance(left, Symbol) and not claim.is_step:
+                if (at_root := root_equation(left, self.meaning, self.known)) is not None:
+                    edit = near.of_root(right_node, at_root[0], at_root[1])
+                    return (edit, "an earlier equation", (at_root[2],)) if edit is not None else None
+                decision = Decision(claim, left, claim.values[1], self.meaning, self.known, frozenset())  # type: ignore[index]
+                values = decision.value_of_letter() if not self.known.is_defined(left) else None
+                edit = near.of_value(right_node, values, left) if values is not None else None
+                return (edit, "earlier equations", ()) if edit is not None else None
+            targets = [each.of(left) for each in near.points()]
+            edit = near.of_value(right_node, targets)
+            if edit is None or self.repeats_a_side(claim, edit.node):
+                return None
+            return edit, "the side before it", ()
+        except (*NUMERIC_FAULTS, NoNumber):
+            return None
+
+    def repeats_a_side(self, claim: Claim, node: Node) -> bool:
+        """Whether a changed side is an earlier side of its chain: `a = b = a` says nothing, so it was not meant."""
+        value, before = self.meaning.of(node), claim.before
+        while before is not None:
+            if before.values is not None and value in before.values:
+                return True
+            before = before.before
+        return False
 
     def loses_letters(self, claim: Claim) -> bool:
         """Whether letters of the left side are missing on the right."""
@@ -304,8 +502,21 @@ class _Auditor:
         """Find the nearest change of the right side that makes the claim hold."""
         assert claim.right is not None and claim.values is not None
         right_node = readings(claim.right, self.facts)[0][0]
-        until = process_time() + SECONDS_OF_SUGGESTION
-        self.find_edit(claim, claim.values[0], right_node, left_side, verdict, until)
+        until = process_time() + SECONDS_OF_SEARCH
+        if not self.find_edit(claim, claim.values[0], right_node, left_side, verdict, until):
+            self.find_lost_term(claim, verdict)
+
+    def find_lost_term(self, claim: Claim, verdict: Verdict) -> None:
+        """Find a term of the left side that is missing on the right side."""
+        if claim.values is None or claim.row.block.cues & SPECIAL:
+            return
+        left, right = (self.expanded(each) for each in claim.values)
+        if isinstance(left, MatrixBase) or isinstance(right, MatrixBase) or right == 0:
+            return
+        lost = sympy.expand(left - right)
+        terms = sympy.Add.make_args(sympy.expand(left))
+        if lost in terms and len(terms) > 1 and lost.free_symbols & right.free_symbols:
+            verdict.suggestion, verdict.why_plausible = f"with the term {lost}", "a term was lost"
 
     def find_edit(
         self,
@@ -348,7 +559,7 @@ class _Auditor:
         )
         if edit is None:
             return False
-        verdict.suggestion = f"{edit.meant} instead of {edit.was}" if edit.meant else f"without {edit.was}"
+        verdict.suggestion = suggestion_of(edit)
         verdict.why_plausible, verdict.span = WHY[edit.kind], edit.span
         return True
 
@@ -373,9 +584,11 @@ class _Auditor:
             return verdict if self.find_edit(claim, left, right_node, left_side, verdict) else None
         return None
 
-    def of_values(self, claim: Claim, left: Value, right: Value, meaning: Meaning, cues: frozenset[Cue]) -> Verdict:
+    def of_values(
+        self, claim: Claim, left: Value, right: Value, meaning: Meaning, cues: frozenset[Cue], thorough: bool = True
+    ) -> Verdict:
         """Return the verdict; a claim that follows only from a wrong row carries the slip of this row on."""
-        verdict = Decision(claim, left, right, meaning, self.known, cues).verdict()
+        verdict = Decision(claim, left, right, meaning, self.known, cues, thorough).verdict()
         if verdict.outcome in GOOD:
             return verdict
         if claim.before is not None and claim.before.verdict is not None and claim.before.values is not None:
@@ -384,7 +597,7 @@ class _Auditor:
                 return self.after_slip(claim, wrong, left, right, meaning, cues, verdict)
         believed = self.known.with_slips()
         if believed is not None:
-            again = Decision(claim, left, right, meaning, believed, cues).verdict()
+            again = Decision(claim, left, right, meaning, believed, cues, thorough).verdict()
             slips = {each.claim for each in self.known.slips.values()}
             if again.outcome is Outcome.HOLDS and slips & set(again.given):
                 again.inherits = min(slips & set(again.given))
@@ -453,6 +666,19 @@ class _Auditor:
         simple = isinstance(left, Symbol) and left in self.known.seen and isinstance(right, sympy.Expr)
         return bool(simple and not block.display and Cue.GIVEN in block.cues and right.as_coeff_Mul()[1].is_Symbol)
 
+    def is_condition(self, claim: Claim, verdict: Verdict) -> bool:
+        """Whether a formula of a sentence, or what follows from one, may hold in one case or at one instant only."""
+        if verdict.outcome in (Outcome.HOLDS, Outcome.APPROXIMATES):
+            return bool(self.known.conditions & set(verdict.given))
+        if claim.row.block.display:
+            return False
+        if verdict.outcome is not Outcome.DEFINES or claim.values is None:
+            return True
+        letter, value = claim.values
+        if not isinstance(letter, Symbol) or isinstance(value, MatrixBase) or value.is_number:
+            return True
+        return any(letter in equation.free_symbols for equation, _ in self.known.equations)
+
     def remember(self, claim: Claim) -> None:
         """Remember a definition or an equation for the rows that follow."""
         if claim.values is None or claim.verdict is None:
@@ -460,6 +686,8 @@ class _Auditor:
         if self.is_special_case(claim):
             return
         self.known.seen |= claim.values[0].free_symbols | claim.values[1].free_symbols
+        if self.is_condition(claim, claim.verdict):
+            self.known.conditions.add(claim.number)
         if claim.relation not in ("=", ":="):
             start = claim
             while start.before is not None:
@@ -469,6 +697,8 @@ class _Auditor:
                 self.known.bounds.append((head, claim.relation, bound, claim.number))
             return
         left, right = claim.values
+        if claim.row.block.display and claim.verdict.outcome is Outcome.DEFINES and isinstance(left, Symbol):
+            self.known.named.add(left)
         number = claim.number
         first = claim
         while first.before is not None:
@@ -491,6 +721,10 @@ class _Auditor:
         if claim.verdict.outcome is Outcome.HOLDS and not claim.verdict.given and not isinstance(left, Symbol):
             return  # an identity gives nothing new
         self.known.state(sympy.expand(left - right) if sympy.count_ops(left - right) < 600 else left - right, number)
+
+
+def suggestion_of(edit: Edit) -> str:
+    return f"{edit.meant} instead of {edit.was}" if edit.meant else f"without {edit.was}"
 
 
 Reading = tuple[Node, tuple[Choice, ...]]

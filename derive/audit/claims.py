@@ -49,6 +49,7 @@ class Verdict:
     choices: tuple[Choice, ...] = ()
     span: Span | None = None
     repeated: Definition | None = None  # the earlier value that this row says it repeats
+    or_lines: tuple[int, ...] = ()  # rows before it in which the slip may be instead
 
 
 @dataclass

@@ -21,6 +21,7 @@ from derive.algebra.equality import Grade, equal
 from derive.audit.claims import Claim, Outcome, Verdict
 from derive.audit.fingerprint import differ, fingerprint
 from derive.audit.known import Known
+from derive.audit.systems import System, equations_of, expanded, lagrange_equations, root_equation, vanishes
 from derive.documents.facts import ANGLES
 from derive.documents.layout import Cue
 from derive.documents.meaning import Meaning, Meaningless, Value
@@ -31,6 +32,7 @@ CLOSE = Rational(1, 10**9)
 MOST_COMBINED = 6
 LARGEST_GOAL = 400  # operations of an equation of motion
 MOST_SIGNS = 3  # of absolute values
+STRICT = ("<", ">", "<<", ">>", "!=")
 CONVERTED = 0.01  # greatest relative difference of a bound and its conversion with a slip
 SMALL = (Rational(1, 100), Rational(1, 1000))
 
@@ -66,6 +68,7 @@ class Decision:
     meaning: Meaning
     known: Known
     cues: frozenset[Cue]
+    thorough: bool = True  # also combine earlier equations; the likeliest reading only
 
     def verdict(self) -> Verdict:
         for test in (
@@ -77,7 +80,9 @@ class Decision:
             self.truncated,
             self.approximate,
             self.condition,
+            self.square,
             self.consequence,
+            self.together,
             self.implied,
         ):
             if (found := test()) is not None:
@@ -130,14 +135,134 @@ class Decision:
             if is_letter and letter not in value.free_symbols and not self.known.is_defined(letter):
                 if self.known.computed(letter) is not None or isinstance(value, MatrixBase):
                     continue
+                if letter in self.known.named and self.claim.row.block.display and not value.is_number:
+                    continue
                 if not value.free_symbols and not value.is_number:
                     continue
                 if self.follows_already(letter, value) is not None:
                     continue
                 if letter is self.left and (found := self.solution(self.known.recent())) is not None:
                     return found
+                if (found := self.of_known_form(letter, value) or self.of_root(letter, value)) is not None:
+                    return found
                 about = "an approximate value" if self.claim.relation == "~" else "a value"
-                return Verdict(Outcome.DEFINES, f"{about} for {_word(letter)}")
+                return self.of_used_letter(letter) or Verdict(Outcome.DEFINES, f"{about} for {_word(letter)}")
+        return None
+
+    def square(self) -> Verdict | None:
+        """A power of a letter that was not used before gets a value: `v^2 = ...`."""
+        if self.claim.is_step or self.claim.relation not in ("=", ":="):
+            return None
+        if not (isinstance(self.left, sympy.Pow) and isinstance(self.left.base, Symbol) and self.left.exp == 2):
+            return None
+        letter = self.left.base
+        if letter in self.right.free_symbols or self.known.latest(letter) is not None:
+            return None
+        if any(letter in equation.free_symbols for equation, _ in self.known.equations):
+            return None
+        if letter.is_positive and not isinstance(self.right, MatrixBase) and self.right.free_symbols:
+            self.known.define(letter, sympy.sqrt(self.right), self.claim.number)
+        return Verdict(Outcome.DEFINES, f"a value for {_word(letter)} squared")
+
+    def of_known_form(self, letter: Symbol, value: Expr) -> Verdict | None:
+        """A Lagrangian in letters for the energies is their difference."""
+        named = self.meaning.symbols.get(letter)
+        if named is not None and named.base in ("T", "K") and not named.dots and self.is_negative(value):
+            return Verdict(Outcome.DIFFERS, "a kinetic energy does not fall when a speed grows")
+        if named is None or named.base != "L" or named.marks or named.dots:
+            return None
+        energies = {each: self.meaning.symbols.get(each) for each in value.free_symbols}
+        if not energies or any(
+            each is None or each.base not in ("T", "U", "V", "K") or each.dots for each in energies.values()
+        ):
+            return None
+        kinetic = sympy.Add(*(s for s, each in energies.items() if each is not None and each.base in "TK"))
+        if same(value, kinetic - sympy.Add(*(energies.keys() - kinetic.free_symbols))):
+            return None
+        example = counterexample(value, 2 * kinetic - sympy.Add(*energies))
+        because = "a Lagrangian is the kinetic energy minus the potential energy"
+        return Verdict(
+            Outcome.DIFFERS, because, counterexample=example, suggestion="T - U", why_plausible="a sign was turned",
+        )  # fmt: skip
+
+    def is_negative(self, value: Expr) -> bool:
+        """Whether a sum of squares of rates has a square with a negative factor."""
+        rates = [each for each in value.free_symbols if self.known.is_rate(each)]
+        doubled = value.subs({each: 2 * each for each in rates}, simultaneous=True)
+        if not rates or sympy.expand(doubled - 4 * value) != 0:
+            return False
+        squares = [fingerprint(sympy.diff(value, each, 2)) for each in rates]
+        return any(number.real < 0 for numbers in squares if numbers is not None for number in numbers)
+
+    def of_root(self, letter: Symbol, value: Expr) -> Verdict | None:
+        """A letter with an index names a root of an earlier equation for the letter without it."""
+        if not self.claim.row.block.display or not self.thorough:
+            return None
+        found = root_equation(letter, self.meaning, self.known)
+        if found is None:
+            return None
+        plain, equation, number = found
+        put_in, used = expanded(self.known, value, sure=True)
+        if any(map(self.known.is_rate, put_in.free_symbols)):
+            put_in, used = value, ()
+        holds = vanishes(equation, plain, put_in, self.meaning, self.known)
+        if holds is None:
+            return None
+        if holds and (other := self.other_name(letter, value)) is not None:
+            return Verdict(Outcome.UNDECIDED, f"{_word(other)} has the same value")
+        if holds:
+            return Verdict(Outcome.HOLDS, "it is a root of an earlier equation", (*used, number))
+        return Verdict(Outcome.UNDECIDED, f"{_word(letter)} does not satisfy the earlier equation for {_word(plain)}")
+
+    def other_name(self, letter: Symbol, value: Expr) -> Symbol | None:
+        """Return a letter with another index and the same value, or None."""
+        named = self.meaning.symbols[letter]
+        for symbol, definitions in self.known.definitions.items():
+            other = self.meaning.symbols.get(symbol)
+            if other is not None and symbol != letter and (other.base, other.dots) == (named.base, named.dots):
+                if same(definitions[-1].value, value):
+                    return symbol
+        return None
+
+    def of_used_letter(self, letter: Symbol) -> Verdict | None:
+        """A letter of earlier equations gets a value: it follows from them, or they may give another value."""
+        if not any(letter in equation.free_symbols for equation, _ in self.known.equations):
+            return None
+        if (found := self.together()) is not None:
+            return found
+        if self.claim.row.block.display and self.value_of_letter() is not None:
+            return Verdict(Outcome.UNDECIDED, f"earlier rows give another value of {_word(letter)}")
+        return None
+
+    def value_of_letter(self) -> list[complex] | None:
+        """Return the numbers that earlier rows give to the letter of this claim, or None."""
+        for rates_only in (False, True):
+            system = self.system(sure=True, rates_only=rates_only)
+            values = system.value_of_letter() if system is not None else None
+            if values is not None:
+                return values
+        return None
+
+    def system(self, sure: bool, rates_only: bool = False) -> System | None:
+        """Return the earlier equations, prepared for this claim."""
+        if not self.thorough or self.claim.relation not in ("=", ":=") or isinstance(self.difference, MatrixBase):
+            return None
+        letter = next((each for each in (self.left, self.right) if isinstance(each, Symbol)), None)
+        equations = equations_of(self.known, self.meaning, letter, sure)
+        wanted, _ = expanded(self.known, self.difference, letter, sure)
+        if not equations or wanted.has(Integral) or not wanted.free_symbols or sympy.count_ops(wanted) > 600:
+            return None
+        return System(wanted, equations, self.meaning, self.known, letter, rates_only)
+
+    def together(self) -> Verdict | None:
+        """The claim is a combination of several earlier equations."""
+        for sure in (True, False):
+            system = self.system(sure)
+            used = system.follows() if system is not None else None
+            if used is not None:
+                names = list(dict.fromkeys(each.name for each in used))
+                given = tuple(dict.fromkeys(number for each in used for number in each.claims))
+                return Verdict(Outcome.HOLDS, f"it follows from {' and '.join(names)}", given)
         return None
 
     def follows_already(self, letter: Symbol, value: Expr) -> int | None:
@@ -148,6 +273,8 @@ class Decision:
         return None
 
     def identity(self) -> Verdict | None:
+        if self.claim.relation in STRICT:
+            return None
         if not same(self.left, self.right):
             return self.with_signs(self.left, self.right)
         if self.left == self.right and self.left != 0:
@@ -173,6 +300,12 @@ class Decision:
         return list(self.known.expanded(self.left, self.right))
 
     def with_definitions(self) -> Verdict | None:
+        if self.claim.relation in STRICT:
+            return None
+        if self.known.conditions and not any(isinstance(each, MatrixBase) for each in (self.left, self.right)):
+            difference, used = expanded(self.known, self.left - self.right, sure=True)
+            if used and not difference.has(Integral) and same(difference, Integer(0)):
+                return Verdict(Outcome.HOLDS, "the two sides are equal with earlier results put in", used)
         for (left, right), used in self.expansions:
             if same(left, right):
                 return Verdict(Outcome.HOLDS, "the two sides are equal with earlier results put in", used)
@@ -355,7 +488,7 @@ class Decision:
         if not any((letter := self.meaning.symbols.get(each)) is not None and letter.dots
                    for each in wanted.free_symbols):  # fmt: skip
             return None
-        equations = list(self.known.lagrange_equations())
+        equations = lagrange_equations(self.known, last=2)
         at = self.expansions[-1:] if equations else []
         goals = [wanted, *(left - right for (left, right), _ in at)]
         goals = [sympy.expand(each) for each in goals if sympy.count_ops(each) < LARGEST_GOAL]
@@ -426,6 +559,10 @@ class Decision:
             return Verdict(Outcome.UNDECIDED, f"{_word(several)} has several values in the rows before")
         if self.meaning.left_out is not None and not self.shows_the_terms(left, right):
             return Verdict(Outcome.UNDECIDED, "the order of the terms that are left out is not compared")
+        if self.expansions and self.known.conditions & set(self.expansions[-1][1]):
+            left, right = (expanded(self.known, each, sure=True)[0] for each in (self.left, self.right))
+            if not self.claim.is_step or (left.free_symbols ^ right.free_symbols):
+                return Verdict(Outcome.UNDECIDED, "it contains a letter that has its value in one case only")
         example = counterexample(left, right)
         if not example:
             return Verdict(Outcome.UNDECIDED, "no numbers show whether the two sides are equal")
@@ -464,7 +601,7 @@ class Decision:
         return None
 
     def stated(self) -> Verdict:
-        """Return the verdict on an equation that is no step: it is a law, it is new, or it is not known to follow."""
+        """Return the verdict on an equation that begins a chain: a law, a new equation, or not known to follow."""
         symbols = self.left.free_symbols | self.right.free_symbols
         if isinstance(self.left, Symbol) and self.left in self.meaning.evaluations:
             return Verdict(Outcome.DEFINES, "a condition at one instant or place")
@@ -572,8 +709,11 @@ def is_multiple(wanted: Expr, equation: Expr) -> bool:
 def _ratios(wanted: Expr, equation: Expr) -> Iterator[Expr]:
     """Yield the factors by which an equation may have been multiplied: one term divided by each term of the other."""
     first = _terms(wanted)[0]
-    for term in _terms(equation):
+    terms = _terms(equation)
+    for term in terms:
         ratio = first / term
+        if len(terms) == 1 and sympy.denom(ratio).free_symbols:
+            continue  # a product that vanishes says nothing about one of its factors
         factors = sympy.Mul.make_args(ratio)
         if all(not factor.as_base_exp()[0].is_Add for factor in factors):
             yield ratio
@@ -608,9 +748,9 @@ def _relative_error(left: Expr, right: Expr) -> float | None:
     return worst
 
 
-def small_letters(symbols: set[Symbol], meaning: Meaning) -> list[tuple[Symbol, ...]]:
-    """Return the sets of letters that can be small: those that change, with their rates, or one letter alone."""
-    changing = tuple(
+def changing_letters(symbols: set[Symbol], meaning: Meaning) -> tuple[Symbol, ...]:
+    """Return the letters that change, with their rates, and the angles."""
+    return tuple(
         sorted(
             (
                 each
@@ -621,6 +761,11 @@ def small_letters(symbols: set[Symbol], meaning: Meaning) -> list[tuple[Symbol, 
             key=str,
         )
     )
+
+
+def small_letters(symbols: set[Symbol], meaning: Meaning) -> list[tuple[Symbol, ...]]:
+    """Return the sets of letters that can be small: those that change, with their rates, or one letter alone."""
+    changing = changing_letters(symbols, meaning)
     single = [(each,) for each in sorted(symbols, key=str)]
     return ([changing] if changing else []) + single
 
@@ -654,7 +799,7 @@ def order_of_error(
 def _approximate_multiple(wanted: Expr, equation: Expr, meaning: Meaning) -> bool | None:
     """Whether an equation is an earlier one to the leading order, times a number or a product of letters."""
     symbols = wanted.free_symbols | equation.free_symbols
-    for letters in small_letters(symbols, meaning)[:1]:
+    for letters in filter(None, [changing_letters(symbols, meaning)]):
         scale = Symbol("epsilon_", positive=True)
         leading = []
         for each in (wanted, equation):

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import sympy
 from sympy import Expr, Integral, MatrixBase, Symbol
 
 from derive.audit.claims import Definition
 from derive.documents.meaning import Meaning, Value
-from derive.documents.source import Span
 from derive.documents.syntax import Letter
 
 ROUNDS = 8  # of substitution
@@ -31,7 +31,9 @@ class Known:
     bounds: list[tuple[Symbol, str, Expr, int]] = field(default_factory=list)  # letter, relation, number, claim
     slips: dict[Symbol, Definition] = field(default_factory=dict)  # the values that wrong rows give
     seen: set[Symbol] = field(default_factory=set)  # the letters of earlier claims
-    _lagrange: dict[Expr, list[tuple[Symbol, Expr]]] = field(default_factory=dict)
+    conditions: set[int] = field(default_factory=set)  # claims that hold in one case or at one instant only, perhaps
+    named: set[Symbol] = field(default_factory=set)  # letters to which a display gave a value
+    kept: dict[object, Any] = field(default_factory=dict)  # what `systems` makes of this knowledge
 
     def define(
         self, symbol: Symbol, value: Expr, claim: int, implied: bool = False, part: int = -1, chain: int = -1
@@ -71,7 +73,7 @@ class Known:
         if not self.slips:
             return None
         believed = {symbol: [definition] for symbol, definition in self.slips.items()}
-        return Known(self.meaning, {**self.definitions, **believed}, self.numbers, self.equations, seen=self.seen)
+        return replace(self, definitions={**self.definitions, **believed}, slips={}, kept={})
 
     def new_letters(self, symbols: set[Symbol]) -> list[Symbol]:
         """Return the letters that no earlier claim contains; a rate or a derivative is new if its letter is new."""
@@ -85,31 +87,6 @@ class Known:
             if each not in self.seen and (letter is None or letter.identity not in bases) and letter is not None:
                 new.append(each)
         return new
-
-    def lagrange_equations(self) -> Iterator[tuple[Symbol, Expr, int]]:
-        """Yield Lagrange's equations for each Lagrangian that earlier rows give: coordinate, left side, claim."""
-        time = self.meaning.symbol(Letter(Span(0, 0), "t"))
-        for symbol, definitions in list(self.definitions.items()):
-            letter = self.meaning.symbols.get(symbol)
-            if letter is None or letter.base != "L" or letter.dots or letter.primes:
-                continue
-            for definition in definitions[-2:]:
-                value = self.through(definition.value, set())
-                if value not in self._lagrange:
-                    self._lagrange[value] = list(self._equations_of(value, time))
-                for coordinate, equation in self._lagrange[value]:
-                    yield coordinate, equation, definition.claim
-
-    def _equations_of(self, value: Expr, time: Symbol) -> Iterator[tuple[Symbol, Expr]]:
-        if sympy.count_ops(value) > LARGEST // 8:
-            return
-        for symbol in sorted(value.free_symbols, key=str):
-            rate = self.meaning.symbols.get(symbol)
-            if rate is None or rate.dots != 1:
-                continue
-            coordinate = self.meaning.symbol(replace(rate, dots=0))
-            momentum_rate = self.meaning.differentiated(sympy.diff(value, symbol), time, False)
-            yield coordinate, sympy.expand(momentum_rate - sympy.diff(value, coordinate))
 
     def is_defined(self, symbol: Symbol) -> bool:
         return symbol in self.definitions
@@ -152,10 +129,17 @@ class Known:
                 return None
             value = self.through(inner.value, {each for each, _ in by})
             for each, order in by:
+                primed = self.meaning.written_with_prime(value, each)
+                value = value.subs(primed, each) if primed is not None else value
                 for _ in range(order):
                     value = sympy.diff(value, each) if partial else self.meaning.differentiated(value, each, partial)
+                value = value.subs(each, primed) if primed is not None else value
             return Definition(symbol, value, inner.claim)
         return None
+
+    def is_rate(self, symbol: Symbol) -> bool:
+        letter = self.meaning.symbols.get(symbol)
+        return letter is not None and letter.dots > 0
 
     def is_kinematic(self, symbol: Symbol) -> bool:
         """Whether a rate or derivative follows from a definition without rates, whatever the motion is."""
@@ -171,10 +155,13 @@ class Known:
     def is_momentum(self, symbol: Symbol) -> bool:
         """Whether a letter is a momentum, which stays fixed in derivatives by coordinates: p = m x' in H(x, p)."""
         letter, definition = self.meaning.symbols.get(symbol), self.definitions.get(symbol, [None])[-1]
-        if letter is None or definition is None or letter.base not in MOMENTA:
+        if letter is None or letter.base not in MOMENTA:
             return False
-        letters = [self.meaning.symbols.get(each) for each in definition.value.free_symbols]
-        return any(each is not None and each.dots for each in letters)
+        if letter.base == "p" or definition is None:
+            return letter.base == "p"
+        rates = set(filter(self.is_rate, definition.value.free_symbols))
+        doubled = definition.value.subs({each: 2 * each for each in rates}, simultaneous=True)
+        return bool(rates) and bool(sympy.expand(doubled - 2 * definition.value) == 0)
 
     def through(self, value: Expr, wanted: set[Symbol]) -> Expr:
         """Put in the definitions of letters that depend on the variables of a derivative."""

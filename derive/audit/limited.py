@@ -1,17 +1,17 @@
-"""The limit of processor time for one claim, and the errors of SymPy that leave a claim undecided."""
+"""A limit of processor time for one claim or answer, and the errors of SymPy that leave a claim undecided."""
 
 from __future__ import annotations
 
 import signal
 from collections.abc import Iterator
 from contextlib import contextmanager
+from time import process_time
+from typing import NoReturn
 
 import sympy
 
 # SymPy raises these for expressions of a document that it cannot handle; the claim is then undecided, with the reason.
 FAULTS = (ValueError, TypeError, ZeroDivisionError, AttributeError, NotImplementedError, sympy.SympifyError)
-
-
 AGAIN = 0.5  # seconds after which the limit is enforced again
 
 
@@ -21,14 +21,19 @@ class OutOfTime(BaseException):
 
 @contextmanager
 def limited(seconds: float) -> Iterator[None]:
-    def stop(*_: object) -> None:
-        signal.setitimer(signal.ITIMER_VIRTUAL, AGAIN)  # the exception is lost if it is raised while a cache is cleared
+    """Limit the time of the work in the `with` block; the clock of the time limit of a job around it goes on."""
+
+    def stop(*_: object) -> NoReturn:
+        signal.setitimer(signal.ITIMER_PROF, AGAIN)  # the exception is lost if it is raised while a cache is cleared
         raise OutOfTime
 
-    before = signal.signal(signal.SIGVTALRM, stop)
-    signal.setitimer(signal.ITIMER_VIRTUAL, seconds)
+    begun = process_time()
+    before = signal.signal(signal.SIGPROF, stop)
+    left, _ = signal.setitimer(signal.ITIMER_PROF, seconds)
     try:
         yield
     finally:
-        signal.setitimer(signal.ITIMER_VIRTUAL, 0)
-        signal.signal(signal.SIGVTALRM, before)
+        signal.setitimer(signal.ITIMER_PROF, 0)
+        signal.signal(signal.SIGPROF, before if before is not None else signal.SIG_DFL)
+        if left:
+            signal.setitimer(signal.ITIMER_PROF, max(left - (process_time() - begun), 0.01))

@@ -46,11 +46,19 @@ def nearest_edit(
     side: Node, letters: Sequence[Letter], is_right: Callable[[Node], bool], shown: Callable[[Span], str]
 ) -> Edit | None:
     """Return the cheapest change of a side that `is_right` accepts, or None."""
-    found = sorted(islice(edits_of(side, letters, shown), MOST_EDITS), key=lambda each: each.cost)
+    found = sorted(islice(edits_of_side(side, letters, shown), MOST_EDITS), key=lambda each: each.cost)
     for edit in found:
         if is_right(edit.node):
             return edit
     return None
+
+
+def edits_of_side(node: Node, letters: Sequence[Letter], shown: Callable[[Span], str]) -> Iterator[Edit]:
+    """Yield the single changes of a whole side; a lost sign before it is one of them."""
+    if not isinstance(node, Add):
+        was = shown(node.span)
+        yield Edit(Add(node.span, (("-", node),)), node.span, was, f"-{was}", "sign", 1.0)
+    yield from edits_of(node, letters, shown)
 
 
 def edits_of(node: Node, letters: Sequence[Letter], shown: Callable[[Span], str]) -> Iterator[Edit]:

@@ -88,9 +88,10 @@ def choice_of(node: Open, facts: Facts) -> Choice:
 
 def _apply(node: Open, facts: Facts) -> tuple[int, str, bool]:
     call = node.alternatives[0]
-    while isinstance(call, Pow | EvalBar):
-        call = call.base if isinstance(call, Pow) else call.inner
-    assert isinstance(call, Apply)
+    while isinstance(call, Pow | EvalBar | Fun):
+        call = call.base if isinstance(call, Pow) else call.inner if isinstance(call, EvalBar) else call.argument
+    if not isinstance(call, Apply):
+        return 1, "a product", True
     head, argument = call.head, call.arguments[0]
     inner = getattr(argument, "inner", argument)
     bare = replace(head, dots=0, primes=0)
@@ -108,7 +109,7 @@ def _apply(node: Open, facts: Facts) -> tuple[int, str, bool]:
         return 0, "the document writes it with this argument", facts.products[head.identity] == 0
     if isinstance(inner, Num):
         return 0, "a value of a function", False
-    return (0, "a function elsewhere", False) if not letters else (1, "another argument than elsewhere", False)
+    return 0, "a function elsewhere", False
 
 
 def _extent(node: Open, facts: Facts) -> tuple[int, str, bool]:

@@ -31,6 +31,7 @@ from derive.documents.syntax import (
 )
 
 Identity = tuple[str, str, frozenset[str], int, str]
+UNKNOWN: Identity = ("?", "", frozenset(), 0, "")  # the variable of a function that is written with a value only
 VARIABLES = frozenset({"t", "x", "y", "z", "r", "s", "theta", "phi", "q", "u", "tau"})
 KINDS = ("positive", "real", "integer", "constant", "changes", "vector", "tensor")
 ANGLES = frozenset({"theta", "phi", "psi", "alpha", "beta", "gamma", "chi"})
@@ -71,7 +72,8 @@ class Facts:
 
     def variables_of(self, letter: Letter) -> Counter[Identity]:
         bare = (letter.base, letter.sub, letter.marks, 0, letter.label)
-        return self.functions.get(letter.identity) or self.functions.get(bare) or Counter()
+        found = self.functions.get(letter.identity) or self.functions.get(bare) or Counter()
+        return Counter({each: count for each, count in found.items() if each != UNKNOWN}) if UNKNOWN in found else found
 
     def changes(self, letter: Letter) -> bool:
         """Whether a letter changes with time."""
@@ -120,7 +122,9 @@ def facts_of(sides: Iterable[Node], equations: Iterable[tuple[Node, Node, int]])
         if isinstance(side, Open) and side.kind == "apply":
             call = side.alternatives[0]
             if isinstance(call, Apply) and len(call.arguments) == 1 and isinstance(call.arguments[0], Letter):
-                facts.functions[call.head.identity][call.arguments[0].identity] += 2  # `x(t)` alone
+                argument = call.arguments[0]
+                variable = argument.identity if not argument.sub else UNKNOWN  # `x(t)` alone, but `V(q_r)` is a value
+                facts.functions[call.head.identity][variable] += 2
     for left, right, scope in equations:
         for one, other in ((left, right), (right, left)):
             one = _bare(one)
@@ -185,7 +189,7 @@ def _look_at(node: Node, facts: Facts) -> None:
             if isinstance(variable, Letter):
                 facts.functions[_unprimed(node.head)][variable.identity] += 2
             else:
-                facts.functions[_unprimed(node.head)][("?", "", frozenset(), 0, "")] += 1
+                facts.functions[_unprimed(node.head)][UNKNOWN] += 1
     elif isinstance(node, Der):
         for by, _ in node.by:
             of = _bare(node.of) if node.of is not None else None
@@ -215,7 +219,9 @@ def _look_at_call(call: Node, product: Node, facts: Facts) -> None:
         return
     argument, head = _bare(call.arguments[0]), call.head
     if isinstance(argument, Letter) and argument.base in VARIABLES and argument.identity != head.identity:
-        if argument.base == "t" or head.primes or not argument.sub:
+        if argument.base == "t" and argument.sub:
+            facts.functions[_unprimed(head)][UNKNOWN] += 1  # a value at an instant
+        elif argument.base == "t" or head.primes or not argument.sub:
             facts.functions[_unprimed(head)][argument.identity] += 1
     elif not isinstance(argument, Num):
         if not any(isinstance(each, Letter) and each.base == "t" for each in argument.walk()):

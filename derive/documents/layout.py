@@ -13,6 +13,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from functools import cached_property
+from itertools import islice
 
 from derive.documents.macros import Macro, argument_at, end_of_group, expanded, macros_of
 from derive.documents.source import Format, Source, Span
@@ -61,6 +62,10 @@ SPOKEN = {
     "qand": "and", "qor": "or", "qas": "as", "qwhere": "where", "qwith": "with", "qthus": "thus", "qwhile": "while",
 }  # fmt: skip
 WORDS = {"text", "textrm", "mbox", "textnormal", "intertext", "shortintertext", "textit", "textbf", "hbox", "textsf"}
+
+
+MOST_FORMULAS = 20_000
+LONGEST_INLINE = 2_000  # characters of a formula in a sentence
 
 
 class Cue(StrEnum):
@@ -179,12 +184,11 @@ class Document:
 
 
 _SKIPPED = re.compile(
-    r"(?P<fence>^[ \t]*(?P<ticks>```+|~~~+)[^\n]*\n.*?^[ \t]*(?P=ticks)[^\n]*$)"
+    r"^[ \t]*(?P<ticks>```+|~~~+)[^\n]*\n"
     r"|(?P<code>(?<!`)`[^`\n]+`(?!`))"
-    r"|(?P<html><!--.*?-->)"
-    r"|\\begin\{(?P<verbatim>verbatim|lstlisting|minted|tikzpicture|comment|asy|python|thebibliography)\*?\}.*?"
-    r"\\end\{(?P=verbatim)\*?\}",
-    re.DOTALL | re.MULTILINE,
+    r"|(?P<html><!--)"
+    r"|\\begin\{(?P<verbatim>verbatim|lstlisting|minted|tikzpicture|comment|asy|python|thebibliography)\*?\}",
+    re.MULTILINE,
 )
 _COMMENT = re.compile(r"(?<!\\)%[^\n]*")
 _OPENING = re.compile(
@@ -208,7 +212,7 @@ _LINE_BREAK = re.compile(r"\n[ \t]*\n")
 def read_document(source: Source) -> Document:
     """Return the formulas, headings and macros of a document."""
     text, macros, definitions = source.text, *macros_of(source.text)
-    hidden = [Span(*found.span()) for found in _SKIPPED.finditer(text)] + definitions
+    hidden = list(_skipped(text)) + definitions
     begins = text.find(r"\begin{document}")
     if begins >= 0:
         hidden.append(Span(0, begins))
@@ -222,6 +226,26 @@ def read_document(source: Source) -> Document:
     ]
     reading = _Reading(source, macros, hidden, headings)
     return Document(source, macros, headings, reading.blocks())
+
+
+def _skipped(text: str) -> Iterator[Span]:
+    """Yield the places of code, comments and pictures; an opening without its end opens nothing."""
+    position = 0
+    missing: set[str] = set()
+    while opening := _SKIPPED.search(text, position):
+        position = opening.end()
+        if opening["code"]:
+            yield Span(*opening.span())
+            continue
+        closing = "-->" if opening["html"] else opening["ticks"] or f"\\end{{{opening['verbatim']}"
+        close = -1 if closing in missing else text.find(closing, position)
+        if close < 0:
+            missing.add(closing)
+            continue
+        line_end = text.find("\n", close)
+        inside = opening["html"] or opening["verbatim"]
+        position = close + len(closing) if inside else (line_end if line_end >= 0 else len(text))
+        yield Span(opening.start(), position)
 
 
 def _title(found: re.Match[str]) -> tuple[str, int]:
@@ -253,7 +277,7 @@ class _Reading:
     def blocks(self) -> list[Block]:
         found: list[Block] = []
         done = 0
-        for outer, inner, display, environment in self.formulas():
+        for outer, inner, display, environment in islice(self.formulas(), MOST_FORMULAS):
             before = self.text[max(done, outer.start - 2000) : outer.start]
             starts = [heading.span.start for heading in self.headings]
             heading = bisect_right(starts, outer.start) - 1
@@ -277,6 +301,7 @@ class _Reading:
         return re.sub(r"\$[^$]*\$", " ", before + " " + after)
 
     def formulas(self) -> Iterator[tuple[Span, Span, bool, str]]:
+        unclosed: dict[str, int] = {}
         position = 0
         while opening := _OPENING.search(self.text, position):
             if covering := _covered(self.hidden, opening.start()):
@@ -300,8 +325,12 @@ class _Reading:
                 "bracket": (r"(?<!\\)\\\]", True),
                 "paren": (r"(?<!\\)\\\)", False),
             }[str(opening.lastgroup)]
-            close_at = re.compile(closing).search(self.text, position)
+            if unclosed.get(closing, 0) > position:
+                continue
+            reach = len(self.text) if display else min(len(self.text), position + LONGEST_INLINE)
+            close_at = re.compile(closing).search(self.text, position, reach)
             if close_at is None:
+                unclosed[closing] = reach  # no formula of this kind is closed before
                 continue
             if not display and _LINE_BREAK.search(self.text, position, close_at.start()):
                 continue  # a dollar sign that opens no formula
@@ -717,6 +746,8 @@ def _is_unit_or_label(said: str, piece: list[Token]) -> bool:
         return False
     if piece[-1].kind is Kind.SCRIPT:
         return True
+    solid = [each for each in piece if not each.is_command(",", ";", " ", "!", ":")]
+    piece = solid or piece
     return bool(re.fullmatch(r"[A-Za-zµΩ°/.^\d\s²³⁻·-]{1,12}", said)) and piece[-1].kind is Kind.NUMBER
 
 

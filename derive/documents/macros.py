@@ -10,6 +10,7 @@ from derive.documents.source import Span
 from derive.documents.tokens import DEEPEST_CALLS, MOST_TOKENS, Kind, Token, TooLarge, tokens_of
 
 MOST_MACROS = 2000
+MOST_UNCLOSED = 100  # definitions whose braces are not closed
 
 
 @dataclass(frozen=True)
@@ -36,12 +37,16 @@ def macros_of(text: str) -> tuple[dict[str, Macro], list[Span]]:
     """Return the commands that a document defines, and the places of the definitions."""
     found: dict[str, Macro] = {}
     places = []
+    unclosed = 0
     for match in _DEFINITION.finditer(text):
         if len(found) >= MOST_MACROS:
             break
         start = match.end()
         end = end_of_group(text, start)
         if end is None:
+            unclosed += 1
+            if unclosed > MOST_UNCLOSED:
+                break
             continue
         name = match["name"] or match["bare"] or match["robust"] or match["plain"] or match["spoken"]
         count = int(match["count"] or match["robust_count"] or (match["parameters"] or "").count("#"))

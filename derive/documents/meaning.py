@@ -72,6 +72,9 @@ Value: TypeAlias = Any  # an expression, or an immutable matrix: SymPy has no ty
 LARGEST_POWER = 60
 MOST_TERMS = 20  # of a sum between numbers
 LONGEST_NUMBER = 60
+MOST_BITS = 4000  # of a number that a power makes
+LARGEST_DETERMINANT = 6
+MOST_NESTED_TERMS = 2000  # of nested sums
 
 
 class Meaningless(Exception):
@@ -111,6 +114,7 @@ class Meaning:
     two_signs: bool = False
     left_out: tuple[Symbol, int] | None = None  # the letter and the order of the terms that are left out: O(x^2)
     sums: dict[Symbol, tuple[Expr, Symbol, str]] = field(default_factory=dict)  # term, index and range of open sums
+    terms: int = 1  # of the sums around the node that is read
 
     def of(self, node: Node) -> Value:
         found = self._of(node)
@@ -194,6 +198,8 @@ class Meaning:
     def of_text(self, node: Text) -> Any:
         if node.text.startswith("unit "):
             return self.unit(node)
+        if node.text == "degrees":
+            return pi / 180
         reason = {
             "...": "dots stand for terms that are left out",
             "?": "the document leaves this open",
@@ -290,6 +296,8 @@ class Meaning:
             raise Meaningless("this power is too high", node.exponent.span)
         if base == 0 and exponent.is_negative:
             raise Meaningless("a denominator is zero", node.span)
+        if exponent.is_Number and any(_bits(each) * abs(exponent) > MOST_BITS for each in base.atoms(Rational)):
+            raise Meaningless("this power is too high", node.exponent.span)
         return base**exponent
 
     def of_root(self, node: Root) -> Any:
@@ -305,7 +313,7 @@ class Meaning:
             matrix = self._of(node.argument)
             if not isinstance(matrix, MatrixBase):
                 raise Meaningless("the matrix is not written out", node.argument.span)
-            return matrix.det() if node.name == "det" else matrix.trace()
+            return _determinant(matrix, node.span) if node.name == "det" else matrix.trace()
         if node.name == "order":
             return self.terms_left_out(node.argument)
         if node.name in ("min", "max"):
@@ -335,7 +343,7 @@ class Meaning:
         if isinstance(inner, MatrixBase):
             if inner.shape[1] == 1:
                 return sqrt(inner.dot(inner))
-            return inner.det()
+            return _determinant(inner, node.span)
         return AbsoluteValue(inner)
 
     def of_mat(self, node: Mat) -> Any:
@@ -368,7 +376,7 @@ class Meaning:
             ):
                 rows = [Matrix([self.entry(each) for each in row]) for row in node.rows[1:]]
                 return rows[0].cross(rows[1])
-        return Matrix([[self.entry(each) for each in row] for row in node.rows]).det()
+        return _determinant(Matrix([[self.entry(each) for each in row] for row in node.rows]), node.span)
 
     def of_vec(self, node: Vec) -> Any:
         if len(node.entries) == 2 and (node.brackets == "]" or (node.brackets in "}>" and self.facts.has_brackets)):
@@ -491,12 +499,26 @@ class Meaning:
     def differentiated(self, value: Any, by: Symbol, partial: bool) -> Any:
         if isinstance(value, MatrixBase):
             return value.applyfunc(lambda each: self.differentiated(each, by, partial))
+        if primed := self.written_with_prime(value, by):
+            return self.differentiated(value.subs(primed, by), by, partial).subs(by, primed)
         total = sympy.diff(value, by)
         for symbol in sorted(value.free_symbols - {by}, key=str):
             rate = self.rate_of(symbol, by, partial)
             if rate != 0:
                 total += sympy.diff(value, symbol) * rate
         return total
+
+    def written_with_prime(self, value: Expr, by: Symbol) -> Symbol | None:
+        """Return the derivative dy/dx that an expression contains if `by` is y', which is the same in d/dy'."""
+        letter = self.symbols.get(by)
+        if letter is None or not letter.primes:
+            return None
+        plain = _replaced(letter, primes=0).identity
+        for symbol in value.free_symbols & self.derivatives.keys():
+            of, variables, _ = self.derivatives[symbol]
+            if of.identity == plain and sum(order for _, order in variables) == letter.primes:
+                return symbol
+        return None
 
     def of_member(self, term: Expr, index: Symbol, by: Symbol) -> Expr:
         """Return the derivative of the one member of a sum that contains `by`: m_k v_k for the sum of m_i v_i^2/2."""
@@ -648,12 +670,12 @@ class Meaning:
         return inner.subs(variable, ends[0]) - inner.subs(variable, ends[1])
 
     def evaluated(self, inner: Expr, variable: Symbol, at: Expr) -> Expr:
-        """Return a value at a place; what depends on the variable, although it does not contain it, gets a symbol."""
+        """Return a value at a place; what may depend on the variable without containing it gets a symbol."""
         put_in = {}
         for symbol in inner.free_symbols - {variable}:
             letter = self.symbols.get(symbol)
             definition = self.defined(symbol)
-            depends = symbol in self.derivatives or symbol in self.parents
+            depends = inner == symbol or symbol in self.derivatives or symbol in self.parents
             depends = depends or (definition is not None and variable in definition.free_symbols)
             depends = depends or (letter is not None and any(
                 self.is_variable(each, variable) for each in self.facts.variables_of(letter)
@@ -704,7 +726,11 @@ class Meaning:
         return value
 
     def terms_of(self, node: Sum, index: Letter, lower: int, upper: int) -> Any:
+        self.terms *= upper - lower + 1
+        if self.terms > MOST_NESTED_TERMS:
+            raise Meaningless("these sums have too many terms", node.span)
         values = [self._of(_with_index(node.body, index, Integer(i))) for i in range(lower, upper + 1)]
+        self.terms //= len(values)
         value = values[0]
         for each in values[1:]:
             value = value + each if node.name == "sum" else value * each
@@ -825,6 +851,18 @@ def _replaced(letter: Letter, **changes: Any) -> Letter:
     from dataclasses import replace
 
     return replace(letter, **changes)
+
+
+def _bits(number: Any) -> int:
+    return max(int(number.p).bit_length(), int(number.q).bit_length())
+
+
+def _determinant(matrix: Any, span: Span) -> Any:
+    if matrix.shape[0] != matrix.shape[1]:
+        raise Meaningless("this determinant is not square", span)
+    if matrix.shape[0] > LARGEST_DETERMINANT:
+        raise Meaningless("this determinant is too large", span)
+    return matrix.det()
 
 
 def _indexed(sub: str, index: str) -> str:

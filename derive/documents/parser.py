@@ -2,6 +2,7 @@ r"""The tokens of one side of a statement as nodes: a recursive descent through 
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
@@ -94,12 +95,25 @@ class _Reader:
         at = self.at + ahead
         return self.tokens[at] if at < len(self.tokens) else None
 
+    def needed(self) -> Token:
+        """Return the next token; something must follow."""
+        if self.at >= len(self.tokens):
+            raise Unreadable("something is missing here", self.tokens[-1].span if self.tokens else Span(0, 0))
+        return self.tokens[self.at]
+
     def skip_spacing(self) -> None:
         while (token := self.peek()) is not None and token.kind is Kind.COMMAND:
             if token.text in IGNORED or token.text == " ":
                 self.at += 1
             elif token.text in IGNORED_WITH_ARGUMENT:
                 self.at = argument_at(self.tokens, self.at + 1)[1]
+            elif token.text == "rule":  # \rule[-1em]{0pt}{2em}, which makes a row high
+                self.at += 1
+                if self.next_is_mark("["):
+                    close = next((i for i in range(self.at, len(self.tokens)) if self.tokens[i].is_mark("]")), self.at)
+                    self.at = close + 1
+                for _ in range(2):
+                    self.at = argument_at(self.tokens, self.at)[1]
             else:
                 break
 
@@ -659,7 +673,7 @@ class _Reader:
     # Atoms
 
     def atom(self) -> Node:
-        token = self.tokens[self.at]
+        token = self.needed()
         if token.kind is Kind.NUMBER:
             self.at += 1
             return Num(token.span, token.text)
@@ -704,7 +718,7 @@ class _Reader:
             return self.function(token, name)
         if name in GREEK:
             base = SAME_LETTER.get(name, name)
-            return Letter(token.span, base)
+            return self.difference(token) if name == "Delta" else Letter(token.span, base)
         if name in DOTS:
             return self.dotted(token, DOTS[name])
         if name in MARKS:
@@ -774,6 +788,23 @@ class _Reader:
         if name in ("&", "#", "$", "_"):
             raise Unreadable(f"`\\{name}` is not part of a formula", token.span)
         raise Unreadable(f"`\\{name}` is not known", token.span)
+
+    def difference(self, token: Token) -> Node:
+        r"""Read `\Delta y` as one letter; `\Delta` before a script, a bracket or a sign is a letter of its own."""
+        after = self.peek()
+        if after is not None and (after.kind is Kind.LETTER or (after.kind is Kind.COMMAND and after.text in GREEK)):
+            self.at += 1
+            name = SAME_LETTER.get(after.text, after.text)
+            return Letter(token.span.to(after.span), f"Delta {name}")
+        return Letter(token.span, "Delta")
+
+    def follows_number(self, token: Token) -> bool:
+        """Whether a number, not a script, precedes a command directly."""
+        before = next((i for i in range(self.at - 1, -1, -1) if self.tokens[i] is token), 0) - 1
+        while before >= 0 and self.tokens[before].is_command(",", ";", " ", "!", ":"):
+            before -= 1
+        script = before > 0 and self.tokens[before - 1].kind is Kind.SCRIPT
+        return before >= 0 and self.tokens[before].kind is Kind.NUMBER and not script
 
     def since(self, token: Token) -> Span:
         last = self.tokens[self.at - 1].span
@@ -964,6 +995,8 @@ class _Reader:
         span = self.since(token)
         if word in UNIT_WORDS:
             return Text(span, f"unit {word}")
+        if self.follows_number(token) and (unit := _unit(plain)):
+            return Text(span, unit)
         if word in FUNCTIONS or word.lower() in ("arcsin", "arccos", "arctan", "sinh", "cosh", "tanh", "atan2", "sgn"):
             return self.function(token, word)
         if len(plain) == 1 and plain[0].kind is Kind.LETTER:
@@ -1222,7 +1255,7 @@ class _Reader:
 
     def bracketed(self) -> Node:
         r"""Read a bracket: a group, a triple, or the absolute value after `\left|`."""
-        opener = self.tokens[self.at]
+        opener = self.needed()
         close, found = self.closing_of(opener)
         if not found:
             raise Unreadable("this bracket is not closed", opener.span)
@@ -1442,6 +1475,15 @@ def _is_word(product: Mul) -> bool:
         and not each.marks
         for mark, each in product.factors
     )
+
+
+def _unit(tokens: Sequence[Token]) -> str:
+    r"""Return a unit after a number: `unit kg m^2` for `\mathrm{kg\,m^{2}}`, or nothing."""
+    pieces = ["" if each.kind in (Kind.OPEN, Kind.CLOSE) else each.text for each in tokens]
+    if "".join(pieces) in ("^circ", "^degree"):
+        return "degrees"
+    text = "".join(" " if each in (",", ";", "cdot") else each for each in pieces)
+    return f"unit {text}" if re.fullmatch(r"[A-Za-z][A-Za-z ]*(\^-?\d)?([ /]+[A-Za-z]+(\^-?\d)?)*", text) else ""
 
 
 def _joined(first: str, second: str) -> str:

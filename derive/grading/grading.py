@@ -13,6 +13,7 @@ from sympy import Abs, Expr, Matrix, MatrixBase, Symbol
 from derive.algebra.expressions import PLUS_MINUS, Relation
 from derive.algebra.order import in_order
 from derive.algebra.ranges import within
+from derive.audit.limited import OutOfTime, limited
 from derive.audit.slips import nearest_edit
 from derive.documents.meaning import Meaningless
 from derive.documents.source import Source, Span
@@ -27,7 +28,6 @@ from derive.grading.reading import FAULTS, Read, Reader, ReadStatement
 from derive.grading.relations import angle_of, give_the_same, verdict_on_equation_for, verdict_on_relation
 from derive.grading.shown import RELATIONS, latex_of
 from derive.grading.structure import are_equal, are_surely_equal
-from derive.grading.time_limit import OutOfTime, limited
 from derive.grading.typed import TypedStatement, Unread, typed
 
 EQUALS = ("=", "~", ":=", "to")

@@ -9,11 +9,14 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 from sympy import MatrixSymbol, Symbol
 
 from derive.algebra.expressions import RATES, TIME, rate
-from derive.documents.syntax import Letter
+
+if TYPE_CHECKING:
+    from derive.documents.syntax import Letter
 
 INSTEAD = {"w": "omega", "W": "Omega", "ell": "l", "vartheta": "theta", "th": "theta", "hbar": "h"}
 _NAME = re.compile(r"(?P<base>[A-Za-z]+|[^\W\d_])'?(?:_(?P<sub>\w+))?$")

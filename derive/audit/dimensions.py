@@ -1,0 +1,196 @@
+"""The dimensions of the letters of a problem, found from its own equations, and the row that contradicts all others.
+
+Each equation says that its terms have one dimension. Together with what a few letters usually are (t is a time, m is a
+mass, g is an acceleration), the equations determine the dimensions of the other letters. A row is blamed only if all
+other rows agree with each other and with these letters, and do not agree with this row.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+
+import sympy
+from sympy import Expr, MatrixBase, Symbol
+
+from derive.audit.claims import Claim, Outcome
+from derive.documents.facts import ANGLES
+from derive.documents.meaning import Meaning
+
+USUAL = {  # the powers of mass, length and time
+    "t": (0, 0, 1), "m": (1, 0, 0), "M": (1, 0, 0), "l": (0, 1, 0), "R": (0, 1, 0), "g": (0, 1, -2),
+    "x": (0, 1, 0), "y": (0, 1, 0), "z": (0, 1, 0), "r": (0, 1, 0), "omega": (0, 0, -1), "T": (1, 2, -2),
+    "U": (1, 2, -2),
+}  # fmt: skip
+MOST_CANDIDATES = 12
+FEWEST_CLAIMS = 6
+Form = dict[str, Fraction]  # the exponents of letters in a product; its dimension is the product of theirs
+
+
+class Unclear(Exception):
+    """A side has no form: it contains numbers that stand for lengths, or something else that is not a letter."""
+
+
+@dataclass
+class Equation:
+    """A product of letters whose dimension is given: that of a number, or that of a usual letter."""
+
+    source: int  # the number of a claim, or -1
+    form: Form
+    powers: tuple[Fraction, ...] = (Fraction(0),) * 3
+
+
+@dataclass
+class _System:
+    pivots: dict[str, tuple[Form, list[Fraction], set[int]]] = field(default_factory=dict)
+    conflicts: list[set[int]] = field(default_factory=list)
+
+    def add(self, equation: Equation) -> None:
+        form, powers, sources = dict(equation.form), list(equation.powers), {equation.source}
+        while True:
+            letter = next((each for each in form if each in self.pivots and form[each]), None)
+            if letter is None:
+                break
+            pivot, of_pivot, origins = self.pivots[letter]
+            factor = form[letter]
+            for each, exponent in pivot.items():
+                form[each] = form.get(each, Fraction(0)) - factor * exponent
+            powers = [a - factor * b for a, b in zip(powers, of_pivot, strict=True)]
+            sources |= origins
+        rest = {each: exponent for each, exponent in form.items() if exponent}
+        if not rest:
+            if any(powers):
+                self.conflicts.append(sources - {-1})
+            return
+        letter = min(rest)
+        factor = rest[letter]
+        self.pivots[letter] = (
+            {each: exponent / factor for each, exponent in rest.items()}, [each / factor for each in powers], sources,
+        )  # fmt: skip
+
+
+def odd_claim(claims: Sequence[Claim], meaning: Meaning) -> Claim | None:
+    """Return the claim whose terms contradict the dimensions that all other claims give, or None."""
+    equations = [each for claim in claims for each in equations_of(claim, meaning)]
+    if len({each.source for each in equations}) < FEWEST_CLAIMS:
+        return None
+    equations += usual(equations, meaning)
+    conflicts = _conflicts(equations)
+    if not conflicts:
+        return None
+    shared = set.intersection(*conflicts)
+    by_number = {claim.number: claim for claim in claims}
+    found = []
+    for number in sorted(shared)[:MOST_CANDIDATES]:
+        claim = by_number[number]
+        if claim.verdict is None or claim.verdict.outcome not in (Outcome.DEFINES, Outcome.UNDECIDED):
+            continue
+        if not _conflicts([each for each in equations if each.source != number]):
+            found.append(claim)
+    return found[0] if found else None
+
+
+def _conflicts(equations: Sequence[Equation]) -> list[set[int]]:
+    system = _System()
+    for each in equations:
+        system.add(each)
+    return system.conflicts
+
+
+def usual(equations: Sequence[Equation], meaning: Meaning) -> Iterator[Equation]:
+    """Yield what usual letters mean; an angle is a number."""
+    names = {each for equation in equations for each in equation.form}
+    yield Equation(-1, {"t": Fraction(1)}, (Fraction(0), Fraction(0), Fraction(1)))
+    for symbol, letter in meaning.symbols.items():
+        if symbol.name not in names or letter.marks or letter.primes or letter.label:
+            continue
+        if letter.base in ANGLES:
+            yield Equation(-1, {symbol.name: Fraction(1)})
+        elif letter.base in USUAL and (not letter.sub or letter.sub in "0123"):
+            yield Equation(-1, {symbol.name: Fraction(1)}, tuple(map(Fraction, USUAL[letter.base])))
+
+
+def equations_of(claim: Claim, meaning: Meaning) -> Iterator[Equation]:
+    """Yield one equation for each pair of terms of a claim."""
+    if claim.values is None or claim.relation not in ("=", ":=", "~", "<", ">", "<=", ">="):
+        return
+    left, right = claim.values
+    if isinstance(left, MatrixBase) or isinstance(right, MatrixBase):
+        return
+    if (left.is_number and left != 0) or (right.is_number and right != 0) or left.atoms(sympy.Float):
+        return
+    found: list[Form] = []
+    try:
+        first = form_of(left, meaning, found)
+        second = form_of(right, meaning, found)
+    except Unclear:
+        return
+    if first is not None and second is not None:
+        found.append(_quotient(first, second))
+    for form in found:
+        rest = {name: exponent for name, exponent in form.items() if exponent}
+        if rest:
+            yield Equation(claim.number, rest)
+
+
+def form_of(value: Expr, meaning: Meaning, found: list[Form]) -> Form | None:
+    """Return the form of an expression, None for zero; what its parts say about dimensions is added to `found`."""
+    if value == 0:
+        return None
+    if value.is_Number or value.is_NumberSymbol:
+        return {}
+    if value.is_Symbol:
+        return of_symbol(value, meaning)
+    if value.is_Mul:
+        product: Form = {}
+        for each in value.args:
+            form = form_of(each, meaning, found)
+            for name, exponent in (form or {}).items():
+                product[name] = product.get(name, Fraction(0)) + exponent
+        return product
+    if value.is_Add:
+        forms = [form for each in value.args if (form := form_of(each, meaning, found)) is not None]
+        found.extend(_quotient(forms[0], each) for each in forms[1:])
+        return forms[0]
+    if value.is_Pow:
+        form = form_of(value.base, meaning, found) or {}
+        if value.exp.is_Rational:
+            power = Fraction(int(value.exp.p), int(value.exp.q))
+            return {name: power * exponent for name, exponent in form.items()}
+        if value.base is sympy.E or value.base.is_number:
+            found.append(form_of(value.exp, meaning, found) or {})
+            return {}
+        raise Unclear
+    if isinstance(value, sympy.exp):
+        found.append(form_of(value.args[0], meaning, found) or {})
+        return {}
+    if isinstance(value, sympy.Abs):
+        return form_of(value.args[0], meaning, found)
+    if isinstance(value, sympy.Function) and len(value.args) == 1:
+        found.append(form_of(value.args[0], meaning, found) or {})
+        return {}
+    raise Unclear
+
+
+def of_symbol(symbol: Symbol, meaning: Meaning) -> Form:
+    if symbol.name == "±":
+        return {}
+    if symbol in meaning.derivatives:
+        of, by, _ = meaning.derivatives[symbol]
+        form = of_symbol(meaning.symbol(of), meaning)
+        for each, order in by:
+            for name, exponent in of_symbol(each, meaning).items():
+                form = {**form, name: form.get(name, Fraction(0)) - order * exponent}
+        return form
+    letter = meaning.symbols.get(symbol)
+    if letter is None or "(" in symbol.name:
+        raise Unclear
+    form = {symbol.name.rstrip("."): Fraction(1)}
+    if letter.dots:
+        form["t"] = form.get("t", Fraction(0)) - letter.dots
+    return form
+
+
+def _quotient(one: Form, other: Form) -> Form:
+    return {name: one.get(name, Fraction(0)) - other.get(name, Fraction(0)) for name in {**one, **other}}

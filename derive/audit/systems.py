@@ -1,0 +1,388 @@
+"""What earlier equations give together, and where a new equation contradicts them.
+
+An equation follows from others if, at a few points, its coefficients are a combination of theirs. The unknowns are the
+letters that are eliminated; their products are unknowns, too. Lagrange's and Hamilton's equations of a function that
+the document defines, and the time derivatives of constraints, belong to the equations that are known.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import sympy
+from sympy import Expr, Integral, Poly, Symbol
+
+from derive.audit.fingerprint import CLOSE
+from derive.audit.known import Known
+from derive.audit.numeric import FAULTS, Numbers, at, determined, spanned
+from derive.documents.meaning import Meaning
+from derive.documents.source import Span
+from derive.documents.syntax import Letter
+
+MOST_EQUATIONS = 8
+POINTS = 2
+LARGEST = 300  # operations of an equation
+LARGEST_LAGRANGIAN = 500
+LARGEST_CONSTRAINT = 60
+HIGHEST_POWER = 6
+
+
+@dataclass(frozen=True)
+class Equation:
+    """An expression that vanishes, the claims that it comes from, and the words for it."""
+
+    value: Expr
+    claims: tuple[int, ...]
+    name: str = "earlier equations"
+
+
+def equations_of(known: Known, meaning: Meaning, without: Symbol | None = None, sure: bool = False) -> list[Equation]:
+    """Return the equations that earlier rows give, the last ones first, with definitions put in.
+
+    With `sure`, what may hold in one case only is left out: conditions in sentences, and solutions in the time.
+    """
+    state = (len(known.equations), sum(map(len, known.definitions.values())), without, sure)
+    if state not in known.kept:
+        if len(known.kept) > 200:
+            known.kept.clear()
+        known.kept[state] = _equations_of(known, meaning, without, sure)
+    found: list[Equation] = known.kept[state]
+    return found
+
+
+def _equations_of(known: Known, meaning: Meaning, without: Symbol | None, sure: bool) -> list[Equation]:
+    found: list[Equation] = []
+    seen = set()
+
+    def add(value: Expr, claims: tuple[int, ...], name: str) -> None:
+        if value != 0 and value.free_symbols and value not in seen and sympy.count_ops(value) < LARGEST:
+            seen.add(value)
+            found.append(Equation(value, claims, name))
+
+    for value, number in reversed(known.equations[-MOST_EQUATIONS:]):
+        if value.has(Integral) or (sure and number in known.conditions):
+            continue
+        put_in, used = expanded(known, value, without, sure)
+        add(put_in, (*used, number), "earlier equations")
+    for value, claims, name in motion(known, meaning):
+        put_in, _ = expanded(known, value, without, sure)
+        add(put_in, claims, name)
+    for each in list(found[:6]):
+        if sympy.count_ops(each.value) > LARGEST_CONSTRAINT:
+            continue
+        for rate in rates(each.value, meaning, known):
+            add(rate, each.claims, "the time derivative of an earlier equation")
+    return found[: 2 * MOST_EQUATIONS]
+
+
+def expanded(
+    known: Known, value: Expr, without: Symbol | None = None, sure: bool = False
+) -> tuple[Expr, tuple[int, ...]]:
+    """Return a value with all definitions put in, except the one of the letter that is asked for."""
+    used: list[int] = []
+    for _ in range(6):
+        found = {}
+        for symbol in sorted(value.free_symbols, key=str):
+            if symbol == without:
+                continue
+            definition = known.latest(symbol)
+            if definition is not None and symbol not in definition.value.free_symbols:
+                if without is not None and without in definition.value.free_symbols:
+                    continue
+                if sure and (definition.claim in known.conditions or _is_solution(symbol, definition.value, known)):
+                    continue
+                found[symbol] = definition.value
+                used.append(definition.claim)
+        if not found:
+            break
+        new = value.xreplace(found)
+        if new.has(sympy.zoo, sympy.nan) or sympy.count_ops(new) > 4 * LARGEST:
+            break
+        value = new
+    return value, tuple(dict.fromkeys(used))
+
+
+def _is_solution(symbol: Symbol, value: Expr, known: Known) -> bool:
+    """Whether a letter that changes gets a value of letters that do not, as in x = A cos(w t) or r = R."""
+    meaning = known.meaning
+
+    def changes(each: Symbol) -> bool:
+        letter = meaning.symbols.get(each)
+        return letter is not None and (letter.dots > 0 or meaning.facts.changes(letter))
+
+    return changes(symbol) and not any(map(changes, value.free_symbols))
+
+
+def rates(value: Expr, meaning: Meaning, known: Known) -> Iterator[Expr]:
+    """Yield the first and second time derivatives of an equation without second rates."""
+    letters = [meaning.symbols[each] for each in value.free_symbols if each in meaning.symbols]
+    if any(each.dots >= 2 for each in letters) or any(each in meaning.derivatives for each in value.free_symbols):
+        return
+    time = next((s for s, letter in meaning.symbols.items() if letter.base == "t" and not letter.sub), None)
+    time = time if time is not None else Symbol("t", positive=True)
+    order = 1 if any(each.dots for each in letters) else 2
+    for _ in range(order):
+        value = meaning.differentiated(value, time, False)
+        if value == 0:
+            return
+        yield value
+
+
+def lagrange_equations(known: Known, last: int = 1) -> list[tuple[Symbol, Expr, int]]:
+    """Return Lagrange's equations of the last Lagrangians that rows give to a letter: coordinate, left side, claim."""
+    found = []
+    for symbol, definitions in list(known.definitions.items()):
+        letter = known.meaning.symbols.get(symbol)
+        if letter is None or letter.base != "L" or letter.dots or letter.primes:
+            continue
+        for definition in reversed(definitions[-last:]):
+            value, _ = expanded(known, definition.value, sure=True)
+            if ("L", value) not in known.kept:
+                known.kept["L", value] = list(_lagrange_equations(value, known.meaning))
+            found += [(place, equation, definition.claim) for place, equation in known.kept["L", value]]
+    return found
+
+
+def _lagrange_equations(value: Expr, meaning: Meaning) -> Iterator[tuple[Symbol, Expr]]:
+    if sympy.count_ops(value) > LARGEST_LAGRANGIAN:
+        return
+    time = meaning.symbol(Letter(Span(0, 0), "t"))
+    for symbol in sorted(value.free_symbols, key=str):
+        rate = meaning.symbols.get(symbol)
+        if rate is None or rate.dots != 1:
+            continue
+        place = meaning.symbol(replace(rate, dots=0))
+        momentum_rate = meaning.differentiated(sympy.diff(value, symbol), time, False)
+        yield place, sympy.expand(momentum_rate - sympy.diff(value, place))
+
+
+def motion(known: Known, meaning: Meaning) -> Iterator[tuple[Expr, tuple[int, ...], str]]:
+    """Yield Lagrange's equations of each Lagrangian, and Hamilton's equations of each Hamiltonian."""
+    for place, equation, number in lagrange_equations(known):
+        yield equation, (number,), f"Lagrange's equation for `{place}`"
+    for symbol, definitions in list(known.definitions.items()):
+        letter = meaning.symbols.get(symbol)
+        if letter is None or letter.dots or letter.base != "H":
+            continue
+        value, _ = expanded(known, definitions[-1].value, sure=True)
+        if sympy.count_ops(value) > LARGEST:
+            continue
+        claims = (definitions[-1].claim,)
+        for p in sorted(value.free_symbols, key=str):
+            momentum = meaning.symbols.get(p)
+            if momentum is None or momentum.base != "p" or momentum.dots or not momentum.sub:
+                continue
+            place = meaning.symbol(Letter(momentum.span, momentum.sub))
+            rate_of_place = meaning.symbol(Letter(momentum.span, momentum.sub, dots=1))
+            rate_of_p = meaning.symbol(replace(momentum, dots=1))
+            yield rate_of_place - sympy.diff(value, p), claims, "Hamilton's equations"
+            yield rate_of_p + sympy.diff(value, place), claims, "Hamilton's equations"
+
+
+def root_equation(letter: Symbol, meaning: Meaning, known: Known) -> tuple[Symbol, Expr, int] | None:
+    """Return the letter without its index, and the last equation of which `letter` may name a root: w_1, x_0.
+
+    The equation has no rates, and contains the letter in two terms at least or beside other letters.
+    """
+    named = meaning.symbols.get(letter)
+    if named is None or not named.sub or named.dots or named.marks or named.base == "t":
+        return None
+    plain = meaning.symbol(replace(named, sub=""))
+    for value, number in reversed(known.equations[-MOST_EQUATIONS:]):
+        if plain not in value.free_symbols or number in known.conditions or value.has(Integral):
+            continue
+        found, _ = expanded(known, value, plain, sure=True)
+        if any(map(known.is_rate, found.free_symbols)):
+            found = value  # a momentum stands for a number
+        if plain not in found.free_symbols or len(sympy.Add.make_args(sympy.expand(found))) < 2:
+            continue
+        if any(known.is_rate(each) for each in found.free_symbols) or found.free_symbols & set(meaning.derivatives):
+            continue
+        if sympy.count_ops(found) < LARGEST and not _defines(found, plain):
+            return plain, found, number
+    return None
+
+
+def vanishes(equation: Expr, letter: Symbol, value: Expr, meaning: Meaning, known: Known) -> bool | None:
+    """Whether an equation holds with a value for a letter; None if there are no numbers to see it."""
+    try:
+        for point in range(POINTS):
+            basic = numbers(meaning, known, point)
+            root = basic.of(value)
+            found, elsewhere = (
+                at(equation, lambda s, b=basic, r=r: r if s == letter else b.of_symbol(s))  # type: ignore[misc]
+                for r in (root, 1.37 * root + 0.11)
+            )
+            if abs(found) > CLOSE * abs(elsewhere):
+                return False
+    except FAULTS:
+        return None
+    return True
+
+
+def _defines(value: Expr, letter: Symbol) -> bool:
+    """Whether an equation gives the letter itself: w = sqrt(k/m)."""
+    return value.is_Add and any(each in (letter, -letter) for each in value.args)
+
+
+def numbers(meaning: Meaning, known: Known, point: int) -> Numbers:
+    return Numbers(meaning, lambda symbol: symbol, point)
+
+
+class System:
+    """Earlier equations as rows of coefficients for the unknowns of a new equation."""
+
+    def __init__(
+        self,
+        wanted: Expr,
+        equations: Sequence[Equation],
+        meaning: Meaning,
+        known: Known,
+        letter: Symbol | None,
+        rates_only: bool = False,
+    ):
+        self.wanted, self.meaning, self.known, self.letter, self.rates_only = wanted, meaning, known, letter, rates_only
+        self.unknowns = self.choose(equations)
+        self.equations: list[Equation] = []
+        self.polys: list[Poly] = []
+        self.of_wanted = self.poly(wanted)
+        if self.of_wanted is None:
+            return
+        for each in equations:
+            if not each.value.free_symbols & set(self.unknowns):
+                continue
+            poly = self.poly(each.value)
+            if poly is not None:
+                self.equations.append(each)
+                self.polys.append(poly)
+        self.connect()
+
+    def choose(self, equations: Sequence[Equation]) -> list[Symbol]:
+        """Return the letters to eliminate: those not in the wanted equation, second rates, and the letter asked for."""
+        if self.rates_only and self.letter is not None:
+            both = self.wanted.free_symbols.union(*(each.value.free_symbols for each in equations))
+            return sorted({each for each in both if self.known.is_rate(each)} | {self.letter}, key=str)
+        letters = self.meaning.symbols
+        everywhere = set().union(*(each.value.free_symbols for each in equations)) if equations else set()
+        wanted = self.wanted.free_symbols
+        found = {
+            each
+            for each in everywhere
+            if each not in wanted or ((letter := letters.get(each)) is not None and letter.dots >= 1)
+        }
+        rates = {each for each in everywhere if self.known.is_rate(each)}
+        for equation in equations:
+            for term in sympy.Add.make_args(equation.value) if rates else ():
+                if term.free_symbols & rates:  # a mass times an acceleration: the mass is given
+                    found -= term.free_symbols - rates
+        if self.letter is not None:
+            found.add(self.letter)
+        if not found & wanted:
+            found |= {each for each in wanted if (letter := letters.get(each)) is not None and letter.dots}
+        return sorted(found, key=str)
+
+    def poly(self, value: Expr) -> Poly | None:
+        inside = [each for each in self.unknowns if each in value.free_symbols]
+        if not inside:
+            return Poly(value, *self.unknowns) if self.unknowns else None
+        try:
+            poly = Poly(sympy.expand(value), *self.unknowns)
+        except sympy.PolynomialError:
+            return None
+        return poly if poly.total_degree() <= HIGHEST_POWER else None
+
+    def connect(self) -> None:
+        """Keep the equations that are connected with the wanted one by unknowns, the last ones first."""
+        assert self.of_wanted is not None
+        reached = {each for each in self.of_wanted.monoms() if any(each)}
+        kept: list[int] = []
+        grows = True
+        while grows:
+            grows = False
+            for i, poly in enumerate(self.polys):
+                monoms = {each for each in poly.monoms() if any(each)}
+                if i not in kept and monoms & reached:
+                    kept.append(i)
+                    reached |= monoms
+                    grows = True
+        kept = sorted(kept)[:MOST_EQUATIONS]
+        self.equations = [self.equations[i] for i in kept]
+        self.polys = [self.polys[i] for i in kept]
+
+    @property
+    def columns(self) -> list[tuple[int, ...]]:
+        assert self.of_wanted is not None
+        found = {each for poly in [*self.polys, self.of_wanted] for each in poly.monoms()}
+        constant = (0,) * len(self.unknowns)
+        return [*sorted(found - {constant}), constant]
+
+    def row(self, poly: Poly, columns: Sequence[tuple[int, ...]], at: Numbers) -> list[complex]:
+        values = {monom: at.of(coefficient) for monom, coefficient in poly.terms()}
+        return [values.get(each, 0j) for each in columns]
+
+    def consistent(self, columns: Sequence[tuple[int, ...]], at: Numbers) -> list[int]:
+        """Return the equations that do not contradict each other, the last ones first."""
+        kept: list[int] = []
+        rows: list[list[complex]] = []
+        constant = [0j] * (len(columns) - 1) + [1 + 0j]
+        for i, poly in enumerate(self.polys):
+            row = self.row(poly, columns, at)
+            if not spanned([*rows, row], constant):
+                rows.append(row)
+                kept.append(i)
+        return kept
+
+    def follows(self) -> tuple[Equation, ...] | None:
+        """Return the equations of which the wanted one is a combination, or None."""
+        if self.of_wanted is None or not self.polys:
+            return None
+        try:
+            columns = self.columns
+            points = [numbers(self.meaning, self.known, point) for point in range(POINTS)]
+            kept = self.consistent(columns, points[0])
+            tables = [
+                ([self.row(self.polys[i], columns, at) for i in kept], self.row(self.of_wanted, columns, at))
+                for at in points
+            ]
+            if not all(spanned(rows, wanted) for rows, wanted in tables) or self.is_absurd(tables[0][0], columns):
+                return None
+            needed = list(range(len(kept)))
+            for i in reversed(range(len(kept))):
+                fewer = [each for each in needed if each != i]
+                if all(spanned([rows[j] for j in fewer], wanted) for rows, wanted in tables):
+                    needed = fewer
+            return tuple(self.equations[kept[i]] for i in needed)
+        except FAULTS:
+            return None
+
+    def is_absurd(self, rows: Sequence[Sequence[complex]], columns: Sequence[tuple[int, ...]]) -> bool:
+        """Whether the equations make a length or a mass zero, because they speak of different cases."""
+        for i, monom in enumerate(columns):
+            if sum(monom) == 1 and self.unknowns[monom.index(1)].is_positive:
+                if spanned(rows, [complex(j == i) for j in range(len(columns))]):
+                    return True
+        return False
+
+    def value_of_letter(self) -> list[complex] | None:
+        """Return the numbers that the equations give to the letter asked for, or None if they do not determine it."""
+        if self.of_wanted is None or self.letter is None or not self.polys:
+            return None
+        monom = tuple(int(each == self.letter) for each in self.unknowns)
+        try:
+            columns = self.columns
+            if monom not in columns:
+                return None
+            found = []
+            for point in range(POINTS):
+                at = numbers(self.meaning, self.known, point)
+                kept = self.consistent(columns, at)
+                value = determined(
+                    [self.row(self.polys[i], columns, at) for i in kept], columns.index(monom), len(columns) - 1
+                )
+                if value is None:
+                    return None
+                found.append(value)
+            return found
+        except FAULTS:
+            return None

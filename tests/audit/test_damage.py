@@ -1,0 +1,148 @@
+"""Damaged rows are blamed at their place: one small document for each way in which a slip used to pass."""
+
+from __future__ import annotations
+
+import pytest
+
+from derive.audit.claims import Claim, Outcome
+from tests.audit.test_auditing import RIGHT
+from tests.damage import damages_of, trials
+from tests.documents.reading import audit
+
+
+def wrong(text: str) -> list[Claim]:
+    return [each for each in audit(text).claims if each.verdict and each.verdict.outcome is Outcome.DIFFERS]
+
+
+LAGRANGIAN = r"""
+The energies are
+$$ T = \frac{1}{2} m \dot x^2 \qquad U = \frac{1}{2} k x^2 $$
+and the Lagrangian is
+$$ L = T - U = \frac{1}{2} m \dot x^2 - \frac{1}{2} k x^2. $$
+"""
+ATWOOD = r"""
+The masses $m_1$ and $m_2$ hang on a string with the tension $S$. Newton's second law is
+$$ m_1 \ddot x = m_1 g - S $$
+$$ m_2 \ddot y = m_2 g - S $$
+and the string gives
+$$ \ddot x + \ddot y = 0. $$
+"""
+MODES = (
+    LAGRANGIAN
+    + r"""
+The equation of motion is
+$$ m \ddot x + k x = 0. $$
+"""
+)
+
+
+@pytest.mark.parametrize(
+    ("before", "right", "slip"),
+    [
+        (LAGRANGIAN, r"$$ m \ddot x + k x = 0 $$", r"$$ m \ddot x - k x = 0 $$"),
+        (LAGRANGIAN, r"$$ m \ddot x = -k x $$", r"$$ m \ddot x = -2 k x $$"),
+        (
+            ATWOOD,
+            r"$$ \ddot x = \frac{(m_1 - m_2) g}{m_1 + m_2} $$",
+            r"$$ \ddot x = \frac{(m_1 + m_2) g}{m_1 + m_2} $$",
+        ),
+        (ATWOOD, r"$$ S = \frac{2 m_1 m_2 g}{m_1 + m_2} $$", r"$$ S = \frac{3 m_1 m_2 g}{m_1 + m_2} $$"),
+        (
+            "The frequencies are the roots of\n$$ \\omega^4 - 4 \\omega^2 b^2 + 2 b^4 = 0 $$\nThey are\n",
+            r"$$ \omega_1 = \sqrt{2 - \sqrt{2}}\, b $$",
+            r"$$ \omega_1 = \sqrt{2 - \sqrt{3}}\, b $$",
+        ),
+        (
+            "The speed is given by\n$$ v^2 = l^2 \\dot\\theta^2 $$\nand the energy is\n",
+            r"$$ T = \frac{1}{2} m v^2 = \frac{1}{2} m l^2 \dot\theta^2 $$",
+            r"$$ T = \frac{1}{2} m v^2 = \frac{1}{2} m l \dot\theta^2 $$",
+        ),
+        (
+            "$$\n\\begin{aligned}\n2 m l \\ddot\\theta + m g \\theta &= 0 \\\\\n",
+            "\\ddot\\theta + \\frac{g}{2 l} \\theta &= 0\n\\end{aligned}\n$$",
+            "\\ddot\\theta + \\frac{g}{l} \\theta &= 0\n\\end{aligned}\n$$",
+        ),
+        (LAGRANGIAN[: LAGRANGIAN.index("$$ L")], "$$ L = T - U $$", "$$ L = T + U $$"),
+    ],
+    ids=["Lagrange", "Lagrange, solved", "a system", "a force", "a root", "a square", "the row above", "a Lagrangian"],
+)  # fmt: skip
+def test_what_follows_from_earlier_rows_is_compared_with_them(before: str, right: str, slip: str) -> None:
+    assert wrong(before + right) == []
+    (claim,) = wrong(before + slip)
+    assert claim.right_span.end > len(before)
+
+
+def test_a_right_system_holds() -> None:
+    text = ATWOOD + r"$$ \ddot x = \frac{(m_1 - m_2) g}{m_1 + m_2} $$ $$ S = \frac{2 m_1 m_2 g}{m_1 + m_2} $$"
+    verdicts = [each.verdict for each in audit(text).claims]
+    assert [each.outcome for each in verdicts[-2:] if each] == [Outcome.HOLDS, Outcome.HOLDS]
+
+
+ENERGY = (
+    "$$ I = \\frac{1}{2} M l^2 $$\n\nIts energy is\n\n"
+    "$$ T = \\frac12 I \\dot\\theta^2 = \\frac16 M l^2 \\dot\\theta^2 $$"
+)
+
+
+def test_a_definition_is_blamed_if_two_later_rows_show_its_slip() -> None:
+    text = ENERGY + "\n\nand the angular momentum is\n\n$$ S = I \\dot\\theta = \\frac13 M l^2 \\dot\\theta $$"
+    (claim,) = wrong(text)
+    assert claim.row.line == 1 and claim.verdict is not None and claim.verdict.suggestion == "3 instead of 2"
+
+
+def test_a_definition_is_named_if_one_later_row_may_have_the_slip_instead() -> None:
+    text = ENERGY
+    (claim,) = wrong(text)
+    assert claim.row.line == 5 and claim.verdict is not None and claim.verdict.or_lines == (1,)
+
+
+def test_a_row_with_other_dimensions_than_the_rest_is_blamed() -> None:
+    text = (
+        "A pendulum has the length $l$ and the mass $m$.\n\n$$ T = \\frac12 m l^3 \\dot\\theta^2 $$\n\n"
+        "$$ U = - m g l \\cos\\theta $$\n\n$$ E = T + U $$\n\n$$ p = m v $$\n\n$$ v = l \\dot\\theta $$\n\n"
+        "$$ F = m g \\sin\\theta $$\n\n$$ \\tau = F l $$"
+    )
+    (claim,) = wrong(text)
+    assert claim.row.line == 3 and claim.verdict is not None and "dimensions" in claim.verdict.because
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "For the disc $I = \\frac12 M R^2$ and for the ring $I = M R^2$.",
+        "At first $x = 0$ and $\\dot x = v$. Later $x = v t$.",
+        "If $b = l$, then\n$$ \\dot\\theta = 2 b = 2 l $$\nA blow at $b = 0$ gives $\\dot\\theta = 0$.",
+        ATWOOD + "If the masses are equal, $m_1 = m_2$, then\n$$ \\ddot x = 0 $$",
+        LAGRANGIAN + "With friction $F$ the equation of motion is\n$$ m \\ddot x = -k x - F $$",
+    ],
+)
+def test_other_cases_are_not_accused(text: str) -> None:
+    assert wrong(text) == []
+
+
+def test_damages_are_of_all_kinds() -> None:
+    from random import Random
+
+    side = r"- \frac{1}{2} m l^2 \dot\theta_1 \cos\theta + \int_{0}^{a} x\,dx - 3 m g l"
+    kinds = {each.kind for seed in range(9) for each in damages_of(side, Random(seed))}
+    assert kinds >= {"digit", "sign", "exponent", "factor", "function", "limit", "letter", "term"}
+
+
+def test_most_damages_of_a_small_document_are_blamed() -> None:
+    found = list(trials({"rod": RIGHT}, 12, seed=3, each=12))
+    assert sum(each.result == "silent" for each in found) <= 3
+    assert sum(each.result in ("blamed", "named") for each in found) >= 5
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "The energy is\n$$ U = -m g l \\cos\\phi - 2 m g (l + h) = - 2 m g l - 2 m g h $$",
+        "The kinetic energy is\n$$ T = \\frac12 m \\dot x^2 - \\frac12 M \\dot y^2 $$",
+        "The momentum is conserved,\n$$ m \\dot x + M \\dot y = m v $$\nand the speeds satisfy\n"
+        "$$ \\dot y - \\dot x = e v. $$\nSo\n$$ \\dot x = \\frac{(m + e M) v}{m + M} $$",
+    ],
+    ids=["a lost term", "a negative energy", "a wrong sign of a solution"],
+)
+def test_a_slip_that_the_sides_show_is_blamed(text: str) -> None:
+    assert len(wrong(text)) == 1
