@@ -41,7 +41,15 @@ def as_text(audit: Audit, every: bool) -> str:
     counted = summary(audit)
     parts = [f"{counted[str(outcome)]} {words}" for outcome, words in WORDS.items() if counted[str(outcome)]]
     total = f"{audit.document.source.path}: {len(audit.claims)} claims: {', '.join(parts)}"
-    return "\n\n".join([*shown, "\n".join([total, *_of_answers(audit, every)])])
+    return "\n\n".join([*shown, "\n".join([total, *_not_read(audit, every), *_of_answers(audit, every)])])
+
+
+def _not_read(audit: Audit, every: bool) -> Iterator[str]:
+    """Yield a line for each row that is not read: it may be misprinted. With `every`, these rows are shown anyway."""
+    verdicts = ((claim.row.line, _verdict(claim)) for claim in audit.claims)
+    unread = {line: verdict.because for line, verdict in verdicts if verdict.outcome is Outcome.UNREADABLE}
+    if not every:
+        yield from (f"  line {line} is not read: {because}" for line, because in unread.items())
 
 
 def _of_answers(audit: Audit, every: bool) -> Iterator[str]:
@@ -75,6 +83,8 @@ def _told(audit: Audit, claim: Claim, every: bool) -> str:
         notes.append(f"given line {', '.join(map(str, lines))}")
     if verdict.inherits is not None:
         notes.append(f"carries on the slip of line {audit.claims[verdict.inherits].row.line}")
+    if carrying := [each.row.line for each in audit.claims if _verdict(each).inherits == claim.number]:
+        notes.append(f"carried on in line {', '.join(map(str, dict.fromkeys(carrying)))}")
     if ASSUMED in verdict.given:
         notes.append("given an assumption of the command line")
     suggestion = f"probably {verdict.suggestion}: {verdict.why_plausible}" if verdict.suggestion else None
