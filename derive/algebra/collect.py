@@ -232,6 +232,22 @@ def by_products(value: Expr, moving: Sequence[Symbol]) -> Expr:
 
 
 def _with_its_rates(coefficient: Coefficient, rates: list[tuple[Symbol, int]], halves: bool) -> Expr:
+    return _with_one(_times_rates(coefficient, rates, halves))
+
+
+def _with_one(product: Expr) -> Expr:
+    """Divide a sum by the denominator if one of its terms is the denominator: (1 + r^2/p^2) r_dot^2, the square of a
+    velocity plus a correction, not (p^2 + r^2) r_dot^2/p^2."""
+    above, below = product.as_numer_denom()
+    sums = [part for part in Mul.make_args(above) if part.is_Add]
+    number, letters = below.as_coeff_Mul()
+    if len(sums) != 1 or letters == 1 or below.has(Add) or letters not in sums[0].args:
+        return product
+    rest = Mul(1 / number, *(part for part in Mul.make_args(above) if part is not sums[0]))
+    return Mul(rest, Add(*(term / letters for term in sums[0].args)))
+
+
+def _times_rates(coefficient: Coefficient, rates: list[tuple[Symbol, int]], halves: bool) -> Expr:
     """Multiply a coefficient by powers of rates: (1/2)(I + M R^2/4) q_dot^2. A numerical denominator in front of a sum
     is moved into the sum if the result is simpler."""
     powers = [s**n for s, n in rates]

@@ -375,7 +375,7 @@ def _curve(
         then = None if plot.then is None else float(plot.then.xreplace(numbers))
         if then is not None and abs(float(expr.subs(plot.variable, upper)) - then) > NEAR * (abs(then) or 1.0):
             rejected("wrong-argument", f"a curve of `{plot.key}` does not end at the value of `then`", None)
-        return Curve(expr, plot.variable, lower, upper, own, found, plot.label, then=then)
+        return Curve(expr, plot.variable, lower, upper, own, found, plot.label, places=places, then=then)
 
 
 def with_names(found: Sequence[Extremum], places: Sequence[tuple[Any, float]], near: float) -> tuple[Extremum, ...]:

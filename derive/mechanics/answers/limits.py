@@ -8,6 +8,7 @@ from typing import Any
 
 from sympy import Expr, ImmutableDenseMatrix, Integer, MatrixBase, MatrixSymbol, Mul, Rational, Symbol, oo
 
+from derive.algebra.collect import by_terms
 from derive.algebra.equality import equal
 from derive.algebra.expansion import (
     Approach,
@@ -18,7 +19,7 @@ from derive.algebra.expansion import (
     in_ascending_powers,
     tidied_terms,
 )
-from derive.algebra.expressions import Relation, explicit
+from derive.algebra.expressions import Relation, explicit, rate
 from derive.algebra.samples import letters_of, points, value_at
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
@@ -136,7 +137,7 @@ def limiting_case(
         lines=Lines(
             law=Level.FULL,
             put_in=None,
-            after=[_last_line(found, series, x, place, exact, is_limit)],
+            after=[_last_line(_energy_by_terms(found, value, of), series, x, place, exact, is_limit)],
             result=False,
             arranged=lambda _: found,
             means=_means(own, found),
@@ -249,6 +250,14 @@ def _last_line(found: Any, series: Sequence[Series], x: Symbol, place: Expr, exa
     if is_limit:
         return Form(found, "limit")
     return Form(found if isinstance(found, MatrixBase) else in_ascending_powers(series[0], x, place), "series")
+
+
+def _energy_by_terms(found: Any, value: Any, of: Quantity) -> Any:
+    """Write the limit of an energy as a sum of its terms, as the energy itself: m l^2 theta_dot^2/2 - m g l cos(theta).
+    An energy is a sum with the square of a velocity."""
+    if isinstance(found, Expr) and value.is_Add and any(found.has(rate(q) ** 2) for q in of.coordinates):
+        return by_terms(found.expand())
+    return found
 
 
 def _as_written(value: Expr, x: Symbol, place: Expr) -> Expr:

@@ -8,11 +8,11 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from sympy import Add, Expr, Integer, Symbol, diff, linsolve
+from sympy import Add, Expr, Integer, Mul, Symbol, diff, linsolve
 
 from derive.algebra.collect import by_rates, by_terms
 from derive.algebra.expressions import Factors, Partial, Relation, Terms, explicit, rate, scalar
-from derive.algebra.ranges import strict_sign_within
+from derive.algebra.ranges import sign_within, strict_sign_within
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.answers.solved_for import solved_for
@@ -233,7 +233,7 @@ def work_of_impulses(
         scalar(symbol),
         lambda T: Terms(T, -before) if before != 0 else T,
         {"energy": energy},
-        lines=Lines(arranged=lambda value: presented(explicit(value))),
+        lines=Lines(arranged=lambda value: _with_its_sign(presented(explicit(value)))),
         routes={"impulses": by_impulses},
         outcome=_gain,
         key=key,
@@ -256,6 +256,16 @@ def _impulses(impact: Impact, rates: Mapping[Symbol, Expr], wanted: Sequence[Sym
         left.append(changed - diff(power, rate(q)))
     (solution,) = linsolve(left, *wanted)
     return dict(zip(wanted, solution, strict=True))
+
+
+def _with_its_sign(value: Expr) -> Expr:
+    """Write a negative factor with a minus sign in front, which shows the loss: -(1 - e^2) m v^2/2, not
+    (e^2 - 1) m v^2/2."""
+    factors = Mul.make_args(value)
+    turned = [f for f in factors if f.is_Add and sign_within(f) == -1]
+    if len(turned) != 1 or len(factors) < 3:
+        return value
+    return Mul(-1, *(f for f in factors if f is not turned[0]), Add(*(-term for term in turned[0].args)))
 
 
 def _gain(value: Expr) -> str:

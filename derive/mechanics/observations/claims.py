@@ -313,6 +313,12 @@ def is_the_result(facts: Judged, told: Any) -> bool:
     return bool(told == facts.result) and _is_allowed(told)
 
 
+def is_the_result_by_name(facts: Judged, told: Any) -> bool:
+    """Whether the stated value is the result, if each defined symbol in it is replaced by its formula."""
+    names = {q.symbol: explicit(q.value) for q in facts.quantities.values() if isinstance(q.value, Expr)}
+    return is_the_result(facts, Relation(told.left, told.operator, explicit(bound(told.right, names))))
+
+
 def _is_allowed(place: Relation) -> bool:
     """Whether the assumptions hold for the stated value of a symbol and for some numbers for the other symbols."""
     there = {place.left: explicit(place.right)}

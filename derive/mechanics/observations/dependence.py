@@ -42,6 +42,7 @@ from derive.mechanics.observations.view import (
 from derive.mechanics.rest.facts import RestOf, Shape, StableWhere
 from derive.solving.relations import solved_for_letter
 from derive.steps.establish import PhraseData
+from derive.steps.record import defined_quantities
 from derive.steps.rule import CHECK, TRIALS, Rule
 from derive.steps.signs import sign_for_all
 from derive.steps.step import Quantity, is_zero
@@ -393,7 +394,7 @@ ANYWHERE = Rule(
     source="Morin, *Introduction to Classical Mechanics*, section 6.2",
     outcomes={"generic": claims.holds_everywhere},
     evidence={"put_in": CHECK},
-    named={"place": claims.is_the_result},
+    named={"place": claims.is_the_result_by_name},
 )
 
 
@@ -412,12 +413,14 @@ def anywhere(view: View) -> Observed:
 
 def _anywhere(of: Quantity, place: Relation) -> Quantity:
     residual = explicit(of.value.residual)
+    known = [q for q in defined_quantities() if is_zero(explicit(q.value) - place.right)][:1]
+    named = Relation(place.left, "=", known[0].symbol) if known else place
     return observation(
         ANYWHERE,
         lambda *_: place,
-        {"of": of},
+        {"of": of, **({"known": known[0]} if known else {})},
         routes={"put_in": lambda found: (residual.xreplace({found.left: explicit(found.right)}), Integer(0))},
-        phrase_data=PhraseData(named={"place": place}),
+        phrase_data=PhraseData(named={"place": named}),
         key=f"{of.key}_anywhere",
     )
 

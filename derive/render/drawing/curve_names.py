@@ -19,6 +19,7 @@ TRIED = 48  # the number of places along a curve at which a name is tried
 INNER = 9.0  # in points: the distance of a legend from the axes with their ticks
 LONGEST = 0.35  # greatest part of a curve that a gap with its name takes away
 STUB = 15.0  # in points: the least piece of an open curve between a gap with its name and an end of the curve
+TURN = 4.0  # in points: the distance between a gap with its name and a turning point of a closed curve, if possible
 ENDS = 0.04  # part of a curve at either end that has no name
 
 
@@ -85,16 +86,20 @@ def on_curve(
     wide, high = size
     every = [own[i] for i in range(0, len(own), max(1, len(own) // TRIED))]
     boxes = [(x - wide / 2, y - high / 2, x + wide / 2, y + high / 2) for x, y in every]
-    # A short piece between the gap and an end of an open curve looks like a curve of its own.
-    ends = [] if dist(own[0], own[-1]) <= 2 * STEP else [own[0], own[-1]]
+    # A short piece between the gap and an end of an open curve looks like a curve of its own. A gap at a turning point
+    # of a closed curve hides that the curve is closed.
+    is_closed = dist(own[0], own[-1]) <= 2 * STEP
+    ends = [min(own), max(own)] if is_closed else [own[0], own[-1]]
     tried = [
         (min(ENOUGH, _distance(box, lines)), box)
         for box in boxes
         if is_inside(box, panel)
         and is_clear(box, lines, taken)
         and sum(is_within(x, box) for x in own) < LONGEST * len(own)
-        and _distance(box, ends) >= STUB
+        and (is_closed or _distance(box, ends) >= STUB)
     ]
+    if is_closed:
+        tried = [each for each in tried if _distance(each[1], ends) >= TURN] or tried
     return max(tried, key=lambda each: each[0], default=(0.0, None))[1]
 
 

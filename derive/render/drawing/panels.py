@@ -203,7 +203,11 @@ def curve_panel(
             _axis_name(_labels(own), curves.up.unit, notation, power_up),
         ),
         numbers=_title(letter, own, curves, notation),
-        points=tuple(_point(*each, curves) for each in curves.points(own) if not _is_tick_at_end(each, across, curves)),
+        points=tuple(
+            _point(*each, curves, own, notation)
+            for each in curves.points(own)
+            if not _is_tick_at_end(each, across, curves)
+        ),
         is_signed=low < -BARELY * tall and high > BARELY * tall,
         has_open=curves.has_unstable,
     )
@@ -215,10 +219,16 @@ def _is_tick_at_end(point: tuple[float, float, bool], across: Ticks, curves: Cur
     return point[0] == last and _has_tick(x, across)
 
 
-def _point(at: float, value: float, is_zero: bool, curves: Curves) -> tuple[Spot, str]:
+def _point(
+    at: float, value: float, is_zero: bool, curves: Curves, own: Sequence[Curve], notation: Notation
+) -> tuple[Spot, str]:
     """Return a point of a panel with its name: the value on the horizontal axis and, unless the point is a zero, the
-    value on the vertical axis."""
+    value on the vertical axis. If the solution has a symbol for the place, the name is `t_1 = 0.583 s`."""
     x, y = at * curves.variable.per_unit, value * curves.up.per_unit
+    for curve in own:
+        (found,) = with_names([Extremum(at, value, MINIMUM)], curve.places, NEAR * (curve.upper - curve.lower))
+        if found.name is not None:
+            return (x, y), f"${_mathtext(notation.layout(found.name))} = {_with_unit(x, curves.variable.unit)}$"
     told = [to_three_figures(x, curves.variable.unit), *([] if is_zero else [to_three_figures(y, curves.up.unit)])]
     return (x, y), "$" + r",\;\;".join(map(_mathtext_of_value, told)) + "$"
 
