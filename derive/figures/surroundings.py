@@ -368,12 +368,15 @@ class UprightAngle(AngleBetween):
 @dataclass(frozen=True)
 class DistanceMark(Mark):
     """A dimension line between two points, shifted by `off` points to the side `aside`, or by default away from the
-    centre of the drawing."""
+    centre of the drawing. Its ends are moved in the direction `back` by `moved` points, such as from the centre of a
+    block to the end of the spring that holds the block."""
 
     start: Position
     end: Position
     aside: Position = None
     off: float = ASIDE
+    back: Position = None
+    moved: tuple[float, float] = (0.0, 0.0)
 
     @property
     def ends(self) -> tuple[Position, ...]:
@@ -390,6 +393,9 @@ class DistanceMark(Mark):
         else:
             side = paper.spot(paper.numbers.vector(self.aside))
         away = _across(spots[0], spots[1], side)
+        if self.back is not None:
+            x, y = direction((0.0, 0.0), paper.spot(paper.numbers.vector(self.back)))
+            spots = [(spot[0] + x * far, spot[1] + y * far) for spot, far in zip(spots, self.moved, strict=True)]
 
         def set_off(spot: Spot, far: float) -> Spot:
             return spot[0] + away[0] * far, spot[1] + away[1] * far
