@@ -429,7 +429,8 @@ class _Scene:
     def _with_natural_length(self, mark: Mark, start: Location) -> Iterable[Mark]:
         """Yield a dimension line that begins at `start`. If the line shows the extension of the only spring, also yield
         the natural length in line with it, both up to the end of the spring at the face of a block, and leave room for
-        the label of the spring. If the line shows the length of the only spring, also yield the natural length on the other side of the spring."""
+        the label of the spring. If the line shows the length of the only spring, also yield the natural length on the
+        other side of the spring."""
         springs = [each for each in self.system.between if is_spring(each)]
         ends = [end for each in springs for end in (each.start, each.end) if not self._moves(end)]
         length = natural_length(self.system, springs[0]) if len(springs) == len(ends) == 1 else None

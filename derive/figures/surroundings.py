@@ -216,6 +216,7 @@ class SurfacePiece(Surface):
     is_two_sided   whether the surface is a rail, which passes through the particle and has no hatches
     below          how far below `at` a surface with hatches is drawn, in points: the radius of a drawn particle
     half           half the length of the piece, in points
+    is_fixed       whether the surface is fixed ground, with hatches
     """
 
     at: Position
@@ -223,6 +224,7 @@ class SurfacePiece(Surface):
     is_two_sided: bool = False
     below: float = BOB
     half: float = UNDER
+    is_fixed: bool = True
     layer: ClassVar[int] = -1
 
     def places(self, numbers: InNumbers) -> list[Vector]:
@@ -233,7 +235,8 @@ class SurfacePiece(Surface):
         n = direction((0.0, 0.0), paper.spot(paper.numbers.vector(self.normal)))
         below, half = 0.0 if self.is_two_sided else self.below, self.half
         start, end = ((x - below * n[0] - s * n[1] * half, y - below * n[1] + s * n[0] * half) for s in (1, -1))
-        return [Stroke((start, end), "edge")] if self.is_two_sided else hatched(start, end, (-n[0], -n[1]))
+        is_plain = self.is_two_sided or not self.is_fixed
+        return [Stroke((start, end), "edge")] if is_plain else hatched(start, end, (-n[0], -n[1]))
 
     def in_words(self) -> InWords:
         return "surface", {}
