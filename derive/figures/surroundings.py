@@ -398,7 +398,7 @@ class DistanceMark(Mark):
         away = _across(spots[0], spots[1], side)
         if self.back is not None:
             x, y = direction((0.0, 0.0), paper.spot(paper.numbers.vector(self.back)))
-            spots = [(spot[0] + x * far, spot[1] + y * far) for spot, far in zip(spots, self.moved, strict=True)]
+            spots = tuple((spot[0] + x * far, spot[1] + y * far) for spot, far in zip(spots, self.moved, strict=True))
 
         def set_off(spot: Spot, far: float) -> Spot:
             return spot[0] + away[0] * far, spot[1] + away[1] * far
