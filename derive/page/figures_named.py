@@ -41,10 +41,9 @@ def figures_mentioned(
             continue
         shown = [each for each in together if isinstance(each, Illustration)]
         new = [each for each in shown if each.number is not None and each.key not in mentioned]
-        before_their_equations = all(_shows_forces(drawings[each.key]) for each in new) and _begins_a_sentence(
-            following
-        )
-        if new and not before_their_equations and (at := _sentence_before(found)) is not None:
+        show_forces = all(_shows_forces(drawings[each.key]) for each in new)
+        is_before_equations = show_forces and _begins_a_sentence(following)
+        if new and not is_before_equations and (at := _sentence_before(found)) is not None:
             found[at] = _with_mention(found[at], new, words)
         else:
             waiting = new
