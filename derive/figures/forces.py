@@ -38,7 +38,7 @@ from derive.mechanics.model.contacts import Contact
 from derive.mechanics.model.strings import Line, Pulley
 from derive.mechanics.model.surfaces import Plane
 from derive.mechanics.model.surfaces import dot as product_of
-from derive.mechanics.model.system import System
+from derive.mechanics.model.system import Particle, System
 from derive.steps.known_numbers import with_numbers
 from derive.steps.record import coordinates_in, given_letters
 from derive.steps.signs import sign_known
@@ -54,7 +54,8 @@ BODY, BODY_IN_SPACE = 32.0, 20.0
 LEAST = Rational(1, 4)  # length of the shortest arrow, relative to the longest arrow
 # All arrows are enlarged until the shortest arrow at a particle has the length VISIBLE, in units of FORCE points, but
 # at most by the factor LONGER.
-VISIBLE, LONGER = Rational(1, 2), 2
+VISIBLE, LONGER = Rational(1, 2), Integer(2)
+ON_A_LINE = Rational(3, 5)  # the scale of all arrows if the forces on each particle are on one line, so simple
 OFF = Rational(1, 30)  # distance between a rod and the arrow of a force along it, relative to the length of the rod
 APART = 5.0  # the distance between the arrows of two forces on the same line, in points
 ALONG = 1.8  # distance between a surface and the arrow of a force along it, on the side of the body, in points
@@ -219,7 +220,8 @@ def draw_alone(system: System, bodies: Sequence[BodyAlone]) -> list[Drawing]:
     # If a force on a particle is small, all forces are drawn longer, so that the particle does not cover it.
     on_particles = [own for each, own in zip(bodies, shares, strict=True) if not isinstance(each.of, PlacedBody)]
     least = min((share for own in on_particles for share in own), default=1)
-    longer = min(max(VISIBLE / least, 1), LONGER) if scene.in_a_plane else 1
+    at_least = ON_A_LINE if all(_is_on_a_line(each) for each in bodies) else Integer(1)
+    longer = min(max(VISIBLE / least, at_least), LONGER) if scene.in_a_plane else Integer(1)
     least = Integer(0)
     if any(_stands(scene, each) for each in bodies):
         longer, least = SHORT, SHORTEST
@@ -227,6 +229,14 @@ def draw_alone(system: System, bodies: Sequence[BodyAlone]) -> list[Drawing]:
         _diagram(system, each, [max(longer * share, least) for share in own], scene)
         for each, own in zip(bodies, shares, strict=True)
     ]
+
+
+def _is_on_a_line(alone: BodyAlone) -> bool:
+    """Whether a particle in a plane has forces along one line only."""
+    if not isinstance(alone.of, Particle) or any(len(each.way) != 2 for each in alone.forces):
+        return False
+    ways = [each.way for each in alone.forces]
+    return all(tidied(ways[0][0] * way[1] - ways[0][1] * way[0]) == 0 for way in ways)
 
 
 def _diagram(system: System, alone: BodyAlone, shares: Sequence[Rational], scene: Connections) -> Drawing:
@@ -549,7 +559,8 @@ def _surfaces(touched: Sequence[Contact], of: Any) -> Iterator[Mark]:
         if isinstance(of, PlacedBody):
             yield SurfacePiece(column_of(touch.at), normal, plain, 0.0, FOOT)
         else:
-            yield SurfacePiece(column_of(of.at), normal, touch.surface.is_two_sided)
+            is_ground = touch.surface.of is None  # not the top of a plank, which moves
+            yield SurfacePiece(column_of(of.at), normal, touch.surface.is_two_sided, is_fixed=is_ground)
 
 
 def _off_surface(drawn: _Drawn, touched: Sequence[Contact], scene: Connections) -> float:

@@ -428,16 +428,20 @@ class _Scene:
 
     def _with_natural_length(self, mark: Mark, start: Location) -> Iterable[Mark]:
         """Yield a dimension line that begins at `start`. If the line shows the extension of the only spring, also yield
-        the natural length in line with it, and leave room for the label of the spring. If the line shows the length of
-        the only spring, also yield the natural length on the other side of the spring."""
+        the natural length in line with it, both up to the end of the spring at the face of a block, and leave room for
+        the label of the spring. If the line shows the length of the only spring, also yield the natural length on the
+        other side of the spring."""
         springs = [each for each in self.system.between if is_spring(each)]
         ends = [end for each in springs for end in (each.start, each.end) if not self._moves(end)]
         length = natural_length(self.system, springs[0]) if len(springs) == len(ends) == 1 else None
         if length is not None:
             ways = [tidied(c) for c in (start - ends[0]).components]
             if [abs(c) for c in ways if c != 0] == [length] and isinstance(mark, DistanceMark):
-                mark = replace(mark, off=mark.off + OVER_LABEL)
-                yield replace(mark, start=column_of(ends[0]), end=column_of(start), label=length)
+                spring, fixed = springs[0], ends[0]
+                covered = self._covered(spring.end if same(spring.start, fixed) else spring.start)
+                back = column_of(fixed - start)
+                mark = replace(mark, off=mark.off + OVER_LABEL, back=back, moved=(covered, covered))
+                yield replace(mark, start=column_of(fixed), end=column_of(start), label=length, moved=(0.0, covered))
             elif not any(ways) and isinstance(mark, LengthMark) and isinstance(mark.aside, MatrixBase):
                 way = mark.end - mark.start
                 far = mark.start + length / sqrt(tidied(way.dot(way))) * way

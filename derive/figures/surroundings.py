@@ -216,6 +216,7 @@ class SurfacePiece(Surface):
     is_two_sided   whether the surface is a rail, which passes through the particle and has no hatches
     below          how far below `at` a surface with hatches is drawn, in points: the radius of a drawn particle
     half           half the length of the piece, in points
+    is_fixed       whether the surface is fixed ground, with hatches
     """
 
     at: Position
@@ -223,6 +224,7 @@ class SurfacePiece(Surface):
     is_two_sided: bool = False
     below: float = BOB
     half: float = UNDER
+    is_fixed: bool = True
     layer: ClassVar[int] = -1
 
     def places(self, numbers: InNumbers) -> list[Vector]:
@@ -233,7 +235,8 @@ class SurfacePiece(Surface):
         n = direction((0.0, 0.0), paper.spot(paper.numbers.vector(self.normal)))
         below, half = 0.0 if self.is_two_sided else self.below, self.half
         start, end = ((x - below * n[0] - s * n[1] * half, y - below * n[1] + s * n[0] * half) for s in (1, -1))
-        return [Stroke((start, end), "edge")] if self.is_two_sided else hatched(start, end, (-n[0], -n[1]))
+        is_plain = self.is_two_sided or not self.is_fixed
+        return [Stroke((start, end), "edge")] if is_plain else hatched(start, end, (-n[0], -n[1]))
 
     def in_words(self) -> InWords:
         return "surface", {}
@@ -368,12 +371,15 @@ class UprightAngle(AngleBetween):
 @dataclass(frozen=True)
 class DistanceMark(Mark):
     """A dimension line between two points, shifted by `off` points to the side `aside`, or by default away from the
-    centre of the drawing."""
+    centre of the drawing. Its ends are moved in the direction `back` by `moved` points, such as from the centre of a
+    block to the end of the spring that holds the block."""
 
     start: Position
     end: Position
     aside: Position = None
     off: float = ASIDE
+    back: Position = None
+    moved: tuple[float, float] = (0.0, 0.0)
 
     @property
     def ends(self) -> tuple[Position, ...]:
@@ -390,6 +396,9 @@ class DistanceMark(Mark):
         else:
             side = paper.spot(paper.numbers.vector(self.aside))
         away = _across(spots[0], spots[1], side)
+        if self.back is not None:
+            x, y = direction((0.0, 0.0), paper.spot(paper.numbers.vector(self.back)))
+            spots = tuple((spot[0] + x * far, spot[1] + y * far) for spot, far in zip(spots, self.moved, strict=True))
 
         def set_off(spot: Spot, far: float) -> Spot:
             return spot[0] + away[0] * far, spot[1] + away[1] * far

@@ -1,8 +1,8 @@
 """Mentions of the figures of a part, in the sentence that a figure belongs to: "It is unstable (Figure 2)."
 
 A figure that no text of the author mentions is mentioned in parentheses at the end of the sentence before it, or, if
-the part begins with the figure, of the first sentence after it. If the part begins with a figure of forces, its first
-sentence is "With the forces in Figure 2, the upward component is".
+the part begins with the figure, of the first sentence after it. A figure of forces is mentioned at the start of the
+sentence after it, which leads to the equations: "With the forces in Figure 2, the upward component is".
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from typing import Any
 
 from derive.figures import marks as m
 from derive.page.tree import Block, Display, Illustration, Paragraph
-from derive.page.wording import FigureRef, Inline, Phrases, Text, filled, joined
+from derive.page.wording import FigureRef, Inline, Phrases, Text, ToldOnce, filled, joined
 
 STOPS = (".", ",", ":")
 
@@ -30,9 +30,9 @@ def figures_mentioned(
     """
     found: list[Block] = []
     waiting: list[Illustration] = []  # figures before the first sentence of the part
-    for is_drawing, group in groupby(blocks, lambda block: isinstance(block, Illustration)):
-        together = list(group)
-        if not is_drawing:
+    groups = [list(group) for _, group in groupby(blocks, lambda block: isinstance(block, Illustration))]
+    for together, following in zip(groups, [*groups[1:], []], strict=True):
+        if not isinstance(together[0], Illustration):
             forces = [each for each in waiting if _shows_forces(drawings[each.key])]
             others = [each for each in waiting if each not in forces]
             together = _after_figures(together, others, words) if others else together
@@ -41,7 +41,9 @@ def figures_mentioned(
             continue
         shown = [each for each in together if isinstance(each, Illustration)]
         new = [each for each in shown if each.number is not None and each.key not in mentioned]
-        if new and (at := _sentence_before(found)) is not None:
+        show_forces = all(_shows_forces(drawings[each.key]) for each in new)
+        is_before_equations = show_forces and _begins_a_sentence(following)
+        if new and not is_before_equations and (at := _sentence_before(found)) is not None:
             found[at] = _with_mention(found[at], new, words)
         else:
             waiting = new
@@ -51,6 +53,15 @@ def figures_mentioned(
 
 def _shows_forces(drawing: m.Recorded) -> bool:
     return isinstance(drawing, m.Drawing) and drawing.forces_on is not None
+
+
+def _begins_a_sentence(blocks: Sequence[Block]) -> bool:
+    """Whether the blocks begin with a new sentence, not with the rest of one such as "and for the block"."""
+    first = blocks[0] if blocks else None
+    opening: Any = first if isinstance(first, Paragraph) else None
+    while isinstance(opening, Paragraph | ToldOnce):
+        opening = next(iter(opening.nodes), None)
+    return type(opening) is Text and opening.text[:1].isupper()
 
 
 def _named(figures: Sequence[Illustration], words: Phrases) -> dict[str, Any]:
