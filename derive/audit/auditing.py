@@ -40,9 +40,7 @@ MOST_LATE = 40.0  # the limit falls linearly with the seconds used beyond the us
 SECONDS_OF_SEARCH = 2.0  # seconds of processor time for the search for a change that makes a claim right
 MOST_INDICES = 12
 MOST_FIXED = 5  # number of earlier rows that are searched for a slip
-SPECIAL = frozenset(
-    {Cue.GIVEN, Cue.PUT_IN, Cue.ZERO, Cue.APPROXIMATE}
-)  # cues in the words that explain why terms are missing
+SPECIAL = frozenset({Cue.GIVEN, Cue.PUT_IN, Cue.ZERO, Cue.APPROXIMATE})  # words that explain lost terms
 PIVOT = Symbol("pivot_", real=True)
 MOST_READINGS = 8
 PLAIN = ("", "unmarked", "all", "tensors")
@@ -257,7 +255,7 @@ class _Auditor:
                 verdict.why_plausible, verdict.span = "the matrix is symmetric except for this pair", span
 
     def odd_entry(self, matrix: Mat) -> tuple[int, int, Span] | None:
-        """Return the row, the column and the span of the only unequal entry below the diagonal of an otherwise symmetric matrix."""
+        """Return row, column and span of the only entry below the diagonal that makes a matrix unsymmetric."""
         if len(matrix.rows) != 3 or any(len(row) != 3 for row in matrix.rows) or matrix.determinant:
             return None
         try:
@@ -316,7 +314,7 @@ class _Auditor:
             self.suggest(claim, left_side, first)
             if not first.suggestion and first.counterexample and self.loses_letters(claim):
                 return Verdict(
-                    Outcome.UNDECIDED, "only the left side contains some letters, which may have been given values"
+                    Outcome.UNDECIDED, "only the left side has some letters; they may have been given values"
                 )
         return first
 
@@ -572,7 +570,7 @@ class _Auditor:
         return found[-1][0][0] if found else value
 
     def of_missing_differential(self, claim: Claim, left_side: Node) -> Verdict | None:
-        """Blame an integral without a differential if one change, such as `d x` instead of `x`, makes the claim right."""
+        """Blame an integral without a differential if one change, such as `d x` for `x`, makes the claim right."""
         assert claim.right is not None
         if not any(isinstance(each, Int) for each in claim.right.walk()):
             return None
@@ -645,7 +643,7 @@ class _Auditor:
         return claim.left
 
     def sides(self, left: Node, right: Node, meaning: Meaning) -> tuple[Value, Value]:
-        """Return the values of two sides; a letter that appears in its own list of components is a number in the list."""
+        """Return the values of two sides; a letter in its own list of components is a number in the list."""
         for letter, other, first in ((left, right, True), (right, left, False)):
             shape = shape_of(other)
             if isinstance(letter, Letter) and shape is not None and any(
@@ -671,7 +669,7 @@ class _Auditor:
         return bool(simple and not block.display and Cue.GIVEN in block.cues and right.as_coeff_Mul()[1].is_Symbol)
 
     def is_condition(self, claim: Claim, verdict: Verdict) -> bool:
-        """Whether a formula in a sentence, or a result derived from one, may hold in one case or at one instant only."""
+        """Whether a formula in a sentence, or a result of it, may hold in one case or at one instant only."""
         if verdict.outcome in (Outcome.HOLDS, Outcome.APPROXIMATES):
             return bool(self.known.conditions & set(verdict.given))
         if claim.row.block.display:

@@ -1,8 +1,8 @@
 """The verdict on one claim: whether its right side follows from its left side and from what earlier rows gave.
 
-The tests go from the cheapest and strictest to the most generous: the sides are equal; they are equal after substituting
-definitions; they agree to the printed digits; they agree to the leading order in small letters; the equation follows from
-earlier equations. If no test succeeds, a step `differs` only if all letters are understood, the right side has no new
+The tests go from the cheapest and strictest to the most generous: the sides are equal; they are equal after
+substituting definitions; they agree to the printed digits; they agree to the leading order in small letters; the
+equation follows from earlier equations. If no test succeeds, a step `differs` only if all letters are understood, the right side has no new
 letters, and numbers show that the sides are not equal. A few tests find an error themselves, such as a bound that was
 converted wrongly.
 """
@@ -706,7 +706,7 @@ def is_multiple(wanted: Expr, equation: Expr) -> bool:
 
 
 def _ratios(wanted: Expr, equation: Expr) -> Iterator[Expr]:
-    """Yield the factors by which an equation may have been multiplied: its first term divided by each term of the other."""
+    """Yield possible factors between two equations: the first term of one divided by each term of the other."""
     first = _terms(wanted)[0]
     terms = _terms(equation)
     for term in terms:

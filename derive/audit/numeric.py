@@ -59,9 +59,7 @@ class Numbers:
     point: int
     fixed: dict[Symbol, complex] = field(default_factory=dict)
     of_letters: dict[Symbol, complex] = field(default_factory=dict)
-    of_nodes: dict[int, tuple[Node, complex]] = field(
-        default_factory=dict
-    )  # the node is kept so that its id is not reused
+    of_nodes: dict[int, tuple[Node, complex]] = field(default_factory=dict)  # the kept node prevents reuse of its id
 
     def of_symbol(self, symbol: Symbol) -> complex:
         if symbol in self.fixed:
@@ -157,7 +155,7 @@ def spanned(rows: Sequence[Sequence[complex]], wanted: Sequence[complex]) -> boo
 
 
 def determined(rows: Sequence[Sequence[complex]], column: int, constant: int) -> complex | None:
-    """Return the number that linear equations give to one column, or None; `constant` is the column of the constant terms."""
+    """Return the number that linear equations give to one column, or None; `constant` has the constant terms."""
     order = [i for i in range(len(rows[0])) if i not in (column, constant)] + [column, constant]
     matrix = [[row[i] for i in order] for row in rows]
     used = 0
