@@ -2,9 +2,9 @@
 
 The tests go from the cheapest and strictest to the most generous: the sides are equal; they are equal after
 substituting definitions; they agree to the printed digits; they agree to the leading order in small letters; the
-equation follows from earlier equations. If no test succeeds, a step `differs` only if all letters are understood, the right side has no new
-letters, and numbers show that the sides are not equal. A few tests find an error themselves, such as a bound that was
-converted wrongly.
+equation follows from earlier equations. If no test succeeds, a step `differs` only if all letters are understood, the
+right side has no new letters, and numbers show that the sides are not equal. A few tests find an error themselves, such
+as a bound that was converted wrongly.
 """
 
 from __future__ import annotations

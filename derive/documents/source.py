@@ -14,7 +14,7 @@ from pathlib import Path
 
 from derive.errors import Complaint, Misused, Place, Rejected
 
-LARGEST = 4_000_000  # characters
+LARGEST = 4_000_000  # characters of a document
 
 
 class Format(StrEnum):
@@ -48,7 +48,7 @@ class Span:
 
 @dataclass(frozen=True)
 class Edit:
-    """One change made by the tidying: what stood at a line of the file, and what is read instead."""
+    """One change made by the tidying: the text in a line of the file, and the text that is read instead."""
 
     line: int
     was: str

@@ -97,7 +97,7 @@ class Fun(Node):
     name: str
     argument: Node
     power: Node | None = None
-    base: Node | None = None  # of a logarithm
+    base: Node | None = None  # the base of a logarithm
 
 
 @dataclass(frozen=True)

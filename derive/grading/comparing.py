@@ -54,7 +54,7 @@ def verdict_on_value(read: Read, target: Target, key: Key) -> Verdict:
 
 
 def aligned(value: Any, right: Any) -> Any:
-    """Replace symbols of a typed expression by those of the right one with the same names, which may have other assumptions."""
+    """Replace symbols of a typed expression by those of the right one that differ only in their assumptions."""
     own = {each.name: each for each in right.free_symbols}
     put_in = {each: own[each.name] for each in value.free_symbols if own.get(each.name, each) != each}
     return value.xreplace(put_in) if put_in else value

@@ -55,7 +55,7 @@ def unit_in(text: str) -> Unit | None:
 
 
 def with_units(text: str) -> Iterator[tuple[str, Unit]]:
-    r"""Yield the first reading of a text as a number and a unit, if there is one: `15.13 rpm`, `\SI{15.13}{rpm}`, `21.6°`."""
+    r"""Yield the first reading of a text as a number with a unit, if any: `15.13 rpm`, `\SI{15.13}{rpm}`, `21.6°`."""
     plain = text.strip().strip("$").strip()
     if found := re.fullmatch(r"\\(?:SI|qty)\s*(?:\[[^\]]*\])?\s*\{([^{}]*)\}\s*\{((?:[^{}]|\{[^{}]*\})*)\}", plain):
         if (unit := unit_in(found[2])) is not None:
