@@ -148,7 +148,7 @@ class _Reader:
         return value
 
     def inside(self, tokens: list[Token], span: Span) -> Node:
-        """Return the node of tokens of an argument or of a bracket."""
+        """Return the node for the tokens inside an argument or a bracket."""
         if not tokens:
             raise Unreadable("something is missing here", span)
         reader = _Reader(tokens, self.depth + 1)
@@ -422,7 +422,7 @@ class _Reader:
 
     @staticmethod
     def second(applied: Node) -> Node:
-        """Return the bracket of a product of a letter with a bracket."""
+        """Return the bracket after a letter, as a factor of their product."""
         product = applied.alternatives[1] if isinstance(applied, Open) else applied
         return product.factors[1][1] if isinstance(product, Mul) else product
 
@@ -459,7 +459,7 @@ class _Reader:
         return Open(span, "apply", (as_function, Mul(span, (("", head), ("", as_product)))))
 
     def is_differential(self) -> bool:
-        """Whether `d` begins a differential: inside of an integral always, elsewhere one of two readings."""
+        """Whether `d` begins a differential: always in an integral, elsewhere as one of two readings."""
         token = self.peek()
         if token is None:
             return False
@@ -790,7 +790,7 @@ class _Reader:
         raise Unreadable(f"`\\{name}` is not known", token.span)
 
     def difference(self, token: Token) -> Node:
-        r"""Read `\Delta y` as one letter; `\Delta` before a script, a bracket or a sign is a letter of its own."""
+        r"""Read `\Delta y` as one letter; `\Delta` before a script, a bracket or a sign is a separate letter."""
         after = self.peek()
         if after is not None and (after.kind is Kind.LETTER or (after.kind is Kind.COMMAND and after.text in GREEK)):
             self.at += 1

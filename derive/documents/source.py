@@ -94,7 +94,7 @@ class Source:
         return self.origins[position] if position < len(self.origins) else self.origins[-1] + 1
 
     def replace(self, pattern: str, reads: str | Callable[[re.Match[str]], str], within: str | None = None) -> None:
-        """Replace each match of a pattern, and log it; with `within`, only inside of matches of that pattern."""
+        """Replace each match of a pattern and record it; with `within`, only inside matches of `within`."""
         zones = [(0, len(self.text))]
         if within is not None:
             zones = [found.span() for found in re.finditer(within, self.text, re.DOTALL)]
@@ -162,7 +162,7 @@ _JSON_CHARACTER = re.compile(r"\\u[dD][89abAB]..\\u[dD][c-fC-F]..|\\u[0-9a-fA-F]
 
 
 def _keep_prose_of_notebook(source: Source) -> None:
-    """Keep the cells in Markdown: each piece of text is found in the file, so that its place is known."""
+    """Keep only the Markdown cells of a notebook, and find the place of each character in the file."""
     try:
         read = json.loads(source.written)
         cells = [(cell["cell_type"], cell["source"]) for cell in read["cells"]]
