@@ -1254,7 +1254,7 @@ class _Reader:
         return len(self.tokens), False
 
     def bracketed(self) -> Node:
-        r"""Read a bracket: a group, a triple, or the absolute value after `\left|`."""
+        r"""Read a bracket: a group, a list, an average, or the absolute value after `\left|`."""
         opener = self.needed()
         close, found = self.closing_of(opener)
         if not found:

@@ -1,7 +1,7 @@
 r"""The nodes of a formula as the author wrote it: signs, brackets and differentials are kept.
 
 A node of kind `Open` has several readings. `apply` is a function of a bracket or a product with it; `extent` is how
-far the argument of `\sin` reaches; `prime` is a derivative or a label; `superscript` is a power, a label or degrees;
+far the argument of `\sin` reaches; `superscript` is a power, a label or degrees;
 `letter d` is a differential or a letter; `word` is one name or a product of letters; `slash` is how far a denominator
 reaches.
 """
