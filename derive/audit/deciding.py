@@ -31,7 +31,7 @@ PLUS_MINUS = Symbol("±", real=True)
 POINTS = 4
 CLOSE = Rational(1, 10**9)
 MOST_COMBINED = 6  # number of the last equations that are combined
-LARGEST_GOAL = 400  # operations of an equation of motion
+LARGEST_GOAL = 400  # the most operations of an equation that is compared
 MOST_SIGNS = 3  # number of absolute values whose signs are tried
 STRICT = ("<", ">", "<<", ">>", "!=")
 CONVERTED = 0.01  # two bounds with a greater relative difference are not one bound in different units

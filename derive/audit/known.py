@@ -14,10 +14,10 @@ from derive.documents.meaning import Meaning, Value
 from derive.documents.syntax import Letter
 
 ROUNDS = 8  # rounds of substitution
-LARGEST = 4000  # operations of an expression that is still expanded
+LARGEST = 4000  # the most operations of an expression after substitution
 LAST_EQUATIONS = 24
 MOMENTA = ("p", "l", "L", "J", "ell")
-ASSUMED = -1  # the number of the claim for what is assumed
+ASSUMED = -1  # in place of the number of a claim, for an assumed equation
 
 
 @dataclass

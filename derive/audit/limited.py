@@ -12,7 +12,7 @@ import sympy
 
 # SymPy raises these for expressions of a document that it cannot handle; the claim is then undecided, with the reason.
 FAULTS = (ValueError, TypeError, ZeroDivisionError, AttributeError, NotImplementedError, sympy.SympifyError)
-AGAIN = 0.5  # seconds after which the limit is enforced again
+AGAIN = 0.5  # seconds of processor time after which the limit is enforced again
 
 
 class OutOfTime(BaseException):

@@ -22,7 +22,7 @@ from derive.documents.syntax import Letter
 
 MOST_EQUATIONS = 8
 POINTS = 2
-LARGEST = 300  # operations of an equation
+LARGEST = 300  # an equation with as many operations is left out
 LARGEST_LAGRANGIAN = 500
 LARGEST_CONSTRAINT = 60
 HIGHEST_POWER = 6
