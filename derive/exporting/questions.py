@@ -43,7 +43,7 @@ class Answer:
 
     @property
     def letters(self) -> set[str] | None:
-        """The letters of a formula of letters, numbers and common functions; None for any other formula, or for one with `t`."""
+        """The letters of a formula without `t` of letters, numbers and common functions; otherwise None."""
         names = set(_NAME.findall(self.sympy))
         if not re.fullmatch(r"[A-Za-z0-9_+\-*/(). ]+", self.sympy) or names & {"t", "Eq"}:
             return None
