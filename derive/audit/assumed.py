@@ -1,7 +1,7 @@
-"""What the reader of a document says about it: equations that hold, and the kinds of letters.
+"""Equations that the reader of a document assumes, and kinds of letters that the reader declares.
 
 An equation is written as in LaTeX, or in plain characters: `rho = M/(6 a^3)`. The text is read by the parser of
-documents; nothing of it is evaluated.
+documents; no part of it is executed as code.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from derive.errors import Complaint, Misused, did_you_mean
 
 _WORD = re.compile(r"(?<![\\A-Za-z])(?P<word>[A-Za-z]{2,})")
 _SUBSCRIPT = re.compile(r"(?<=[A-Za-z])_(?P<sub>[A-Za-z0-9]{2,})")
-LONGEST = 2000  # characters
+LONGEST = 2000  # characters of an assumed equation
 MOST_SYMBOLS = 1000
 
 
@@ -37,7 +37,7 @@ class Assumed:
 
 
 def assumed_of(text: str) -> Assumed:
-    """Return an equation that was typed, such as `rho = M/(6 a^3)` or `I_1 = \\frac{1}{2} M R^2`."""
+    """Parse a typed equation, such as `rho = M/(6 a^3)` or `I_1 = \\frac{1}{2} M R^2`."""
     if text.count("=") != 1 or len(text) > LONGEST:
         raise Misused(Complaint("assumption", f"`{text[:80]}` is not an equation", help='such as "rho = M/(6 a^3)"'))
     left, right = (_read(side, text) for side in text.split("="))

@@ -33,14 +33,14 @@ from derive.documents.parser import Unreadable, parsed
 from derive.documents.source import Span
 from derive.documents.syntax import Cases, Int, Letter, Mat, Node, Text
 
-SECONDS = 3.0  # of processor time for one claim
+SECONDS = 3.0  # seconds of processor time for one claim
 LEAST_SECONDS = 0.4  # the limit for a claim once a document has used much time
-USUAL_SECONDS = 0.3
-MOST_LATE = 40.0  # seconds beyond the usual time of its claims that a document may use before the limit is low
-SECONDS_OF_SEARCH = 2.0  # of processor time for the change that would make a claim right
+USUAL_SECONDS = 0.3  # the usual processor time of a claim
+MOST_LATE = 40.0  # the limit falls linearly with the seconds used beyond the usual time, to zero at this number
+SECONDS_OF_SEARCH = 2.0  # seconds of processor time for the search for a change that makes a claim right
 MOST_INDICES = 12
-MOST_FIXED = 5  # earlier rows in which a slip is looked for
-SPECIAL = frozenset({Cue.GIVEN, Cue.PUT_IN, Cue.ZERO, Cue.APPROXIMATE})  # words with which terms may vanish
+MOST_FIXED = 5  # number of earlier rows that are searched for a slip
+SPECIAL = frozenset({Cue.GIVEN, Cue.PUT_IN, Cue.ZERO, Cue.APPROXIMATE})  # words that explain lost terms
 PIVOT = Symbol("pivot_", real=True)
 MOST_READINGS = 8
 PLAIN = ("", "unmarked", "all", "tensors")
@@ -174,7 +174,7 @@ class _Auditor:
         self.claims: list[Claim] = []
 
     def begin(self, scope: int) -> None:
-        """Begin a problem or section: only what is assumed is known."""
+        """Begin a problem or section, in which only the assumed equations are known at first."""
         self.scope = scope
         self.meaning.scope = scope
         self.known = self.scopes[scope] = Known(self.meaning)
@@ -237,7 +237,7 @@ class _Auditor:
         self.late += max(0.0, process_time() - begun - USUAL_SECONDS)
 
     def remark(self, claim: Claim, verdict: Verdict) -> None:
-        """Point to what is hardly meant: a letter equal to itself, or one entry that breaks a symmetry."""
+        """Point to a probable slip: a letter equal to itself, or one entry that breaks a symmetry."""
         if (
             isinstance(claim.left, Letter)
             and isinstance(claim.right, Letter)
@@ -255,7 +255,7 @@ class _Auditor:
                 verdict.why_plausible, verdict.span = "the matrix is symmetric except for this pair", span
 
     def odd_entry(self, matrix: Mat) -> tuple[int, int, Span] | None:
-        """Return the row, the column and the place of an entry below the diagonal of an otherwise symmetric matrix."""
+        """Return row, column and span of the only entry below the diagonal that makes a matrix unsymmetric."""
         if len(matrix.rows) != 3 or any(len(row) != 3 for row in matrix.rows) or matrix.determinant:
             return None
         try:
@@ -313,11 +313,13 @@ class _Auditor:
         if first.outcome is Outcome.DIFFERS and not first.suggestion:
             self.suggest(claim, left_side, first)
             if not first.suggestion and first.counterexample and self.loses_letters(claim):
-                return Verdict(Outcome.UNDECIDED, "only the left side contains some letters; they may have got values")
+                return Verdict(
+                    Outcome.UNDECIDED, "only the left side has some letters; they may have been given values"
+                )
         return first
 
     def compare_repeated(self, claim: Claim, left_side: Node, verdict: Verdict) -> None:
-        """A row that repeats an earlier result was copied wrongly if one change makes it this result."""
+        """Blame a row that announces an earlier result if one change turns the row into this result."""
         assert claim.right is not None and verdict.repeated is not None
         right_node = readings(claim.right, self.facts)[0][0]
         until = process_time() + SECONDS_OF_SEARCH
@@ -326,7 +328,7 @@ class _Auditor:
             verdict.because = "the row repeats an earlier result with a change"
 
     def accuse_if_near(self, claim: Claim, verdict: Verdict) -> None:
-        """A row that does not follow, but would with one small change, is probably a slip."""
+        """Blame a row that does not follow but would follow after one small change."""
         left_side = self.last_good_side(claim)
         if claim.values is None or claim.right is None or left_side is None or claim.relation not in ("=", ":="):
             return
@@ -357,14 +359,14 @@ class _Auditor:
         verdict.why_plausible, verdict.span = WHY[edit.kind], edit.span
 
     def with_other_indices(self, letters: list[Letter]) -> list[Letter]:
-        """Add the letters of the document that differ from these in the index only."""
+        """Return these letters and letters of the document that differ from them only in the index."""
         bases = {(each.base, each.dots) for each in letters if each.sub}
         known = {(each.identity, each.dots) for each in letters}
         more = [each for each in self.meaning.symbols.values() if (each.base, each.dots) in bases]
         return letters + [each for each in more if (each.identity, each.dots) not in known][:MOST_INDICES]
 
     def accuse_if_letters_agree(self, claim: Claim, verdict: Verdict) -> None:
-        """An equation under another one of the same letters, without words between them, must follow from it."""
+        """Blame an equation that contradicts the row above it in its block and contains no other letters."""
         rows = claim.row.block.rows
         at = rows.index(claim.row)
         if claim.is_step or claim.values is None or at == 0 or claim.row.statements[0] is not claim.statement:
@@ -428,7 +430,7 @@ class _Auditor:
             return None
 
     def blame_earlier_rows(self) -> None:
-        """Blame an earlier row if one change of it makes several wrong claims hold, or one that no own change does."""
+        """Blame an earlier row if one change of it makes several wrong claims hold, or one without a suggestion."""
         for earlier in {fix.earlier.number: fix.earlier for fix in self.fixes}.values():
             edits = Counter((fix.edit.was, fix.edit.meant) for fix in self.fixes if fix.earlier is earlier)
             chosen, _count = edits.most_common(1)[0]
@@ -449,17 +451,17 @@ class _Auditor:
             for fix in fixes:
                 if fix.claim.verdict is not None and fix.claim.verdict.outcome is Outcome.DIFFERS:
                     fix.claim.verdict.or_lines += (earlier.row.line,)
-                    fix.claim.verdict.because += f"; or line {earlier.row.line} has the slip: {meant}"
+                    fix.claim.verdict.because += f"; or the slip is in line {earlier.row.line}: {meant}"
 
     def blame_odd_dimensions(self) -> None:
-        """Blame the row of a scope whose terms have not the dimensions that all other rows give."""
+        """In each scope, blame the row whose terms contradict the dimensions that all other rows give."""
         by_scope: dict[int, list[Claim]] = {}
         for claim in self.claims:
             by_scope.setdefault(scope_of(self.document, claim.row), []).append(claim)
         for claims in by_scope.values():
             odd = odd_claim(claims, self.meaning)
             if odd is not None:
-                because = "its terms have other dimensions than the rest of the document gives them"
+                because = "the dimensions of its terms contradict the other rows"
                 odd.verdict = Verdict(Outcome.DIFFERS, because)
 
     def near_value(
@@ -568,7 +570,7 @@ class _Auditor:
         return found[-1][0][0] if found else value
 
     def of_missing_differential(self, claim: Claim, left_side: Node) -> Verdict | None:
-        """An integral sign without its differential is a slip if a differential in place of a letter makes it right."""
+        """Blame an integral without a differential if one change, such as `d x` for `x`, makes the claim right."""
         assert claim.right is not None
         if not any(isinstance(each, Int) for each in claim.right.walk()):
             return None
@@ -587,7 +589,7 @@ class _Auditor:
     def of_values(
         self, claim: Claim, left: Value, right: Value, meaning: Meaning, cues: frozenset[Cue], thorough: bool = True
     ) -> Verdict:
-        """Return the verdict; a claim that follows only from a wrong row carries the slip of this row on."""
+        """Return the verdict; a claim that follows only from a wrong row inherits the slip of that row."""
         verdict = Decision(claim, left, right, meaning, self.known, cues, thorough).verdict()
         if verdict.outcome in GOOD:
             return verdict
@@ -615,7 +617,7 @@ class _Auditor:
         cues: frozenset[Cue],
         verdict: Verdict,
     ) -> Verdict:
-        """Compare the row after a wrong one with the side before the slip, too."""
+        """Compare the right side also with the left side of the wrong claim before it."""
         assert wrong.values is not None
         again = Decision(claim, wrong.values[0], right, meaning, self.known, cues).verdict()
         if again.outcome in GOOD:
@@ -641,7 +643,7 @@ class _Auditor:
         return claim.left
 
     def sides(self, left: Node, right: Node, meaning: Meaning) -> tuple[Value, Value]:
-        """Return the values of two sides; a letter set equal to a list is a vector, but it is a number in the list."""
+        """Return the values of two sides; a letter in its own list of components is a number in the list."""
         for letter, other, first in ((left, right, True), (right, left, False)):
             shape = shape_of(other)
             if isinstance(letter, Letter) and shape is not None and any(
@@ -659,7 +661,7 @@ class _Auditor:
         return meaning.of(left), meaning.of(right)
 
     def is_special_case(self, claim: Claim) -> bool:
-        """Whether a sentence puts a letter equal to a multiple of another letter in one case only: `if R = a/2`."""
+        """Whether a sentence sets a letter equal to a multiple of another letter in one case only: `if R = a/2`."""
         assert claim.values is not None
         left, right = claim.values
         block = claim.row.block
@@ -667,7 +669,7 @@ class _Auditor:
         return bool(simple and not block.display and Cue.GIVEN in block.cues and right.as_coeff_Mul()[1].is_Symbol)
 
     def is_condition(self, claim: Claim, verdict: Verdict) -> bool:
-        """Whether a formula of a sentence, or what follows from one, may hold in one case or at one instant only."""
+        """Whether a formula in a sentence, or a result of it, may hold in one case or at one instant only."""
         if verdict.outcome in (Outcome.HOLDS, Outcome.APPROXIMATES):
             return bool(self.known.conditions & set(verdict.given))
         if claim.row.block.display:

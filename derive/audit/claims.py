@@ -23,7 +23,7 @@ class Definition:
     claim: int
     implied: bool = False  # not written, but needed by a step
     part: int = -1  # the part of the document in which the letter got this value
-    chain: int = -1  # the first claim of the chain
+    chain: int = -1  # the number of the first claim of the chain
 
 
 class Outcome(StrEnum):
@@ -37,7 +37,7 @@ class Outcome(StrEnum):
 
 @dataclass
 class Verdict:
-    """The verdict on a claim: why, which earlier claims were used, and for a wrong one what was probably meant."""
+    """The verdict on a claim, its reason, the earlier claims used, and the probable correction of a wrong claim."""
 
     outcome: Outcome
     because: str
@@ -45,11 +45,11 @@ class Verdict:
     counterexample: str = ""
     suggestion: str = ""
     why_plausible: str = ""
-    inherits: int | None = None  # the claim whose slip this one carries on
+    inherits: int | None = None  # the number of the claim whose slip this claim repeats
     choices: tuple[Choice, ...] = ()
     span: Span | None = None
     repeated: Definition | None = None  # the earlier value that this row says it repeats
-    or_lines: tuple[int, ...] = ()  # rows before it in which the slip may be instead
+    or_lines: tuple[int, ...] = ()  # lines of earlier rows that may contain the slip instead
 
 
 @dataclass

@@ -1,9 +1,10 @@
 """The verdict on one claim: whether its right side follows from its left side and from what earlier rows gave.
 
-The tests go from the cheapest and strictest to the most generous: the sides are equal; they are equal with definitions
-put in; they agree to the printed digits; they agree to the leading order in small letters; the equation follows from
-earlier equations. A claim `differs` only if both sides are read completely, contain the same letters, and none of these
-tests succeeds.
+The tests go from the cheapest and strictest to the most generous: the sides are equal; they are equal after
+substituting definitions; they agree to the printed digits; they agree to the leading order in small letters; the
+equation follows from earlier equations. If no test succeeds, a step `differs` only if all letters are understood, the
+right side has no new letters, and numbers show that the sides are not equal. A few tests find an error themselves, such
+as a bound that was converted wrongly.
 """
 
 from __future__ import annotations
@@ -29,16 +30,16 @@ from derive.documents.meaning import Meaning, Meaningless, Value
 PLUS_MINUS = Symbol("±", real=True)
 POINTS = 4
 CLOSE = Rational(1, 10**9)
-MOST_COMBINED = 6
-LARGEST_GOAL = 400  # operations of an equation of motion
-MOST_SIGNS = 3  # of absolute values
+MOST_COMBINED = 6  # number of the last equations that are combined
+LARGEST_GOAL = 400  # the most operations of an equation that is compared
+MOST_SIGNS = 3  # number of absolute values whose signs are tried
 STRICT = ("<", ">", "<<", ">>", "!=")
-CONVERTED = 0.01  # greatest relative difference of a bound and its conversion with a slip
+CONVERTED = 0.01  # two bounds with a greater relative difference are not one bound in different units
 SMALL = (Rational(1, 100), Rational(1, 1000))
 
 
 def same(left: Value, right: Value) -> bool:
-    """Whether two values are equal, for both values of ±."""
+    """Whether two values are equal for both values of ±; the two sides may use it with opposite signs."""
     if isinstance(left, MatrixBase) != isinstance(right, MatrixBase):
         return False
     if isinstance(left, MatrixBase) and left.shape != right.shape:
@@ -68,7 +69,7 @@ class Decision:
     meaning: Meaning
     known: Known
     cues: frozenset[Cue]
-    thorough: bool = True  # also combine earlier equations; the likeliest reading only
+    thorough: bool = True  # also combine earlier equations; true only for the likeliest reading
 
     def verdict(self) -> Verdict:
         for test in (
@@ -165,7 +166,7 @@ class Decision:
         return Verdict(Outcome.DEFINES, f"a value for {_word(letter)} squared")
 
     def of_known_form(self, letter: Symbol, value: Expr) -> Verdict | None:
-        """A Lagrangian in letters for the energies is their difference."""
+        """Blame a kinetic energy with a negative square, and a Lagrangian that is not T - U in its letters."""
         named = self.meaning.symbols.get(letter)
         if named is not None and named.base in ("T", "K") and not named.dots and self.is_negative(value):
             return Verdict(Outcome.DIFFERS, "a kinetic energy does not fall when a speed grows")
@@ -195,7 +196,7 @@ class Decision:
         return any(number.real < 0 for numbers in squares if numbers is not None for number in numbers)
 
     def of_root(self, letter: Symbol, value: Expr) -> Verdict | None:
-        """A letter with an index names a root of an earlier equation for the letter without it."""
+        """A letter with an index names a root of an earlier equation for the letter without the index."""
         if not self.claim.row.block.display or not self.thorough:
             return None
         found = root_equation(letter, self.meaning, self.known)
@@ -225,7 +226,7 @@ class Decision:
         return None
 
     def of_used_letter(self, letter: Symbol) -> Verdict | None:
-        """A letter of earlier equations gets a value: it follows from them, or they may give another value."""
+        """A letter of earlier equations gets a value, which either follows from them or contradicts them."""
         if not any(letter in equation.free_symbols for equation, _ in self.known.equations):
             return None
         if (found := self.together()) is not None:
@@ -266,7 +267,7 @@ class Decision:
         return None
 
     def follows_already(self, letter: Symbol, value: Expr) -> int | None:
-        """Return the earlier equation from which the value of a letter follows, or None."""
+        """Return the number of the claim from whose equation the value of a letter follows, or None."""
         for equation, number in reversed(self.known.recent()):
             if letter in equation.free_symbols and _solves(equation, letter, value):
                 return int(number)
@@ -305,10 +306,10 @@ class Decision:
         if self.known.conditions and not any(isinstance(each, MatrixBase) for each in (self.left, self.right)):
             difference, used = expanded(self.known, self.left - self.right, sure=True)
             if used and not difference.has(Integral) and same(difference, Integer(0)):
-                return Verdict(Outcome.HOLDS, "the two sides are equal with earlier results put in", used)
+                return Verdict(Outcome.HOLDS, "the two sides are equal after substituting earlier results", used)
         for (left, right), used in self.expansions:
             if same(left, right):
-                return Verdict(Outcome.HOLDS, "the two sides are equal with earlier results put in", used)
+                return Verdict(Outcome.HOLDS, "the two sides are equal after substituting earlier results", used)
         return None
 
     # Numbers and approximations
@@ -379,7 +380,7 @@ class Decision:
     # Conditions and equations
 
     def condition(self) -> Verdict | None:
-        """An inequality holds if it is an earlier one times a positive factor."""
+        """Decide a comparison of two numbers or a bound in other units; any other inequality is a condition."""
         if self.claim.relation not in ("<", ">", "<=", ">=", "<<", ">>", "!="):
             return None
         difference = self.left - self.right if not isinstance(self.left, MatrixBase) else None
@@ -456,7 +457,7 @@ class Decision:
             expanded = sympy.expand(left - right)
             for equation, number in reversed(recent):
                 if expanded.free_symbols == equation.free_symbols and is_multiple(expanded, equation):
-                    return Verdict(Outcome.HOLDS, "an earlier equation with definitions put in", (*used, number))
+                    return Verdict(Outcome.HOLDS, "an earlier equation after substituting definitions", (*used, number))
         for equation, number in reversed(recent[-4:]):
             if Cue.APPROXIMATE in self.cues and equation.free_symbols >= wanted.free_symbols:
                 ratio = _approximate_multiple(wanted, equation, self.meaning)
@@ -506,7 +507,7 @@ class Decision:
         return symbol in self.difference.free_symbols
 
     def implied(self) -> Verdict | None:
-        """A step brings in a letter: it holds if a relation that is not written holds."""
+        """A step that introduces one letter holds if a relation that the document does not state holds."""
         if not self.claim.is_step or isinstance(self.difference, MatrixBase) or self.claim.relation != "=":
             return None
         left, right = self.expansions[-1][0] if self.expansions else (self.left, self.right)
@@ -524,12 +525,10 @@ class Decision:
             return None
         value = sympy.factor(found[0])
         self.known.define(new[0], value, self.claim.number, implied=True)
-        return Verdict(
-            Outcome.UNDECIDED, f"this holds if {_word(new[0])} = {value}, which the document does not say before"
-        )
+        return Verdict(Outcome.UNDECIDED, f"this holds if {_word(new[0])} = {value}, which no earlier row states")
 
     def otherwise(self) -> Verdict:
-        """Accuse only a step whose sides are known completely; every other claim stays undecided."""
+        """Blame only a step, or the value of a computed rate, whose sides are known completely."""
         left, right = self.expansions[-1][0] if self.expansions else (self.left, self.right)
         computed = isinstance(self.left, Symbol) and self.known.is_kinematic(self.left)
         display = self.claim.row.block.display
@@ -587,7 +586,7 @@ class Decision:
         ]
 
     def with_several_values(self) -> Symbol | None:
-        """Return a letter that only one side contains and to which the rows before give several values in one part."""
+        """Return a letter of one side only, or of its definition, that has several values in one part."""
         one_side = self.left.free_symbols ^ self.right.free_symbols
         for symbol in sorted(one_side, key=str):
             definition = self.known.latest(symbol)
@@ -601,7 +600,7 @@ class Decision:
         return None
 
     def stated(self) -> Verdict:
-        """Return the verdict on an equation that begins a chain: a law, a new equation, or not known to follow."""
+        """Return the verdict on an equation that begins a chain and does not follow from earlier rows."""
         symbols = self.left.free_symbols | self.right.free_symbols
         if isinstance(self.left, Symbol) and self.left in self.meaning.evaluations:
             return Verdict(Outcome.DEFINES, "a condition at one instant or place")
@@ -636,7 +635,7 @@ class Decision:
         return len(letters) == 1 and {0, 1} <= dots
 
     def holds_in_motion_only(self, left: Value, right: Value) -> bool:
-        """Whether one side only contains second rates, or a rate of a momentum, which equations of motion determine."""
+        """Whether a second rate or a rate of a momentum, as equations of motion give, is on one side only."""
         letters = self.meaning.symbols
         for each in left.free_symbols ^ right.free_symbols:
             letter = letters.get(each)
@@ -645,7 +644,7 @@ class Decision:
         return False
 
     def special_case(self, left: Value, right: Value) -> bool:
-        """Whether letters of the left side may have got values in words."""
+        """Whether the text may have given values to letters of the left side."""
         if any((letter := self.meaning.symbols.get(each)) is not None and letter.dots
                for each in left.free_symbols - right.free_symbols):  # fmt: skip
             return True  # at rest
@@ -681,7 +680,7 @@ def _solves(equation: Expr, letter: Symbol, value: Expr) -> bool:
 
 
 def _combination(wanted: Expr, equations: list[tuple[Expr, int]]) -> tuple[int, ...] | None:
-    """Return the numbers of equations whose sum or difference, times a number, is the wanted one."""
+    """Return the claims of two or three equations whose sum or difference is a multiple of the wanted one."""
     goal = fingerprint(wanted)
     for count in (2, 3):
         for chosen in combinations(equations, count):
@@ -707,7 +706,7 @@ def is_multiple(wanted: Expr, equation: Expr) -> bool:
 
 
 def _ratios(wanted: Expr, equation: Expr) -> Iterator[Expr]:
-    """Yield the factors by which an equation may have been multiplied: one term divided by each term of the other."""
+    """Yield possible factors between two equations: the first term of one divided by each term of the other."""
     first = _terms(wanted)[0]
     terms = _terms(equation)
     for term in terms:
@@ -814,7 +813,7 @@ def _approximate_multiple(wanted: Expr, equation: Expr, meaning: Meaning) -> boo
 
 
 def counterexample(left: Value, right: Value) -> str:
-    """Return letters with simple values for which the two sides are real and differ, and the values of the sides."""
+    """Return as text the values of two sides where they are real and differ, and the values of the letters there."""
     symbols = sorted(left.free_symbols | right.free_symbols, key=str)
     for point in _simple_points(symbols):
         for one, other in zip(_entries(left), _entries(right), strict=False):

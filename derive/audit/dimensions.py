@@ -25,7 +25,7 @@ USUAL = {  # the powers of mass, length and time
 }  # fmt: skip
 MOST_CANDIDATES = 12
 FEWEST_CLAIMS = 6
-Form = dict[str, Fraction]  # the exponents of letters in a product; its dimension is the product of theirs
+Form = dict[str, Fraction]  # the exponents of the letters in a product
 
 
 class Unclear(Exception):
@@ -34,7 +34,7 @@ class Unclear(Exception):
 
 @dataclass
 class Equation:
-    """A product of letters whose dimension is given: that of a number, or that of a usual letter."""
+    """A product of letters with its dimension: none if a claim gives it, or the usual dimension of a letter."""
 
     source: int  # the number of a claim, or -1
     form: Form
@@ -99,7 +99,7 @@ def _conflicts(equations: Sequence[Equation]) -> list[set[int]]:
 
 
 def usual(equations: Sequence[Equation], meaning: Meaning) -> Iterator[Equation]:
-    """Yield what usual letters mean; an angle is a number."""
+    """Yield the dimensions that some letters usually have; an angle has none."""
     names = {each for equation in equations for each in equation.form}
     yield Equation(-1, {"t": Fraction(1)}, (Fraction(0), Fraction(0), Fraction(1)))
     for symbol, letter in meaning.symbols.items():
@@ -112,7 +112,7 @@ def usual(equations: Sequence[Equation], meaning: Meaning) -> Iterator[Equation]
 
 
 def equations_of(claim: Claim, meaning: Meaning) -> Iterator[Equation]:
-    """Yield one equation for each pair of terms of a claim."""
+    """Yield equations that give all terms of a claim the same dimension."""
     if claim.values is None or claim.relation not in ("=", ":=", "~", "<", ">", "<=", ">="):
         return
     left, right = claim.values
@@ -135,7 +135,7 @@ def equations_of(claim: Claim, meaning: Meaning) -> Iterator[Equation]:
 
 
 def form_of(value: Expr, meaning: Meaning, found: list[Form]) -> Form | None:
-    """Return the form of an expression, None for zero; what its parts say about dimensions is added to `found`."""
+    """Return the form of an expression, None for zero; add to `found` the products that must be dimensionless."""
     if value == 0:
         return None
     if value.is_Number or value.is_NumberSymbol:

@@ -1,7 +1,8 @@
 """The comparison of a document with the results of a derivation, so that a wrong method is found, too.
 
 The results arrive as LaTeX and are read like the rows of the document, so that both are written in the same letters.
-Each problem is compared with the one section that contains most of its results.
+Each problem is compared with the section that states most of its steps. Other sections are compared, too, if they state
+at least three steps, or at least one and are next to the best section.
 """
 
 from __future__ import annotations
@@ -26,8 +27,8 @@ from derive.documents.parser import Unreadable, parsed
 from derive.documents.source import Format, source_of
 from derive.documents.syntax import Abs, Der, EvalBar, Fun, Letter, Node
 
-SECONDS = 5.0  # of processor time for one result
-LEAST_SCORE = 3  # steps that a section states; a second solution may have fewer of them than the first
+SECONDS = 5.0  # seconds of processor time for one result
+LEAST_SCORE = 3  # steps that a section must state to be compared as a second solution
 NAMED = (Letter, Abs, Der, EvalBar, Fun)
 
 
@@ -78,7 +79,7 @@ class _Result:
 
     @property
     def entries(self) -> list[Expr]:
-        """Return the different entries of a list or matrix that are not zero or one."""
+        """Return the different entries of a list or matrix that contain letters."""
         if not isinstance(self.right, MatrixBase):
             return []
         return [each for each in dict.fromkeys(self.right) if each.free_symbols]
@@ -120,7 +121,7 @@ def compared(
 
 
 def _of(expected: Expected, sections: list[_Section]) -> Compared:
-    """Return where the sections state an answer; a row with another value is blamed if it is the last of its letter."""
+    """Return where the sections state an answer, and blame the ends of chains that give its letter another value."""
     found = Compared(expected, Status.UNREAD if all(expected.key not in each.results for each in sections) else
                      Status.MISSING)  # fmt: skip
     for section in sections:
@@ -250,7 +251,7 @@ class _Section:
         return found
 
     def states(self, result: _Result, claim: Claim) -> bool:
-        """Whether a claim states a result when the definitions of the document are put in, or to the printed digits."""
+        """Whether a claim states a result after substituting definitions of the document, or to the printed digits."""
         if claim.values is None:
             return False
         if any(_states(result, claim, *values) for values in self.expanded(result, claim)):
@@ -272,7 +273,7 @@ class _Section:
         return decision.rounded() is not None
 
     def contradicts(self, result: _Result, claim: Claim, stated: int | None) -> bool:
-        """Whether the last value of a letter is another one than the derived value, in the same letters."""
+        """Whether the last value of a letter, in letters of the answers, differs from the derived value."""
         if claim.values is None or claim.relation not in ("=", "~") or (stated is not None and claim.number <= stated):
             return False
         value = claim.values[1]

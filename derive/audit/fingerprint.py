@@ -19,7 +19,7 @@ CLOSE = 1e-7
 
 @lru_cache(maxsize=20_000)
 def number_of(name: str, point: int) -> float:
-    """Return the number that a letter has at a point, between 0.4 and 2."""
+    """Return the number of a letter at a point: 1 or -1 for ±, otherwise a number between 0.4 and 2."""
     digest = blake2b(f"{name}|{point}".encode(), digest_size=6).digest()
     if name == "±":
         return 1.0 if point % 2 else -1.0

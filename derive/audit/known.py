@@ -13,11 +13,11 @@ from derive.audit.claims import Definition
 from derive.documents.meaning import Meaning, Value
 from derive.documents.syntax import Letter
 
-ROUNDS = 8  # of substitution
-LARGEST = 4000  # operations of an expression that is still expanded
+ROUNDS = 8  # rounds of substitution
+LARGEST = 4000  # the most operations of an expression after substitution
 LAST_EQUATIONS = 24
 MOMENTA = ("p", "l", "L", "J", "ell")
-ASSUMED = -1  # the number of the claim for what is assumed
+ASSUMED = -1  # in place of the number of a claim, for an assumed equation
 
 
 @dataclass
@@ -31,9 +31,9 @@ class Known:
     bounds: list[tuple[Symbol, str, Expr, int]] = field(default_factory=list)  # letter, relation, number, claim
     slips: dict[Symbol, Definition] = field(default_factory=dict)  # the values that wrong rows give
     seen: set[Symbol] = field(default_factory=set)  # the letters of earlier claims
-    conditions: set[int] = field(default_factory=set)  # claims that hold in one case or at one instant only, perhaps
+    conditions: set[int] = field(default_factory=set)  # claims that may hold in one case or at one instant only
     named: set[Symbol] = field(default_factory=set)  # letters to which a display gave a value
-    kept: dict[object, Any] = field(default_factory=dict)  # what `systems` makes of this knowledge
+    kept: dict[object, Any] = field(default_factory=dict)  # results that `systems` computed from this knowledge
 
     def define(
         self, symbol: Symbol, value: Expr, claim: int, implied: bool = False, part: int = -1, chain: int = -1
@@ -56,7 +56,7 @@ class Known:
         where.setdefault(symbol, []).append(Definition(symbol, value, claim, implied, part, chain))
 
     def assume(self, symbol: Symbol, value: Expr) -> None:
-        """Take over a value that the document does not state."""
+        """Remember the assumed value of a letter."""
         where = self.definitions if value.free_symbols else self.numbers
         if symbol not in value.free_symbols:
             where.setdefault(symbol, []).append(Definition(symbol, value, ASSUMED))
@@ -164,7 +164,7 @@ class Known:
         return bool(rates) and bool(sympy.expand(doubled - 2 * definition.value) == 0)
 
     def through(self, value: Expr, wanted: set[Symbol]) -> Expr:
-        """Put in the definitions of letters that depend on the variables of a derivative."""
+        """Substitute the definitions of letters that depend on the variables of a derivative."""
         by_rate = any((each := self.meaning.symbols.get(symbol)) is not None and each.dots for symbol in wanted)
         for _ in range(ROUNDS):
             found = {}
@@ -182,7 +182,7 @@ class Known:
         return value
 
     def expanded(self, *values: Value) -> Iterator[tuple[tuple[Value, ...], tuple[int, ...]]]:
-        """Yield the values with more and more definitions put in, and the numbers of the claims that gave these."""
+        """Yield the values after each round of substituting definitions, and the numbers of the claims used."""
         used: list[int] = []
         for _ in range(ROUNDS):
             free = set().union(*(each.free_symbols for each in values))
@@ -203,14 +203,14 @@ class Known:
             yield values, tuple(dict.fromkeys(used))
 
     def with_numbers(self, *values: Value) -> tuple[tuple[Value, ...], tuple[int, ...]]:
-        """Return the values with the numbers put in that letters have in an example."""
+        """Return the values after substituting numbers that claims give to letters, and these claims."""
         free = set().union(*(each.free_symbols for each in values))
         found = {symbol: each[-1] for symbol, each in self.numbers.items() if symbol in free}
         put_in = {symbol: each.value for symbol, each in found.items()}
         return tuple(each.xreplace(put_in) for each in values), tuple(each.claim for each in found.values())
 
     def recent(self) -> list[tuple[Expr, int]]:
-        """Return the last equations, and the last few also with the letters that are zero left out."""
+        """Return the last equations; the last few also with zeros and the values of derivatives substituted."""
         last = self.equations[-LAST_EQUATIONS:]
         zeros = {symbol: each[-1].value for symbol, each in self.numbers.items() if each[-1].value == 0}
         put_in = (
@@ -222,7 +222,7 @@ class Known:
         return last + [pair for each in last[-6:] for pair in self.with_derivatives(*each)]
 
     def with_derivatives(self, equation: Expr, number: int) -> Iterator[tuple[Expr, int]]:
-        """Yield an equation with the values of its derivatives put in."""
+        """Yield an equation after substituting the values of its derivatives."""
         found = {
             symbol: definition.value
             for symbol in equation.free_symbols

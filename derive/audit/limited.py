@@ -12,7 +12,7 @@ import sympy
 
 # SymPy raises these for expressions of a document that it cannot handle; the claim is then undecided, with the reason.
 FAULTS = (ValueError, TypeError, ZeroDivisionError, AttributeError, NotImplementedError, sympy.SympifyError)
-AGAIN = 0.5  # seconds after which the limit is enforced again
+AGAIN = 0.5  # seconds of processor time after which the limit is enforced again
 
 
 class OutOfTime(BaseException):
@@ -21,7 +21,7 @@ class OutOfTime(BaseException):
 
 @contextmanager
 def limited(seconds: float) -> Iterator[None]:
-    """Limit the time of the work in the `with` block; the clock of the time limit of a job around it goes on."""
+    """Limit the time of the work in the `with` block; a time limit of an enclosing job keeps running."""
 
     def stop(*_: object) -> NoReturn:
         signal.setitimer(signal.ITIMER_PROF, AGAIN)  # the exception is lost if it is raised while a cache is cleared

@@ -20,10 +20,10 @@ from derive.audit.systems import POINTS, Equation, expanded
 from derive.documents.meaning import Meaning, Meaningless
 from derive.documents.syntax import Letter, Node
 
-SMALL, SMALLEST = 1e-8, 1e-6  # relative to the value of an equation elsewhere; of this value
+SMALL, SMALLEST = 1e-8, 1e-6  # a residual relative to the value elsewhere; a value that counts as zero
 MOST_CHANGES = 4000
-MOST_TRIED = 6  # equations
-TOO_EASY = ("term", "extra factor")  # x = x_0 is not what x = x_0 cos(w t) means
+MOST_TRIED = 6  # number of equations that are tried
+TOO_EASY = ("term", "extra factor")  # changes not tried: dropping a factor would turn x_0 cos(w t) into x_0
 RENAMED = ("letter", "index", "dots")
 Shown = Callable[..., str]
 
@@ -88,7 +88,7 @@ class Nearness:
     def of_equation(
         self, left: Node, right: Node, equations: Sequence[Equation], wanted: Expr
     ) -> tuple[Edit, Equation] | None:
-        """Return a change with which an equation is an earlier one, and the earlier one."""
+        """Return a change that turns an equation into an earlier equation, and the earlier equation."""
         tried = 0
         for equation in equations:
             pivot = self.pivot(wanted, equation.value)

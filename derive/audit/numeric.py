@@ -26,7 +26,7 @@ class NoNumber(Exception):
 
 
 def at(value: Expr, number: Callable[[Symbol], complex]) -> complex:
-    """Return the number of an expression; `number` gives those of its letters."""
+    """Return the number of an expression; `number` returns the number of each letter."""
     if value.is_Symbol:
         return number(value)
     if value.is_Number or value.is_NumberSymbol:
@@ -59,7 +59,7 @@ class Numbers:
     point: int
     fixed: dict[Symbol, complex] = field(default_factory=dict)
     of_letters: dict[Symbol, complex] = field(default_factory=dict)
-    of_nodes: dict[int, tuple[Node, complex]] = field(default_factory=dict)  # the node keeps its id in use
+    of_nodes: dict[int, tuple[Node, complex]] = field(default_factory=dict)  # the kept node prevents reuse of its id
 
     def of_symbol(self, symbol: Symbol) -> complex:
         if symbol in self.fixed:
@@ -155,7 +155,7 @@ def spanned(rows: Sequence[Sequence[complex]], wanted: Sequence[complex]) -> boo
 
 
 def determined(rows: Sequence[Sequence[complex]], column: int, constant: int) -> complex | None:
-    """Return the number that linear equations give to one column, or None; `constant` is the column of the rest."""
+    """Return the number that linear equations give to one column, or None; `constant` has the constant terms."""
     order = [i for i in range(len(rows[0])) if i not in (column, constant)] + [column, constant]
     matrix = [[row[i] for i in order] for row in rows]
     used = 0

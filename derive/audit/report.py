@@ -36,7 +36,7 @@ def summary(audit: Audit) -> dict[str, int]:
 
 
 def as_text(audit: Audit, every: bool) -> str:
-    """Return the rows that differ, each with its place and its probable reading; with `every`, all rows."""
+    """Return the rows that differ or have a suggestion, each with its place; with `every`, return all rows."""
     shown = [_told(audit, claim, every) for claim in audit.claims if every or _is_noteworthy(_verdict(claim))]
     counted = summary(audit)
     parts = [f"{counted[str(outcome)]} {words}" for outcome, words in WORDS.items() if counted[str(outcome)]]
@@ -82,9 +82,9 @@ def _told(audit: Audit, claim: Claim, every: bool) -> str:
     if lines := _lines(audit, verdict):
         notes.append(f"given line {', '.join(map(str, lines))}")
     if verdict.inherits is not None:
-        notes.append(f"carries on the slip of line {audit.claims[verdict.inherits].row.line}")
+        notes.append(f"repeats the slip of line {audit.claims[verdict.inherits].row.line}")
     if carrying := [each.row.line for each in audit.claims if _verdict(each).inherits == claim.number]:
-        notes.append(f"carried on in line {', '.join(map(str, dict.fromkeys(carrying)))}")
+        notes.append(f"repeated in line {', '.join(map(str, dict.fromkeys(carrying)))}")
     if ASSUMED in verdict.given:
         notes.append("given an assumption of the command line")
     suggestion = f"probably {verdict.suggestion}: {verdict.why_plausible}" if verdict.suggestion else None

@@ -165,7 +165,7 @@ def _of_sum(node: Add, shown: Callable[[Span], str]) -> Iterator[Edit]:
 
 
 def _other_numbers(text: str) -> Iterator[str]:
-    """Yield numbers that differ in one digit, by one, or by a factor of two."""
+    """Yield numbers with one digit changed or left out, or that differ by one or by a factor of two or ten."""
     seen = {text}
     for i, char in enumerate(text):
         if char.isdigit():

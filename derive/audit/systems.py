@@ -22,7 +22,7 @@ from derive.documents.syntax import Letter
 
 MOST_EQUATIONS = 8
 POINTS = 2
-LARGEST = 300  # operations of an equation
+LARGEST = 300  # an equation with as many operations is left out
 LARGEST_LAGRANGIAN = 500
 LARGEST_CONSTRAINT = 60
 HIGHEST_POWER = 6
@@ -38,9 +38,9 @@ class Equation:
 
 
 def equations_of(known: Known, meaning: Meaning, without: Symbol | None = None, sure: bool = False) -> list[Equation]:
-    """Return the equations that earlier rows give, the last ones first, with definitions put in.
+    """Return the equations that earlier rows give, the last ones first, with definitions substituted.
 
-    With `sure`, what may hold in one case only is left out: conditions in sentences, and solutions in the time.
+    `sure` leaves out conditions in sentences and solutions in the time, which may hold in one case only.
     """
     state = (len(known.equations), sum(map(len, known.definitions.values())), without, sure)
     if state not in known.kept:
@@ -79,7 +79,7 @@ def _equations_of(known: Known, meaning: Meaning, without: Symbol | None, sure: 
 def expanded(
     known: Known, value: Expr, without: Symbol | None = None, sure: bool = False
 ) -> tuple[Expr, tuple[int, ...]]:
-    """Return a value with all definitions put in, except the one of the letter that is asked for."""
+    """Return a value after substituting definitions that do not involve the letter `without`, and the claims used."""
     used: list[int] = []
     for _ in range(6):
         found = {}
@@ -115,7 +115,7 @@ def _is_solution(symbol: Symbol, value: Expr, known: Known) -> bool:
 
 
 def rates(value: Expr, meaning: Meaning, known: Known) -> Iterator[Expr]:
-    """Yield the first and second time derivatives of an equation without second rates."""
+    """Yield the time derivatives of an equation without second rates; the second one only if it has no rates."""
     letters = [meaning.symbols[each] for each in value.free_symbols if each in meaning.symbols]
     if any(each.dots >= 2 for each in letters) or any(each in meaning.derivatives for each in value.free_symbols):
         return
@@ -183,7 +183,7 @@ def motion(known: Known, meaning: Meaning) -> Iterator[tuple[Expr, tuple[int, ..
 def root_equation(letter: Symbol, meaning: Meaning, known: Known) -> tuple[Symbol, Expr, int] | None:
     """Return the letter without its index, and the last equation of which `letter` may name a root: w_1, x_0.
 
-    The equation has no rates, and contains the letter in two terms at least or beside other letters.
+    The equation has no rates and at least two terms, and none of the terms is the letter itself.
     """
     named = meaning.symbols.get(letter)
     if named is None or not named.sub or named.dots or named.marks or named.base == "t":
@@ -194,7 +194,7 @@ def root_equation(letter: Symbol, meaning: Meaning, known: Known) -> tuple[Symbo
             continue
         found, _ = expanded(known, value, plain, sure=True)
         if any(map(known.is_rate, found.free_symbols)):
-            found = value  # a momentum stands for a number
+            found = value  # a momentum counts as a number, because its definition contains rates
         if plain not in found.free_symbols or len(sympy.Add.make_args(sympy.expand(found))) < 2:
             continue
         if any(known.is_rate(each) for each in found.free_symbols) or found.free_symbols & set(meaning.derivatives):
@@ -205,7 +205,7 @@ def root_equation(letter: Symbol, meaning: Meaning, known: Known) -> tuple[Symbo
 
 
 def vanishes(equation: Expr, letter: Symbol, value: Expr, meaning: Meaning, known: Known) -> bool | None:
-    """Whether an equation holds with a value for a letter; None if there are no numbers to see it."""
+    """Whether an equation holds with a value for a letter; None if the numbers cannot be computed."""
     try:
         for point in range(POINTS):
             basic = numbers(meaning, known, point)
@@ -259,7 +259,7 @@ class System:
         self.connect()
 
     def choose(self, equations: Sequence[Equation]) -> list[Symbol]:
-        """Return the letters to eliminate: those not in the wanted equation, second rates, and the letter asked for."""
+        """Return the letters to eliminate: those not in the wanted equation, rates, and the letter asked for."""
         if self.rates_only and self.letter is not None:
             both = self.wanted.free_symbols.union(*(each.value.free_symbols for each in equations))
             return sorted({each for each in both if self.known.is_rate(each)} | {self.letter}, key=str)

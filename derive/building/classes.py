@@ -1,8 +1,8 @@
 """The documents of a class: for each student a sheet, a key and solutions with the values of the student's variant.
 
-`students/` has the sheets and nothing else. `class/` has what only the instructor sees: the solutions, the keys and the
-table of all answers. What was made is recorded for each student, so a later run makes only documents whose inputs have
-changed, also after a run that was killed.
+`students/` has the sheets and nothing else. `class/` has the files for the instructor only: the solutions, the keys and
+the table of all answers. The documents of each student are recorded, so a later run makes only documents whose inputs
+have changed, also after a run that was killed.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ CACHE, MADE = ".derived", ".made"
 ANSWERS = "answers"
 KINDS = (SHEET, KEY, SOLUTIONS)
 COLUMNS = ("student", "name", "problem", "part", "answer", "formula", "value", "unit", "figures")
-AT_ONCE = 10  # students in one job, so that what a process has loaded and derived serves several of them
+AT_ONCE = 10  # the number of students in one job, which share the data that its process has loaded and derived
 LONGEST_ROSTER = 2_000_000  # bytes
 
 
@@ -52,7 +52,7 @@ class Student:
 
 @dataclass
 class ClassReport:
-    """How many students there are, for how many documents were made, and what went wrong."""
+    """The number of students, the number whose documents were made in this run, and the errors."""
 
     students: int = 0
     made: int = 0
@@ -82,7 +82,9 @@ def read_roster(path: Path) -> tuple[Student, ...]:
     columns = {(name or "").strip().lower(): name for name in table.fieldnames or ()}
     if "name" not in columns:
         place = Place(shown, 1, 1, lines[0] if lines else "", 1)
-        raise Rejected(Complaint("roster", "the roster has no column `name`", place, help="its first line names them"))
+        raise Rejected(
+            Complaint("roster", "the roster has no column `name`", place, help="name the columns in the first line")
+        )
     found: list[Student] = []
     taken: dict[str, int] = {}
     for row in table:
@@ -115,7 +117,7 @@ def code_of(name: str) -> str:
 
 @dataclass(frozen=True)
 class ClassDocuments:
-    """What the documents of a class have in common.
+    """The data that the documents of all students of a class share.
 
     inputs   the digest of all inputs that the students share
     """
@@ -142,15 +144,15 @@ class ClassDocuments:
         return [self.file(student, SHEET).with_suffix(".html"), *(self.file(student, kind) for kind in KINDS)]
 
     def record(self, student: Student) -> Path:
-        """Return the file that records what was made for a student."""
+        """Return the file that records the documents of a student."""
         return self.outputs / CLASS / MADE / f"{student.code}.json"
 
     def key(self, student: Student) -> str:
         return digest(self.inputs, student.name, student.code)
 
     def answers(self, student: Student) -> list[list[str]] | None:
-        """Return the rows of the table of answers, if the inputs of the student's documents are as they were, and the
-        documents are as they were made; otherwise None."""
+        """Return the student's rows of the table of answers if neither the inputs nor the documents have changed since
+        the documents were made; otherwise None."""
         try:
             known = json.loads(self.record(student).read_bytes())
             is_current = known["key"] == self.key(student)
@@ -205,7 +207,7 @@ def made_class(
                 put(crew, unmade[start : start + AT_ONCE])
             for outcome in crew.outcomes():
                 group = waiting.pop(outcome.job)
-                if outcome.error is not None and len(group) > 1:  # the worker died: each student gets one of their own
+                if outcome.error is not None and len(group) > 1:  # the worker died: each student gets a separate job
                     for student in group:
                         put(crew, [student])
                 elif isinstance(outcome.error, DeriveError):
@@ -309,7 +311,7 @@ def _write_answers(shared: ClassDocuments, students: Sequence[Student]) -> None:
 
 
 def plain(cell: str) -> str:
-    """Return a number unchanged, and any other cell so that no spreadsheet runs it as a formula."""
+    """Return a number unchanged, and any other cell in a form that no spreadsheet runs as a formula."""
     return cell if _is_number(cell) else harmless(cell)
 
 

@@ -1,4 +1,4 @@
-"""Grades answers: derives each problem in a worker, and then judges the answers to it there."""
+"""Grades answers: a worker derives each problem and then judges the answers to this problem."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from derive.grading.grading import SECONDS, Graded
 from derive.grading.outcomes import Outcome, Verdict
 
 _REPORT = "this is a bug in derive: report it with the answer and the files of the problem"
-CHUNK = 200  # most answers of one job
+CHUNK = 200  # the greatest number of answers in one job
 
 Asked = tuple[int, str, str, str]  # the number of the row, the name of the part, the answer, the code of the student
 
 
 @dataclass(frozen=True)
 class NotGraded:
-    """An answer that got no verdict, and the reason: its problem or its part does not exist, or is not derived."""
+    """An answer that got no verdict, and the reason: its problem or part does not exist, or the derivation fails."""
 
     complaint: Complaint
 
@@ -42,7 +42,7 @@ def grade_answers(
     """Return the result for each row, by the number of the row; `asked` are the answers by problem. With a seed, each
     answer is compared with the variant of its student.
 
-    If a worker fails, its answers are divided among new workers, so that one answer stops no other.
+    If a worker fails, its answers are divided among new workers, so that a bad answer does not stop the others.
     """
     found: dict[int, Result] = {}
     waiting: dict[Job, tuple[str, Sequence[Asked]]] = {}

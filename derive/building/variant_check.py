@@ -1,8 +1,8 @@
 """Many draws of the variants of a problem: how its answers are distributed, and which draws are degenerate.
 
 The derivation is made once for each structure. A structure is one choice of everything that varies, except the numbers
-of letters. The numbers of a draw are then put into the derived answers. A few draws are also derived from the
-beginning, and their numbers are compared with those of the quick way.
+of letters. The numbers of a draw are then substituted in the derived answers. A few draws are also derived from the
+beginning, and their printed numbers are compared with these values.
 """
 
 from __future__ import annotations
@@ -30,10 +30,10 @@ from derive.steps.homogeneity import dimension_table
 from derive.steps.numeric import WholeSwing
 from derive.steps.step import Quantity
 
-COMPARED = 3  # draws that are also derived from the beginning
+COMPARED = 3  # number of draws that are also derived from the beginning
 BARS = " ▁▂▃▄▅▆▇█"
-WIDTH = 24  # bars of a distribution
-CLOSE = 1e-9  # relative difference of two values that count as equal
+WIDTH = 24  # number of bars of a distribution
+CLOSE = 1e-9  # the greatest imaginary part, relative to the value, that counts as zero
 
 
 @dataclass
@@ -47,14 +47,14 @@ class OfAnswer:
 
 @dataclass
 class OfProblem:
-    """What the draws of one problem gave.
+    """The results of the draws of one problem.
 
     structures  the number of different derivations
-    same        pairs of draws with the same choices
-    equal       for each answer, pairs of draws with different choices but the same value
+    same        number of pairs of draws with the same choices
+    equal       for each answer, the number of pairs of different variants with the same value
     degenerate  what is wrong with a draw -> the draws, each in words
     outcomes    for each answer, the outcomes of its rule, such as `oscillates`, each with the number of draws
-    compared    draws that were also derived from the beginning
+    compared    number of draws that were also derived from the beginning
     """
 
     id: str
@@ -99,9 +99,10 @@ def checked(root: Path, problem_id: str, draws: int, seed: str) -> OfProblem:
     for number, draw in enumerate(chosen):
         given = tuple((name, choice) for name, choice in draw.items() if name not in letters)
         if given not in structures:
-            structures[given] = _structure(root, problem_id, dict(given), problem.variations, found)
+            structures[given] = _structure(root, problem_id, dict(given), found)
         structure = structures[given]
         if structure is None:
+            found.degenerate.setdefault("the derivation fails", []).append(told(problem.variations, draw))
             continue
         point = {**structure.point} | {
             letter: value for each in of_letters for letter, value in numbers[each.name, draw[each.name]].items()
@@ -150,8 +151,8 @@ class _Structure:
     assumed: Sequence[Any]
 
     def values(self, point: Mapping[Symbol, Any], draw: str, found: OfProblem) -> dict[str, float]:
-        """Return the value of each answer that has one; note an answer that has none, although all its letters have
-        numbers, and a condition that fails."""
+        """Return the value of each answer that has one; record as degenerate a draw in which an answer has no real
+        value or a condition of the derivation fails."""
         with mp.workdps(30):
             at = Values(dict(point))
             for condition in self.assumed:
@@ -183,16 +184,12 @@ def _holds(condition: Relation, at: Values) -> bool:
     ))  # fmt: skip
 
 
-def _structure(
-    root: Path, problem_id: str, given: Chosen, variations: Sequence[Variation], found: OfProblem
-) -> _Structure | None:
+def _structure(root: Path, problem_id: str, given: Chosen, found: OfProblem) -> _Structure | None:
     """Derive one structure; if this fails, its draws are degenerate, and the errors are reported."""
     try:
         problem = load_problem(root, problem_id, given or None)
         derivation, _, known, _ = derived(problem)
     except DeriveError as error:
-        words = ", ".join(f"{each.name} = {each.told(given[each.name])}" for each in variations if each.name in given)
-        found.degenerate.setdefault("the derivation fails", []).append(words or "every draw")
         found.complaints += error.complaints
         return None
     letters = {measured.symbol for measured in problem.measured}
@@ -224,7 +221,7 @@ def _unit(quantity: Quantity, dimensions: Mapping[Any, Dimension | None]) -> str
 def _compare(
     root: Path, problem_id: str, draw: Chosen, values: Mapping[str, float], words: str, found: OfProblem
 ) -> None:
-    """Derive a draw from the beginning, and compare the numbers that its page prints with the quick values."""
+    """Derive a draw from the beginning, and compare the printed numbers with the values from the derived formulas."""
     try:
         _, printed, _, _ = derived(load_problem(root, problem_id, draw))
     except DeriveError as error:

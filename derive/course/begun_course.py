@@ -41,6 +41,6 @@ def begun_course(folder: Path, title: str, template: Callable[[str], Path]) -> d
         message = f"the file `{taken[0]}` already exists in `{folder}`"
         raise Misused(Complaint("exists", message, help="choose an empty folder"))
     texts = {path: template(f"new/course/{name}").read_text(encoding="utf-8") for path, name in FILES.items()}
-    texts[COURSE] = texts[COURSE].replace("{title}", json.dumps(title, ensure_ascii=False))  # a string of YAML, too
+    texts[COURSE] = texts[COURSE].replace("{title}", json.dumps(title, ensure_ascii=False))  # JSON is YAML
     texts["README.md"] = texts["README.md"].replace("{heading}", " ".join(title.split()))
     return texts

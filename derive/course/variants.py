@@ -5,8 +5,8 @@
       theta: [30 deg, 45 deg, 60 deg]
       axis: [diagonal, x, y]                 a given value of another kind, so the derivation differs
 
-A choice replaces the value in the file, before anything is read; so a variant is a problem like any other. The choice
-of a student depends on the seed, the set, the problem, the student and the name only. So a new problem in a set, or
+A choice replaces the value in the file before anything is read, so a variant is a problem like any other. The choice
+of a student depends on the seed, the set, the problem, the student and the name only, so a new problem in a set, or
 another variation in a problem, changes no other choice.
 """
 
@@ -22,7 +22,7 @@ from derive.course.schema import Reader, wrong_type
 from derive.course.yaml_tree import Mapping, Scalar, Sequence, Tree, Word
 from derive.errors import Faults, did_you_mean
 
-MOST = 10_000  # choices of one name
+MOST = 10_000  # the most values of a range
 WANTED = "a range such as `10..30 cm in steps of 2`, or a list of at least two values"
 _NUMBER = r"[+-]?\d{1,15}(?:\.\d{1,15})?"
 _RANGE = re.compile(rf"\s*({_NUMBER})\s*\.\.\s*({_NUMBER})\s*(.*?)\s+in\s+steps\s+of\s+({_NUMBER})\s*")
@@ -71,7 +71,7 @@ def _choices(node: Tree, name: str, faults: Faults) -> tuple[Tree, ...]:
         return ()
     first, last, step = (Decimal(found[group]) for group in (1, 2, 4))
     if step <= 0 or last <= first:
-        faults.error("variants", "a range goes upwards, in steps above zero", node.place)
+        faults.error("variants", "a range must increase, with a positive step", node.place)
         return ()
     count = int((last - first) / step) + 1
     if not 1 < count <= MOST:
@@ -108,7 +108,7 @@ def check_variations(problem: Mapping, variations: tuple[Variation, ...], faults
         if _path(problem, variation.name) is None:
             known = [key.text for under in ("values", "given") for key, _ in _pairs(problem.get(under))]
             message = f"neither `values` nor `given` has `{variation.name}`, so it cannot vary"
-            help_line = did_you_mean(variation.name, known) or "give it a value there: the one of the problem itself"
+            help_line = did_you_mean(variation.name, known) or "write the value of the problem itself there"
             faults.error("variants", message, variation.name.place, help=help_line)
 
 

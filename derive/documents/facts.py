@@ -31,7 +31,7 @@ from derive.documents.syntax import (
 )
 
 Identity = tuple[str, str, frozenset[str], int, str]
-UNKNOWN: Identity = ("?", "", frozenset(), 0, "")  # the variable of a function that is written with a value only
+UNKNOWN: Identity = ("?", "", frozenset(), 0, "")  # the unknown variable of a function that appears only with values
 VARIABLES = frozenset({"t", "x", "y", "z", "r", "s", "theta", "phi", "q", "u", "tau"})
 KINDS = ("positive", "real", "integer", "constant", "changes", "vector", "tensor")
 ANGLES = frozenset({"theta", "phi", "psi", "alpha", "beta", "gamma", "chi"})
@@ -43,18 +43,18 @@ class Facts:
     products: Counter[Identity] = field(default_factory=Counter)  # letters before a bracket that is a factor
     timed: set[tuple[str, str, frozenset[str], str]] = field(default_factory=set)
     marked: set[Identity] = field(default_factory=set)  # vectors by an arrow or bold type
-    shapes: dict[tuple[int, Identity], tuple[int, int]] = field(default_factory=dict)  # in the scopes of the document
+    shapes: dict[tuple[int, Identity], tuple[int, int]] = field(default_factory=dict)  # shapes in a scope
     whole_arguments: Counter[Identity] = field(default_factory=Counter)
     alone: Counter[Identity] = field(default_factory=Counter)
     seen: Counter[Identity] = field(default_factory=Counter)
     integrated: Counter[Identity] = field(default_factory=Counter)
     subscripts: Counter[str] = field(default_factory=Counter)
-    has_brackets: bool = False  # whether {f, g} or <f, g> can be a Poisson bracket or a product
-    indices: set[str] = field(default_factory=set)  # of sums
-    declared: dict[Identity, str] = field(default_factory=dict)  # the kinds that the reader of the document gives
+    has_brackets: bool = False  # whether {f, g} or <f, g> can be a Poisson bracket or an inner product
+    indices: set[str] = field(default_factory=set)  # indices of sums
+    declared: dict[Identity, str] = field(default_factory=dict)  # the kinds that the reader of the document declares
 
     def declare(self, kinds: Mapping[Identity, str]) -> None:
-        """Take over the kinds of letters that the reader of the document gives."""
+        """Add the kinds of letters that the reader of the document declares."""
         self.declared.update(kinds)
         for (base, sub, marks, _, label), kind in kinds.items():
             if kind == "changes":
@@ -134,12 +134,12 @@ def facts_of(sides: Iterable[Node], equations: Iterable[tuple[Node, Node, int]])
 
 
 def _contains(node: Node, letter: Letter) -> bool:
-    """Whether a list contains the letter that it is set equal to, a vector and a length: `a = {a, 2a, 3a}`."""
+    """Whether a list contains the letter on the other side: `a = {a, 2a, 3a}` for a vector and a length."""
     return any(isinstance(each, Letter) and each.identity == letter.identity for each in node.walk())
 
 
 def shape_of(node: Node) -> tuple[int, int] | None:
-    """Return the shape of a matrix that is written out as a factor of a side, or None."""
+    """Return the shape of the only list or matrix that is written out as a factor of a side, or None."""
     node = _bare(node)
     if isinstance(node, Mat) and not node.determinant:
         rows, columns = len(node.rows), max(map(len, node.rows))
@@ -163,10 +163,10 @@ def _bare(node: Node) -> Node:
 
 
 def _preferred(node: Node) -> Iterable[Node]:
-    """Yield the nodes of a side; of an open node, those of its first alternative only."""
+    """Yield the nodes of a side; of an open node, those of one alternative: the first one, or a product."""
     yield node
     kids = node.alternatives[:1] if isinstance(node, Open) else node.kids
-    if isinstance(node, Open) and node.kind == "apply":  # its letter and its argument, but not a call yet
+    if isinstance(node, Open) and node.kind == "apply":  # the product has the letter and the argument, but no call
         kids = node.alternatives[1:]
     for kid in kids:
         yield from _preferred(kid)

@@ -1,8 +1,8 @@
 r"""The formulas of a document in their order: headings, sentences, displays with their rows, and their statements.
 
-A display is a block of rows. A row that begins with a relation goes on from the row before it, and a row that begins
-with a sign, under the same relation, is the rest of the side before it. A statement is a chain of sides, such as
-`a = b = c`; words and commas separate the statements of a row.
+A display is a block of rows. A row that begins with a relation continues the chain of the row before it. A row that
+begins with a sign after an alignment mark, or that follows an open bracket, continues the last side of the row before
+it. A statement is a chain of sides, such as `a = b = c`; words and commas separate the statements of a row.
 """
 
 from __future__ import annotations
@@ -65,7 +65,7 @@ WORDS = {"text", "textrm", "mbox", "textnormal", "intertext", "shortintertext", 
 
 
 MOST_FORMULAS = 20_000
-LONGEST_INLINE = 2_000  # characters of a formula in a sentence
+LONGEST_INLINE = 2_000  # the most characters of a formula in a sentence
 
 
 class Cue(StrEnum):
@@ -114,7 +114,7 @@ class Side:
 
 @dataclass
 class Statement:
-    """A chain of sides and the relations between them; `follows` is the statement whose last side it goes on from."""
+    """A chain of sides and the relations between them; `follows` is the statement whose last side it continues."""
 
     sides: list[Side]
     relations: list[str]
@@ -229,7 +229,7 @@ def read_document(source: Source) -> Document:
 
 
 def _skipped(text: str) -> Iterator[Span]:
-    """Yield the places of code, comments and pictures; an opening without its end opens nothing."""
+    """Yield the places of code, comments and pictures; an opening without its end is ignored."""
     position = 0
     missing: set[str] = set()
     while opening := _SKIPPED.search(text, position):
@@ -271,7 +271,7 @@ class _Reading:
         self.source, self.text, self.macros, self.hidden, self.headings = source, source.text, macros, hidden, headings
         self.count = 0
         self.last: Statement | None = None
-        self.main: Statement | None = None  # the statement with which a row that begins with a relation goes on
+        self.main: Statement | None = None  # the statement that a row with a relation at its beginning continues
         self.parts = sorted([*(each.span.start for each in headings), *(m.start() for m in _PART.finditer(self.text))])
 
     def blocks(self) -> list[Block]:
@@ -291,7 +291,7 @@ class _Reading:
         return found
 
     def sentence(self, outer: Span, display: bool) -> str:
-        """Return the words of the sentence in which a formula stands, with its formulas left out."""
+        """Return the words of the sentence that contains a formula, without its formulas."""
         before = self.text[max(0, outer.start - 600) : outer.start]
         before = re.split(r"[.!?]\s+(?=[A-Z$\\])|\n[ \t]*\n(?=\S)|\$\$\s*(?=[A-Z])", before.rstrip() + " ")[-1]
         if not before.strip() or len(before.strip()) < 3:
@@ -330,7 +330,7 @@ class _Reading:
             reach = len(self.text) if display else min(len(self.text), position + LONGEST_INLINE)
             close_at = re.compile(closing).search(self.text, position, reach)
             if close_at is None:
-                unclosed[closing] = reach  # no formula of this kind is closed before
+                unclosed[closing] = reach  # no sign before this position closes a formula of this kind
                 continue
             if not display and _LINE_BREAK.search(self.text, position, close_at.start()):
                 continue  # a dollar sign that opens no formula
@@ -398,7 +398,7 @@ class _Reading:
 
 
 def _without_definitions(tokens: list[Token]) -> list[Token]:
-    """Leave out the commands that are defined inside of a formula; they are known already."""
+    """Leave out the commands that are defined inside of a formula; they are already known."""
     found: list[Token] = []
     at = 0
     while at < len(tokens):
@@ -443,7 +443,7 @@ def _simplified(tokens: list[Token]) -> list[Token]:
             found += [*_environment_sign(token, "begin", name), *inner, *_environment_sign(token, "end", name)]
         elif token.is_command("eval") and at < len(tokens) and tokens[at].is_command("cdot"):
             while at < len(tokens) and not tokens[at].is_command(*ARROWS, "\\\\", "qc", "quad", "qquad"):
-                at += 1  # the note `| \\cdot 2` says what both sides are multiplied by
+                at += 1  # the note `| \\cdot 2` says by what both sides are multiplied
         elif token.is_command("hline", "midrule", "toprule", "bottomrule", "centering"):
             continue
         elif token.is_command("qq"):
@@ -528,7 +528,7 @@ def _depth_change(token: Token) -> int:
 
 
 def depths(tokens: Sequence[Token]) -> Iterator[tuple[Token, int]]:
-    r"""Yield each token with the depth of the brackets around it; a bracket after `\left` is part of it."""
+    r"""Yield each token with the depth of the brackets around it; a bracket after `\left` is part of `\left`."""
     depth = 0
     before: Token | None = None
     for token in tokens:
@@ -541,7 +541,7 @@ def depths(tokens: Sequence[Token]) -> Iterator[tuple[Token, int]]:
 
 
 def _is_open(tokens: Sequence[Token]) -> bool:
-    """Whether a bracket is not closed, so that the next row goes on inside of it."""
+    """Whether a bracket is not closed, so that the next row continues inside it."""
     return sum(each.is_mark("(", "[") - each.is_mark(")", "]") for each in tokens) > 0
 
 
@@ -614,7 +614,7 @@ def rows_of(tokens: Sequence[Token]) -> list[tuple[list[list[Token]], str, str]]
 
 
 def _is_alignment(tokens: Sequence[Token], begin: int) -> bool:
-    r"""Whether an `array` aligns equations: a cell of it is a relation alone, and no bracket opens before it."""
+    r"""Whether an `array` aligns equations: it contains a relation, and no `\left` with a bracket is before it."""
     before = [each for each in tokens[max(0, begin - 3) : begin] if each.kind is not Kind.SPACE]
     if len(before) >= 2 and before[-2].is_command("left"):
         return False

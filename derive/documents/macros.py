@@ -104,7 +104,7 @@ class _Expansion:
             at += 1
             self.count(1, token)
             macro = self.macros.get(token.text) if token.kind is Kind.COMMAND else None
-            if macro is None or macro.name in token.origin:  # `\renewcommand{\vec}{\mathbf{\vec{#1}}}` ends there
+            if macro is None or macro.name in token.origin:  # `\vec` within its own definition is the original one
                 yield token
                 continue
             if depth > DEEPEST_CALLS:

@@ -1,8 +1,9 @@
 """The nodes of a side as an expression of SymPy, or the reason why they have no value.
 
-A letter and its rates are symbols of their own: `x`, `x'`, `x''`. A vector is a triple with opaque components. The
-derivative of a letter about which nothing is known is a symbol, too. Letters stand for positive numbers unless they
-change with time, are components or arguments of a sine; this is what authors mean by sqrt(m^2) = m.
+A letter and each of its rates are separate symbols: `x`, `x'`, `x''`. A vector is a triple with opaque components. The
+derivative of a letter about which nothing is known is a symbol, too. Letters are positive numbers unless they change
+with time, are functions, or have a name that is usual for an angle, a coordinate or a constant of either sign. Authors
+rely on this in sqrt(m^2) = m.
 """
 
 from __future__ import annotations
@@ -70,11 +71,11 @@ from derive.units import read_unit
 
 Value: TypeAlias = Any  # an expression, or an immutable matrix: SymPy has no types
 LARGEST_POWER = 60
-MOST_TERMS = 20  # of a sum between numbers
+MOST_TERMS = 20  # the most terms of a sum whose limits are numbers
 LONGEST_NUMBER = 60
-MOST_BITS = 4000  # of a number that a power makes
+MOST_BITS = 4000  # the most bits of a power of a number
 LARGEST_DETERMINANT = 6
-MOST_NESTED_TERMS = 2000  # of nested sums
+MOST_NESTED_TERMS = 2000  # the most terms of nested sums
 
 
 class Meaningless(Exception):
@@ -114,7 +115,7 @@ class Meaning:
     two_signs: bool = False
     left_out: tuple[Symbol, int] | None = None  # the letter and the order of the terms that are left out: O(x^2)
     sums: dict[Symbol, tuple[Expr, Symbol, str]] = field(default_factory=dict)  # term, index and range of open sums
-    terms: int = 1  # of the sums around the node that is read
+    terms: int = 1  # the number of terms of the sums around the current node
 
     def of(self, node: Node) -> Value:
         found = self._of(node)
@@ -125,7 +126,7 @@ class Meaning:
     def scalar(self, node: Node) -> Expr:
         found = self.of(node)
         if isinstance(found, MatrixBase):
-            raise Meaningless("a vector or matrix stands where a number is needed", node.span)
+            raise Meaningless("a vector or matrix appears where a number is needed", node.span)
         return found
 
     def _of(self, node: Node) -> Any:
@@ -262,7 +263,7 @@ class Meaning:
                 return left.cross(right)
             if mark == "cdot":
                 return left.dot(right)
-            raise Meaningless("two vectors stand side by side without `\\cdot` or `\\times`", span)
+            raise Meaningless("two vectors are side by side without `\\cdot` or `\\times`", span)
         if left.shape[1] == right.shape[0]:
             return left * right
         if mark == "cdot" and left.shape[0] == right.shape[0] and left.shape[1] == right.shape[1] == 1:
@@ -509,7 +510,7 @@ class Meaning:
         return total
 
     def written_with_prime(self, value: Expr, by: Symbol) -> Symbol | None:
-        """Return the derivative dy/dx that an expression contains if `by` is y', which is the same in d/dy'."""
+        """Return the symbol dy/dx of an expression if `by` is y': both are the same derivative."""
         letter = self.symbols.get(by)
         if letter is None or not letter.primes:
             return None
@@ -539,7 +540,7 @@ class Meaning:
         return sympy.diff(term.xreplace(put_in), by)
 
     def rate_of(self, symbol: Symbol, by: Symbol, partial: bool) -> Expr:
-        """Return the derivative of a letter by another: its rate, zero, or a symbol if the document says nothing."""
+        """Return the derivative of a letter by another: its rate, zero, or a symbol if nothing is known about it."""
         if symbol in self.sums:
             term, index, bounds = self.sums[symbol]
             if self.has_index(by, index):
@@ -623,7 +624,7 @@ class Meaning:
         return value
 
     def along_variables(self, value: Any, variables: set[Symbol]) -> Any:
-        """Put in the letters that earlier rows define by the variables, such as r = R z/h in an integral over z."""
+        """Substitute the letters that earlier rows define by the variables, such as r = R z/h in an integral over z."""
         found = {}
         for symbol in value.free_symbols - variables:
             definition = self.defined(symbol)
@@ -637,7 +638,7 @@ class Meaning:
         if sign.lower is None and sign.upper is None:
             return Integral(value, x)
         if sign.lower is None or sign.upper is None or sign.closed:
-            raise Meaningless("this integral has no limits that can be put in", sign.span)
+            raise Meaningless("this integral has no limits that can be substituted", sign.span)
         lower, upper = (
             self.scalar(each.right if isinstance(each, Condition) else each) for each in (sign.lower, sign.upper)
         )
@@ -670,7 +671,7 @@ class Meaning:
         return inner.subs(variable, ends[0]) - inner.subs(variable, ends[1])
 
     def evaluated(self, inner: Expr, variable: Symbol, at: Expr) -> Expr:
-        """Return a value at a place; what may depend on the variable without containing it gets a symbol."""
+        """Return a value at a place; a letter that may depend on the variable becomes a new symbol there."""
         put_in = {}
         for symbol in inner.free_symbols - {variable}:
             letter = self.symbols.get(symbol)
@@ -744,7 +745,7 @@ class Meaning:
         return "" if letter is not None and letter.base in ("N", "n", "d", "s") else str(self._of(bound))
 
     def summed(self, value: Any, index: Symbol, bounds: str) -> Any:
-        """Return a sum over an index: factors without the index stand before it, and each term is a symbol."""
+        """Return a sum over an index: factors without the index are taken out of it, and each term is a symbol."""
         if isinstance(value, MatrixBase):
             return value.applyfunc(lambda each: self.summed(each, index, bounds))
         total: Expr = Integer(0)
@@ -792,7 +793,7 @@ class Meaning:
         return str(symbol.name).replace(f"_{index.name}", f"_{mark}")
 
     def of_nabla(self, node: Nabla) -> Any:
-        """Return a gradient or its like; the derivatives of a letter by x, y and z are symbols."""
+        """Return a gradient, divergence, curl or Laplacian; the derivatives of a letter by x, y and z are symbols."""
         axes = [self.symbol(Letter(node.span, each)) for each in "xyz"]
         of = _inner_letter(node.of) or (node.of.head if isinstance(node.of, Apply) else None)
         if isinstance(node.of, Open) and node.of.kind == "apply":

@@ -96,7 +96,7 @@ class _Reader:
         return self.tokens[at] if at < len(self.tokens) else None
 
     def needed(self) -> Token:
-        """Return the next token; something must follow."""
+        """Return the next token; raise `Unreadable` if there is none."""
         if self.at >= len(self.tokens):
             raise Unreadable("something is missing here", self.tokens[-1].span if self.tokens else Span(0, 0))
         return self.tokens[self.at]
@@ -126,7 +126,7 @@ class _Reader:
         return token is not None and token.is_command(*names)
 
     def argument(self) -> list[Token]:
-        """Return the tokens of the next argument; of a number without braces, only its first digit."""
+        """Return the tokens of the next argument, which is only the first digit of a number without braces."""
         self.skip_spacing()
         token = self.peek()
         if token is None:
@@ -148,7 +148,7 @@ class _Reader:
         return value
 
     def inside(self, tokens: list[Token], span: Span) -> Node:
-        """Return the node of tokens of an argument or of a bracket."""
+        """Return the node for the tokens inside an argument or a bracket."""
         if not tokens:
             raise Unreadable("something is missing here", span)
         reader = _Reader(tokens, self.depth + 1)
@@ -199,7 +199,7 @@ class _Reader:
         return Add(begins.span.to(terms[-1][1].span), tuple(terms))
 
     def sign(self) -> str | None:
-        """Return the next sign, with several signs in a row made one."""
+        """Return the next sign; several signs in a row are combined."""
         sign = None
         while (token := self.peek()) is not None:
             if token.is_mark("+", "-"):
@@ -342,7 +342,7 @@ class _Reader:
         factors[:] = [("", Open(span, "slash", (Mul(span, (("", near), *rest[1:])), far)))]
 
     def divided_differentials(self, factors: list[tuple[str, Node]]) -> bool:
-        r"""Read the denominator of `\partial f/\partial x` or `df/dt`, if a differential stands before the slash."""
+        r"""Read the denominator of `\partial f/\partial x` or `df/dt`, if a differential is before the slash."""
         mark, top = factors[-1]
         differential = top.alternatives[0] if isinstance(top, Open) and top.kind == "letter d" else top
         if not isinstance(differential, Diff):
@@ -422,7 +422,7 @@ class _Reader:
 
     @staticmethod
     def second(applied: Node) -> Node:
-        """Return the bracket of a product of a letter with a bracket."""
+        """Return the bracket after a letter, as a factor of their product."""
         product = applied.alternatives[1] if isinstance(applied, Open) else applied
         return product.factors[1][1] if isinstance(product, Mul) else product
 
@@ -459,7 +459,7 @@ class _Reader:
         return Open(span, "apply", (as_function, Mul(span, (("", head), ("", as_product)))))
 
     def is_differential(self) -> bool:
-        """Whether `d` begins a differential: inside of an integral always, elsewhere one of two readings."""
+        """Whether `d` begins a differential: always in an integral, elsewhere as one of two readings."""
         token = self.peek()
         if token is None:
             return False
@@ -587,7 +587,7 @@ class _Reader:
     def primed(self, node: Node, count: int, span: Span) -> Node:
         if isinstance(node, Letter):
             return replace(node, primes=node.primes + count, span=node.span.to(span))
-        raise Unreadable("a prime can stand only at a letter", span)
+        raise Unreadable("a prime is allowed only at a letter", span)
 
     def with_subscript(self, node: Node, value: list[Token], script: Token) -> Node:
         label = self.label(value)
@@ -601,7 +601,7 @@ class _Reader:
             return self.labelled(node, label)
         if isinstance(node, Der | Frac | Fun | Root | Apply | Open):
             return self.labelled(node, label)
-        raise Unreadable("a subscript can stand only at a letter or a bracket", script.span)
+        raise Unreadable("a subscript is allowed only at a letter or a bracket", script.span)
 
     def labelled(self, node: Node, label: str) -> Node:
         inner = node.inner if isinstance(node, Group) else node
@@ -629,7 +629,7 @@ class _Reader:
                 return replace(node, label=_joined(node.label, label))
             if isinstance(node, Group | Mat | Vec | Frac):
                 return EvalBar(node.span.to(script.span), node, Text(script.span, label), None)
-            raise Unreadable("a superscript in words can stand only at a letter", script.span)
+            raise Unreadable("a superscript in words is allowed only at a letter", script.span)
         if plain and plain[0].is_mark("(") and plain[-1].is_mark(")") and isinstance(node, Letter):
             return replace(node, label=_joined(node.label, self.label(plain[1:-1])))
         power = self.inside(plain, script.span)
@@ -790,7 +790,7 @@ class _Reader:
         raise Unreadable(f"`\\{name}` is not known", token.span)
 
     def difference(self, token: Token) -> Node:
-        r"""Read `\Delta y` as one letter; `\Delta` before a script, a bracket or a sign is a letter of its own."""
+        r"""Read `\Delta y` as one letter; `\Delta` before a script, a bracket or a sign is a separate letter."""
         after = self.peek()
         if after is not None and (after.kind is Kind.LETTER or (after.kind is Kind.COMMAND and after.text in GREEK)):
             self.at += 1
@@ -986,7 +986,7 @@ class _Reader:
             return Letter(self.since(token), inner.text, marks=frozenset({mark}))
         if isinstance(inner, Pow | Mul | Add | Open | Apply):
             return Group(inner.span, inner, "{")
-        raise Unreadable(f"`\\{token.text}` can stand only at a letter", token.span)
+        raise Unreadable(f"`\\{token.text}` is allowed only at a letter", token.span)
 
     def command_word(self, token: Token, value: list[Token]) -> Node:
         r"""Read `\mathrm{...}` or `\operatorname{...}`: a function, a letter, a unit, or a word."""
@@ -1134,7 +1134,7 @@ class _Reader:
         return token is not None and token.kind is Kind.SCRIPT
 
     def factors_of_integral(self, items: list[Node]) -> int:
-        """Read the factors up to the end of the product, with inner integrals made one with this one."""
+        """Read the factors up to the end of the product, and merge inner integrals into this one."""
         while not self.ends():
             self.skip_spacing()
             token = self.peek()
@@ -1254,7 +1254,7 @@ class _Reader:
         return len(self.tokens), False
 
     def bracketed(self) -> Node:
-        r"""Read a bracket: a group, a triple, or the absolute value after `\left|`."""
+        r"""Read a bracket: a group, a list, an average, or the absolute value after `\left|`."""
         opener = self.needed()
         close, found = self.closing_of(opener)
         if not found:
@@ -1413,7 +1413,7 @@ def _is_product_with_bracket(node: Node) -> bool:
 
 
 def _equals_sign(tokens: Sequence[Token]) -> int | None:
-    """Return the position of the first sign of equality outside of braces."""
+    """Return the position of the first equals sign outside braces."""
     depth = 0
     for at, token in enumerate(tokens):
         depth += (token.kind is Kind.OPEN) - (token.kind is Kind.CLOSE)

@@ -14,7 +14,7 @@ from pathlib import Path
 
 from derive.errors import Complaint, Misused, Place, Rejected
 
-LARGEST = 4_000_000  # characters
+LARGEST = 4_000_000  # characters of a document
 
 
 class Format(StrEnum):
@@ -48,7 +48,7 @@ class Span:
 
 @dataclass(frozen=True)
 class Edit:
-    """One change made by the tidying: what stood at a line of the file, and what is read instead."""
+    """One change made by the tidying: the text in a line of the file, and the text that is read instead."""
 
     line: int
     was: str
@@ -94,7 +94,7 @@ class Source:
         return self.origins[position] if position < len(self.origins) else self.origins[-1] + 1
 
     def replace(self, pattern: str, reads: str | Callable[[re.Match[str]], str], within: str | None = None) -> None:
-        """Replace each match of a pattern, and log it; with `within`, only inside of matches of that pattern."""
+        """Replace each match of a pattern and record it; with `within`, only inside matches of `within`."""
         zones = [(0, len(self.text))]
         if within is not None:
             zones = [found.span() for found in re.finditer(within, self.text, re.DOTALL)]
@@ -123,7 +123,7 @@ def read_source(path: Path, shown: str | None = None) -> Source:
     name = shown or str(path)
     try:
         if path.stat().st_size > 4 * LARGEST:
-            raise Rejected(Complaint("too-large", f"`{name}` is larger than {LARGEST // 1_000_000} million characters"))
+            raise Rejected(Complaint("too-large", f"`{name}` is larger than {4 * LARGEST // 1_000_000} million bytes"))
         text = path.read_bytes().decode("utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")
     except OSError as error:
         raise Misused(Complaint("unreadable", f"`{name}` cannot be read: {error.strerror}")) from error
@@ -162,7 +162,7 @@ _JSON_CHARACTER = re.compile(r"\\u[dD][89abAB]..\\u[dD][c-fC-F]..|\\u[0-9a-fA-F]
 
 
 def _keep_prose_of_notebook(source: Source) -> None:
-    """Keep the cells in Markdown: each piece of text is found in the file, so that its place is known."""
+    """Keep only the Markdown cells of a notebook, and find the place of each character in the file."""
     try:
         read = json.loads(source.written)
         cells = [(cell["cell_type"], cell["source"]) for cell in read["cells"]]

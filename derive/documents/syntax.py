@@ -1,7 +1,7 @@
-r"""The nodes of a formula, as it is written: signs, brackets and differentials are kept.
+r"""The nodes of a formula as the author wrote it: signs, brackets and differentials are kept.
 
-A node of kind `Open` has several readings. `apply` is a function of the bracket or a product with it; `extent` is how
-far the argument of `\sin` reaches; `prime` is a derivative or a label; `superscript` is a power, a label or degrees;
+A node of kind `Open` has several readings. `apply` is a function of a bracket or a product with it; `extent` is how
+far the argument of `\sin` reaches; `superscript` is a power, a label or degrees;
 `letter d` is a differential or a letter; `word` is one name or a product of letters; `slash` is how far a denominator
 reaches.
 """
@@ -45,7 +45,7 @@ class Num(Node):
 
 @dataclass(frozen=True)
 class Letter(Node):
-    """A letter with its subscript and marks; it is the same letter whatever its dots are."""
+    """A letter with its subscript and marks; its `identity` does not depend on its dots."""
 
     base: str
     sub: str = ""
@@ -97,7 +97,7 @@ class Fun(Node):
     name: str
     argument: Node
     power: Node | None = None
-    base: Node | None = None  # of a logarithm
+    base: Node | None = None  # the base of a logarithm
 
 
 @dataclass(frozen=True)
@@ -140,7 +140,7 @@ class Nabla(Node):
 
 @dataclass(frozen=True)
 class Cases(Node):
-    """Values, each with the words or the formula that say when it holds."""
+    """Values, each with the words or the formula of its condition."""
 
     values: tuple[Node, ...]
     conditions: tuple[str, ...]

@@ -1,7 +1,7 @@
 r"""The tokens of a formula and their places.
 
 A token from a macro has the place of the call in the text, and `origin` names the chain of calls. The lexer treats all
-commands alike: `\frac` and `\foo` are both tokens of kind command.
+commands in the same way: `\frac` and `\foo` are both tokens of kind command.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from enum import StrEnum
 from derive.documents.source import Span
 
 MOST_TOKENS = 20_000  # in one formula, after its macros are expanded
-DEEPEST_CALLS = 30
+DEEPEST_CALLS = 30  # nested calls of macros
 
 
 class Kind(StrEnum):
@@ -25,7 +25,7 @@ class Kind(StrEnum):
     MARK = "mark"
     SCRIPT = "script"  # ^ or _
     CELL = "cell"  # &
-    SPACE = "space"  # only inside of text
+    SPACE = "space"  # a run of spaces, which counts only inside text
     PARAMETER = "parameter"  # #1 in the body of a macro
 
 
@@ -44,7 +44,7 @@ class Token:
 
 
 class TooLarge(Exception):
-    """A formula has too many tokens, or its macros call themselves without end."""
+    """A formula has too many tokens, or its macros expand too far."""
 
     def __init__(self, message: str, span: Span):
         super().__init__(message)
@@ -64,7 +64,7 @@ _PIECE = re.compile(
     r"|(?P<mark>.)",
     re.DOTALL,
 )
-_STARRED = {"operatorname*"}  # other names with a star end before it: `a\cdot*` is rare, `\omega*t` is not
+_STARRED = {"operatorname*"}  # for any other command the star is a separate token: `a\cdot*` is rare, `\omega*t` is not
 GREEK_LETTERS = {
     "α": "alpha", "β": "beta", "γ": "gamma", "δ": "delta", "ε": "epsilon", "ϵ": "epsilon", "ζ": "zeta", "η": "eta",
     "θ": "theta", "ϑ": "vartheta", "ι": "iota", "κ": "kappa", "λ": "lambda", "μ": "mu", "µ": "mu", "ν": "nu",
@@ -88,7 +88,7 @@ _SCRIPTS = ((_RAISED, "^", RAISED), (_LOWERED, "_", LOWERED))
 
 
 def tokens_of(text: str, start: int = 0, end: int | None = None) -> list[Token]:
-    """Return the tokens of a part of a text; a space counts only where it ends the name of a command."""
+    """Return the tokens of a part of a text, without comments; each run of spaces is one token."""
     found: list[Token] = []
     position, end = start, len(text) if end is None else end
     while position < end:

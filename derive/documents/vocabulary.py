@@ -57,14 +57,14 @@ CLOSERS = {")": ")", "]": "]", "}": "}", "rbrace": "}", "rangle": ">", "rvert": 
 INTEGRALS = {"int": 1, "iint": 2, "iiint": 3, "oint": 1, "intop": 1, "idotsint": 1, "oiint": 2}
 MATRICES = _words("matrix pmatrix bmatrix Bmatrix vmatrix Vmatrix smallmatrix array psmallmatrix")
 ELLIPSES = _words("ldots cdots dots dotsb vdots ddots dotsm dotsc")
-# Commands that many authors define alike; a definition in the document itself goes before them.
+# Commands that many authors define in the same way; a definition in the document itself takes precedence.
 DIFFERENTIALS = _words("dd diff differential d dif ud mathd")
 IMAGINARY = _words("I ii iu")
 AVERAGES = _words("braket ev expval mean avg expectationvalue ket bra mel innerproduct ip")
 FREQUENT_DERIVATIVES = _words(
     "dv pdv derivative pderivative odv fdv deriv pd od pdiff pder pderiv parder partialderivative"
 )
-# The commands of the package siunitx, as units and as what stands between them.
+# The commands of the package siunitx, as units and as the signs between units.
 UNIT_COMMANDS = {
     "newton": "N", "meter": "m", "metre": "m", "second": "s", "kilogram": "kg", "gram": "g", "joule": "J", "watt": "W",
     "radian": "rad", "hertz": "Hz", "pascal": "Pa", "kelvin": "K", "ampere": "A", "minute": "min", "hour": "h",

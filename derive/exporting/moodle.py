@@ -2,7 +2,7 @@
 
 With `stack`, a part whose answers are formulas becomes a question of the plugin STACK, which decides with Maxima
 whether the student's formula is equal. A part whose answers all have numbers becomes a numerical question or, with
-several answers, a cloze question; the tolerance is what rounding to the printed figures can change. Any other part
+several answers, a cloze question; the tolerance is half a unit of the last printed figure. Any other part
 becomes an essay. The general feedback of each question is the worked solution.
 
 Source of the formats: Moodle documentation, "Moodle XML format"; STACK documentation, "Authoring".
@@ -104,7 +104,7 @@ def _stack(answers: Sequence[Answer]) -> str:
             _element("questionvariables", _text(variables)),
             f'<specificfeedback format="html">{_text(feedback)}</specificfeedback>',
             "<questionnote><text></text></questionnote>",
-            # the letters of a problem are real, and those of positive kinds positive
+            # STACK simplifies as if all letters were real and positive
             "<questionsimplify>1</questionsimplify><assumepositive>1</assumepositive><assumereal>1</assumereal>",
             *(_input(number) for number, _ in numbered),
             *(_comparison(number, len(numbered)) for number, _ in numbered),

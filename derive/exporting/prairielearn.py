@@ -66,7 +66,7 @@ def _folder(set_id: str, title: str, question: Question, part: Part) -> dict[str
 
 
 def _without_tags(html: str) -> str:
-    """Return text in which no braces of TeX are tags of Mustache: `{{` becomes `{ {`."""
+    """Separate double braces of TeX, which Mustache would read as tags: `{{` becomes `{ {`."""
     return re.sub(r"\}(?=\})", "} ", re.sub(r"\{(?=\{)", "{ ", html))
 
 

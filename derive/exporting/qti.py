@@ -1,8 +1,8 @@
 """A package of QTI 2.1: one assessment item for each part of each problem, a test, and a manifest, in a ZIP file.
 
 A part whose answers all have numbers becomes an item with a field for each number, graded with the tolerance that
-rounding to the printed figures allows; any other part is an item for a text of the student. The worked solution is the
-modal feedback of the item.
+rounding to the printed figures allows; any other part becomes an item in which the student writes a text. The worked
+solution is the modal feedback of the item.
 
 Source of the format: IMS Global, *Question and Test Interoperability Assessment Test, Section and Item Information
 Model*, version 2.1.
@@ -77,7 +77,7 @@ def _item(name: str, question: Question, part: Part) -> tuple[str, list[str]]:
 
 
 def _closed(html: str) -> str:
-    """Return HTML as XML: the tag of an image is closed."""
+    """Close the tags of images, as XML requires."""
     return re.sub(r"(<img [^>]*[^/])>", r"\1/>", html)
 
 

@@ -1,4 +1,4 @@
-"""The questions of a set, as every export needs them: from the format `questions` of each problem, and its drawings."""
+"""The questions of a set for all exports, read from the format `questions` and the drawings of each problem."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class Answer:
 
     @property
     def tolerance(self) -> float:
-        """Half a unit of the last printed figure: what rounding to these figures can change."""
+        """Half a unit of the last printed figure, the greatest change by rounding; 0 without a number."""
         if self.value is None or not self.value:
             return 0.0
         exponent = f"{self.value:.{(self.figures or 4) - 1}e}".partition("e")[2]
@@ -43,7 +43,7 @@ class Answer:
 
     @property
     def letters(self) -> set[str] | None:
-        """The letters of a formula; None if it has anything but letters, numbers and common functions."""
+        """The letters of a formula without `t` of letters, numbers and common functions; otherwise None."""
         names = set(_NAME.findall(self.sympy))
         if not re.fullmatch(r"[A-Za-z0-9_+\-*/(). ]+", self.sympy) or names & {"t", "Eq"}:
             return None

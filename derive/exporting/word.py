@@ -16,8 +16,8 @@ from derive.building.scratch import Scratch
 from derive.errors import BuildFailed, Complaint, Misused
 from derive.exporting.questions import Part, Question, with_files
 
-LONGEST = 120  # seconds
-DPI, SHARPNESS = 96, 3  # pixels of an inch in a browser, and of a picture for each of these pixels
+LONGEST = 120  # seconds that Pandoc may take
+DPI, SHARPNESS = 96, 3  # pixels per inch in a browser; pixels of a picture per pixel of a browser
 READS = "html+tex_math_single_backslash-raw_html"
 INSTALL = "install Pandoc and the converter of drawings: `pip install 'derive-mechanics[docx]'`"
 

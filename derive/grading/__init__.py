@@ -1,6 +1,6 @@
-"""Grades the answers that students typed: what was read, whether it is right, and what is wrong with it.
+"""Grades the answers that students typed: how each was read, whether it is right, and what is wrong with it.
 
-    names       the symbols of a problem, and which of them a typed letter means
+    names       the symbols of a problem, and which symbol a typed letter means
     typed       the text of an answer, tidied: ASCII and Unicode as LaTeX, split into statements
     reading     the statements as expressions in the symbols of the problem
     shown       what was read, as LaTeX
@@ -14,5 +14,5 @@
     table       many answers at once, as CSV
     report      the verdicts as text and JSON
 
-An answer is data of a stranger: nothing in it is evaluated as a program, and its size and the time for it are limited.
+An answer is untrusted data: no part of it is executed as code, and its size and the time for it are limited.
 """

@@ -33,8 +33,8 @@ from derive.steps.homogeneity import dimension_of
 
 DIFFERS = "it differs from the answer of the problem"
 LONGEST = 160  # characters of an expression in an explanation
-ROUNDS = 6  # of definitions that are put in
-MOST_UNKNOWN = 2  # letters that may be other names of letters of the problem
+ROUNDS = 6  # rounds of substituting definitions
+MOST_UNKNOWN = 2  # number of unknown letters that may be other names for letters of the problem
 FEWEST_FIGURES = 2
 WITH_A_ZERO = ("potential", "lagrangian", "energy_function", "hamiltonian", "effective", "total_energy")
 
@@ -54,7 +54,7 @@ def verdict_on_value(read: Read, target: Target, key: Key) -> Verdict:
 
 
 def aligned(value: Any, right: Any) -> Any:
-    """Return a typed expression with the symbols of the right one, which may differ in their assumptions."""
+    """Replace symbols of a typed expression by those of the right one that differ only in their assumptions."""
     own = {each.name: each for each in right.free_symbols}
     put_in = {each: own[each.name] for each in value.free_symbols if own.get(each.name, each) != each}
     return value.xreplace(put_in) if put_in else value
@@ -65,7 +65,7 @@ class _Comparison:
     read: Read
     target: Target
     key: Key
-    is_entry: bool = False  # of a matrix
+    is_entry: bool = False  # whether the values are entries of a matrix
 
     def verdict(self) -> Verdict:
         value, right = aligned(self.read.value, self.target.value), self.target.value
@@ -108,7 +108,7 @@ class _Comparison:
         return Verdict(Outcome.EQUAL, "") if are_equal(value, right) else None
 
     def definitions(self, value: Expr, right: Expr) -> Verdict | None:
-        """Equal with the symbols replaced that the problem defines or that earlier steps introduce."""
+        """Equal after replacing the symbols that the problem defines or that earlier steps introduce."""
         own = {self.target.symbol} if isinstance(self.target.symbol, Symbol) else set()
         if value.free_symbols & own and right.free_symbols.isdisjoint(own):
             return None
@@ -136,7 +136,7 @@ class _Comparison:
         return value
 
     def decimals(self, value: Expr, right: Expr) -> Verdict | None:
-        """Equal if each decimal is a rounded number."""
+        """Equal within the rounding of the decimals."""
         inexact = self.read.decimals
         if not inexact or any(_figures(each, digits) < FEWEST_FIGURES for each, digits in inexact):
             return None
@@ -172,10 +172,10 @@ class _Comparison:
         return None
 
     def turned(self, value: Expr, right: Expr) -> Verdict | None:
-        """Equal if a coordinate is counted in the other sense.
+        """Equal if one or two coordinates are positive in the other sense.
 
-        This is a convention for an angle if only its sense relative to another coordinate matters. Otherwise the sense
-        is that of the problem, and the answer has wrong signs.
+        This is a convention for an angle if only its sense relative to another coordinate matters. Otherwise the
+        problem fixes the sense, and the answer has wrong signs.
         """
         moving = sorted(self.key.coordinates & {_without_dots(each) for each in right.free_symbols}, key=str)[:4]
         for count in range(1, min(len(moving), 2) + 1):
@@ -204,7 +204,7 @@ class _Comparison:
         )
 
     def other_zero(self, value: Expr, right: Expr) -> Verdict | None:
-        """Energies with another zero; Lagrangians that differ by the rate of a function."""
+        """Accept energies with another zero, and Lagrangians that differ by the rate of a function."""
         if self.target.kind != "energy" or not any(word in self.target.key for word in WITH_A_ZERO):
             return None
         try:
@@ -228,7 +228,7 @@ class _Comparison:
 
     @staticmethod
     def changes_a_term(difference: Expr, value: Expr, right: Expr, rates: set[Symbol]) -> bool:
-        """Whether both energies have a term without coordinates, but with another sign or number: this is a slip."""
+        """Whether two energies have the same term without coordinates with another number, which is a slip."""
         mine, theirs = (
             [term for term in Add.make_args(sympy.expand(each)) if term != 0 and not term.free_symbols & rates]
             for each in (value, right)
@@ -237,7 +237,7 @@ class _Comparison:
         return any(each is not None and each.is_number and each != -1 for each in ratios)
 
     def is_rate(self, difference: Expr, moving: frozenset[Symbol]) -> bool:
-        """Whether Lagrange's equations of an expression are empty, so that it is the rate of a function."""
+        """Whether Lagrange's equations hold identically for an expression: it is then the rate of a function."""
 
         def along(value: Expr) -> Expr:
             return diff(value, TIME) + sum(diff(value, each) * rate(each) for q in moving for each in (q, rate(q)))
@@ -272,7 +272,7 @@ class _Comparison:
         return None
 
     def dimension(self, value: Expr) -> Dimension | None:
-        """Return the dimension of an expression; None if it is zero or has a letter of unknown dimension."""
+        """Return the dimension of an expression, or None if it cannot be determined."""
         try:
             return dimension_of(value, self.key.dimensions)
         except Inhomogeneous:
@@ -412,7 +412,7 @@ class _Comparison:
         return Verdict(outcome, f"{where}: {wrong[0][1].because}{others}")
 
     def one_for_all(self, value: Expr, right: MatrixBase) -> Verdict:
-        """A number instead of a matrix: right if the matrix is this number times the unit matrix."""
+        """Judge a number for a matrix: right if the matrix is a multiple of the unit matrix or has one component."""
         rows, columns = right.shape
         if rows == columns and are_surely_equal(value, right[0, 0]) and right == right[0, 0] * sympy.eye(rows):
             return Verdict(Outcome.CONVENTION, "as the moment about every axis")
@@ -444,7 +444,7 @@ class _Comparison:
 
 
 def factor_is_near(answer: Expr, right: Expr, within: Expr) -> bool:
-    """Whether the ratio of two expressions is one, up to a small relative difference, at every point that is tried."""
+    """Whether the ratio of two expressions is one within a relative difference, at every sample point."""
     from derive.audit.deciding import _relative_error
 
     try:

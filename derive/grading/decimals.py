@@ -1,6 +1,6 @@
-"""The verdict on a number: its value, its unit and its significant figures are judged apart.
+"""The verdict on a number: its value, its unit and its significant figures are judged separately.
 
-A decimal stands for all numbers that round to it. It is right if the exact value is one of them. A whole number may
+A decimal is right if the exact value rounds to it. A whole number may
 have been rounded too, if it ends with zeros or has a unit.
 """
 
@@ -20,7 +20,7 @@ from derive.grading.key import Number, Target
 from derive.grading.outcomes import Outcome, Verdict
 from derive.units import Unit, read_unit
 
-FEWEST = 2  # significant figures of a decimal that is judged
+FEWEST = 2  # the least number of significant figures with which a rounded decimal is judged
 LONGEST_UNIT = 80
 _WORDS = {
     "radians": "rad", "radian": "rad", "meters": "m", "metres": "m", "meter": "m", "metre": "m", "seconds": "s",
@@ -34,7 +34,7 @@ _PREFIXED = re.compile(r"\\(kilo|centi|milli)\s*\\([a-z]+)")
 
 
 def unit_in(text: str) -> Unit | None:
-    r"""Return the unit that a text writes, such as `rad/s`, `\mathrm{kg\,m^2}` or `\metre\per\second`; else None."""
+    r"""Return the unit in a text, such as `rad/s`, `\mathrm{kg\,m^2}` or `\metre\per\second`; else None."""
     if not text.strip() or len(text) > LONGEST_UNIT:
         return None
     plain = re.sub(r"\^\{?\\circ\}?|\\degree\b|\\circ\b", " deg ", text)
@@ -55,7 +55,7 @@ def unit_in(text: str) -> Unit | None:
 
 
 def with_units(text: str) -> Iterator[tuple[str, Unit]]:
-    r"""Yield the ways to read a text as a number and a unit: `15.13 rpm`, `\SI{15.13}{rpm}`, `21.6°`."""
+    r"""Yield the first reading of a text as a number with a unit, if any: `15.13 rpm`, `\SI{15.13}{rpm}`, `21.6°`."""
     plain = text.strip().strip("$").strip()
     if found := re.fullmatch(r"\\(?:SI|qty)\s*(?:\[[^\]]*\])?\s*\{([^{}]*)\}\s*\{((?:[^{}]|\{[^{}]*\})*)\}", plain):
         if (unit := unit_in(found[2])) is not None:
@@ -76,7 +76,7 @@ def with_units(text: str) -> Iterator[tuple[str, Unit]]:
 
 @dataclass(frozen=True)
 class Typed:
-    """A typed number: its value, the last place of its decimals (None if it is exact), and its unit."""
+    """A typed number: its value, its decimals with their digits after the point, and its unit."""
 
     value: Expr
     decimals: tuple[tuple[Expr, int], ...] = ()
@@ -96,7 +96,7 @@ def verdict_on_number(
 
     is_decimal   whether it is a single decimal, which may be rounded; any other number is compared exactly
     figures      its significant figures
-    places       its digits after the point, as 10^-places is the unit of its last place (negative for 1.5e3)
+    places       its digits after the point, so that its last place counts 10^-places (negative for 1.5e3)
     """
     dimension = target.dimension or NUMBER
     if unit is not None and unit.dimension != dimension:

@@ -31,7 +31,7 @@ from derive.grading.structure import are_equal, are_surely_equal
 from derive.grading.typed import TypedStatement, Unread, typed
 
 EQUALS = ("=", "~", ":=", "to")
-SECONDS = 4.0  # of processor time for one answer
+SECONDS = 4.0  # seconds of processor time for one answer
 
 
 @dataclass(frozen=True)
@@ -47,7 +47,7 @@ class Graded:
 
 
 def grade(answer: str, part: Part, key: Key, seconds: float = SECONDS) -> Graded:
-    """Grade an answer; whatever it contains, a verdict is returned within the time."""
+    """Grade an answer, and return a verdict within the time limit for every input."""
     most = sum((target.whole for target in part.targets), Fraction(0))
     try:
         with limited(seconds), within(key.ranges), in_order(key.order):
@@ -80,13 +80,13 @@ def _marked(error: Unread, answer: str) -> str:
 
 @dataclass
 class _Statement:
-    """A statement with its readings, and its text for numbers with units."""
+    """A statement with its readings, and the text of each side, from which numbers with units are read."""
 
     read: ReadStatement | None
     texts: tuple[str, ...]
     relations: tuple[str, ...]
     fault: Unread | None = None
-    head: tuple[Read, ...] = ()  # the readings of the first side, if another side is not read
+    head: tuple[Read, ...] = ()  # the readings of the first side, if the statement is not read
 
     @property
     def last(self) -> tuple[Read, ...]:
@@ -205,7 +205,7 @@ class _Grading:
         return [signed(1), signed(-1)]
 
     def entries_of(self, statement: _Statement) -> list[_Statement]:
-        """Return the entries of a list in brackets as statements of their own."""
+        """Return each entry of a list in brackets as a separate statement."""
         if not statement.is_single or not statement.last or not isinstance(statement.last[0].value, MatrixBase):
             return []
         read = statement.last[0]
@@ -279,7 +279,7 @@ class _Grading:
         return name is not None and isinstance(target.symbol, Symbol) and name == target.symbol
 
     def renumbered(self, found: dict[str, Any]) -> dict[str, Any]:
-        """Accept the same values under names that are only numbered otherwise: omega_1 and omega_2."""
+        """Accept right values whose names are numbered in another order, such as omega_1 and omega_2."""
         wrong = [name for name, (verdict, _) in found.items() if verdict.outcome is Outcome.ANOTHER]
         targets = {each.key: each for each in self.part.targets}
         for one in wrong:
@@ -409,7 +409,7 @@ class _Grading:
         return self.text[span.start : span.end].strip()
 
     def unequal_side(self, statement: _Statement) -> Read | None:
-        """Return a side before the last one that is not a name and differs from the last one, as in `a = b` for b."""
+        """Return a side in an equation, other than a name, that differs from the last side."""
         if statement.is_single or statement.read is None:
             return None
         first = 0 if statement.name is None and len(statement.read.sides) == 2 else 1
@@ -460,7 +460,7 @@ class _Grading:
         return best_of(verdicts)
 
     def as_number(self, statement: _Statement, target: Target) -> Verdict | None:
-        """Judge a number, with or without a unit; None if the answer has no number or no number is typed."""
+        """Judge a number, with or without a unit; None if the problem gives no number or none is typed."""
         if target.is_relation and (angle := angle_of(target, statement.name)) is not None:
             target = angle
         if target.number is None or (not statement.is_equation and not target.is_relation):
@@ -481,7 +481,7 @@ class _Grading:
                 return self.with_direction(replace(found, reading=self.named(statement, shown)), statement, target)
         for read in statement.last:
             if read.value == 0:
-                return None  # zero is exact, and needs no unit
+                return None  # zero needs no unit and is compared exactly
             if isinstance(read.value, Expr) and read.value.is_number and (read.decimals or target.number.unit or
                                                                           isinstance(read.node, Num)):  # fmt: skip
                 found = self.of_number(read, text, None, target, target.number)
@@ -490,7 +490,7 @@ class _Grading:
         return None
 
     def with_direction(self, found: Verdict, statement: _Statement, target: Target) -> Verdict:
-        """Compare the direction of a condition with a number, too: `S > 449.6 rpm`."""
+        """Compare also the direction of a condition with a number, such as `S > 449.6 rpm`."""
         if not target.is_relation or not found.is_right or target.value.operator == "=":
             return found
         mark, goal = statement.relations[-1] if statement.relations else "", target.value.operator
@@ -557,7 +557,7 @@ class _Grading:
         return Graded(self.part.label, self.answer, overall, tuple(verdicts), points)
 
     def contradicts(self, found: dict[str, tuple[Verdict, list[_Statement]]]) -> _Statement | None:
-        """Return a statement that answers a question once more, and wrongly; a result with another name does not."""
+        """Return a wrong second answer to a question, or None; a result with another name is not one."""
         names = {each.name for _, of in found.values() for each in of}
         for statement in self.left_over:
             own = statement.name is None or statement.name in names

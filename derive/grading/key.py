@@ -1,4 +1,4 @@
-"""The answers that a problem asks for, as far as a grader needs them: values, dimensions, numbers, and points."""
+"""The data with which answers are graded: right answers with their dimensions, numbers and points."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ FAULTS = (ValueError, TypeError, AttributeError, NotImplementedError, KeyError, 
 
 @dataclass(frozen=True)
 class Number:
-    """The exact number of an answer in the SI, and the unit and the figures that the problem asks for."""
+    """The exact number of an answer in SI units, and the unit and the figures that the problem asks for."""
 
     exact: Expr
     unit: str = ""
@@ -63,7 +63,8 @@ class Target:
     value    a formula, a matrix or a relation
     of_set   whether the value is a set of numbers, in any order
     scaled   whether the value is known up to a factor only, such as the amplitudes of a mode
-    own      its points in the rubric; `whole` also has the points of the steps before it
+    own      the points of the answer in the rubric
+    whole    these points and those of the steps before it
     """
 
     key: str
@@ -96,7 +97,7 @@ class Part:
 class Key:
     """The answers of a problem, part by part, and what is known about its symbols.
 
-    steps         each step of the derivation with its value, to recognise an answer to something else
+    steps         each step of the derivation with its value, to recognise an answer to another question
     definitions   the value of each symbol that a step introduces
     allowed       symbols that the problem defines, such as beta = b/2m; an answer may contain them
     points        whether the problem has points; without points each answer counts 1
@@ -118,7 +119,7 @@ class Key:
     notation: Notation = field(default_factory=Notation, compare=False, repr=False)
 
     def part(self, name: str) -> Part | None:
-        """Return a part by its name, or one of its answers: `b(2)` is the second answer that part b asks for."""
+        """Return a part by its name, or with one answer only: `b(2)` is the second answer that part b asks for."""
         plain, inner = _split(name)
         label = label_in([part.label for part in self.parts], plain)
         if label is None:
@@ -141,7 +142,7 @@ class Key:
 
 
 def label_in(labels: Sequence[str], name: str) -> str | None:
-    """Return the label that the name of a part means: `b`, `(b)`, `B`, `2`, `part b`; None without such a part."""
+    """Return the label for a name such as `b`, `(b)`, `B`, `2` or `part b`; None if there is no such part."""
     plain = _split(name)[0]
     if plain in labels:
         return plain
@@ -184,7 +185,7 @@ def key_of(
 
 
 def _with_points(targets: list[Target], points: Mapping[str, Fraction] | None) -> Iterator[Target]:
-    """Divide the points of a part among its answers: each has its own points, and shares those of the other steps."""
+    """Divide the points of a part among its answers, in proportion to their own points in the rubric."""
     if points is None:
         yield from (replace(each, own=Fraction(1, len(targets)), whole=Fraction(1, len(targets))) for each in targets)
         return
@@ -305,7 +306,7 @@ class _Making:
 
 
 def _explicit(value: Any) -> Any:
-    """Return a value without unevaluated nodes; a relation between a name and a value stays as it is."""
+    """Return a value without unevaluated nodes; or the value itself if this fails."""
     try:
         return explicit(value)
     except FAULTS:

@@ -35,7 +35,7 @@ def bare(subscript: str) -> str:
 
 @dataclass
 class Names:
-    """The symbols of a problem. `told` has a remark on each letter that was read as another one."""
+    """The symbols of a problem by letter, subscript and number of dots."""
 
     symbols: dict[tuple[str, str, int], Symbol] = field(default_factory=dict)
     wholes: dict[tuple[str, str], MatrixSymbol] = field(default_factory=dict)  # vectors and tensors

@@ -1,4 +1,4 @@
-"""The verdicts on an answer, and the share of its points that each earns."""
+"""The verdicts on an answer, and the share of the points that each verdict earns."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ _ORDER = tuple(Outcome)
 class Verdict:
     """A verdict with its reason, what was read, and the answer with which it was compared.
 
-    target   the key of the answer; empty if the typed text was compared with none
+    target   the key of the right answer; empty if the typed text was compared with no answer
     marked   the typed text with a caret under the place that is not read
     """
 
@@ -47,7 +47,7 @@ class Verdict:
 
     @property
     def rank(self) -> int:
-        """The place in the order from right to unreadable; a smaller one is better."""
+        """The position in the order from right to unreadable; a smaller number is better."""
         return _ORDER.index(self.outcome)
 
     def adding(self, remark: str) -> Verdict:
@@ -55,7 +55,8 @@ class Verdict:
 
 
 def best_of(verdicts: Sequence[Verdict]) -> Verdict:
-    """Return the verdict on the reading that is right, else on one with a slip, else on the likeliest reading."""
+    """Return the verdict on a right reading, else on one with a slip, else on one that is right for special
+    values, else on the likeliest."""
     for accepted in (RIGHT, SLIPS, (Outcome.SPECIAL,)):
         if found := [each for each in verdicts if each.outcome in accepted]:
             return min(found, key=lambda each: each.rank)
@@ -70,7 +71,7 @@ def share_of(outcome: Outcome, own: Fraction, whole: Fraction) -> Fraction:
 
     A right answer earns all points. An answer with one slip (a sign, a factor, a term) earns the points of the steps
     before it, or half of the points if the rubric has no such steps. An answer that holds for special values only earns
-    a quarter. Every other answer earns nothing here: a person may give points for the steps.
+    a quarter. Every other answer earns nothing here, but you may give points for its steps.
     """
     if outcome in RIGHT:
         return whole

@@ -24,11 +24,11 @@ from derive.documents.syntax import Apply, Frac, Fun, Letter, Mat, Mul, Node, Nu
 from derive.grading.names import Names, bare
 from derive.grading.typed import Typed, TypedSide, TypedStatement, Unread
 
-MOST_BITS = 3000  # of a number
+MOST_BITS = 3000  # the greatest number of bits of a number
 HIGHEST_POWER = 40
-MOST_TERMS = 3000  # of a power of a sum, if it were expanded
+MOST_TERMS = 3000  # the most terms that a power of a sum may have when it is expanded
 MOST_READINGS = 6
-_SIGN = Symbol("±", real=True)  # as the reader of documents names it
+_SIGN = Symbol("±", real=True)  # the symbol that the reader of documents uses for ±
 # SymPy raises these for expressions that it cannot handle
 FAULTS = (ValueError, TypeError, ZeroDivisionError, AttributeError, NotImplementedError, OverflowError, KeyError,
           IndexError, sympy.SympifyError, sympy.polys.polyerrors.PolynomialError)  # fmt: skip
@@ -179,7 +179,7 @@ class _InProblem(Meaning):
         return super().of_lone_letter(letter, by, partial)
 
     def rate_of(self, symbol: Symbol, by: Symbol, partial: bool) -> Expr:
-        """Return the rate of a coordinate; constants have none."""
+        """Return the rate of a coordinate; the rate of a constant is zero."""
         if by != TIME or partial:
             return Integer(1) if symbol == by else Integer(0)
         letter = self.symbols.get(symbol)
@@ -220,8 +220,8 @@ def _with_products(node: Any, names: Names) -> Any:
 
 
 class _Near:
-    """Reads `sin a/b` as the sine of a, divided by b, `sin a (b + c)` as a product, and `a/b (c + d)` as a/b times a
-    bracket: the arguments and denominators without brackets end early."""
+    """Ends arguments and denominators without brackets early: `sin a/b` is (sin a)/b, `sin a (b + c)` is a product, and
+    `a/b (c + d)` is a/b times a bracket."""
 
     def __init__(self, side: TypedSide):
         self.strokes = [token.span.start for token in side.tokens if token.is_mark("/")]
@@ -259,7 +259,7 @@ def _start(node: Node) -> int:
 
 
 def _split(node: Node) -> tuple[Node, Node] | None:
-    """Return the letter and the bracket of `a(b + c)`, if it is read as a function or as a product."""
+    """Return the letter and the bracket of `a(b + c)`, which may be a product or a call; otherwise None."""
     if isinstance(node, Apply) and len(node.arguments) > 1:
         return node.head, Vec(node.span, node.arguments)
     if not isinstance(node, Open) or node.kind != "apply":
@@ -285,7 +285,7 @@ def _bits(number: Rational) -> int:
 
 
 def _check_size(value: Any, span: Span) -> None:
-    """Reject an expression whose numbers, powers or expanded powers are too large to compare."""
+    """Raise `Meaningless` if numbers, powers or expanded powers are too large to compare."""
     for entry in value if isinstance(value, MatrixBase) else (value,):
         for node in sympy.preorder_traversal(entry):
             if isinstance(node, Rational) and _bits(node) > MOST_BITS:

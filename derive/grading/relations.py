@@ -1,7 +1,7 @@
 """The verdict on an equation or an inequality.
 
 An equation may be multiplied by a factor that does not vanish, and an inequality by a positive one. An equation for a
-quantity, such as `omega^2 = g/l`, is right if the value of the quantity fulfils it and nothing else does.
+quantity, such as `omega^2 = g/l`, is right if the value of the quantity satisfies it.
 """
 
 from __future__ import annotations
@@ -69,7 +69,7 @@ def _are_equivalent(one: Relation, other: Relation) -> bool:
 
 
 def give_the_same(typed: list[Relation], goals: list[Relation]) -> bool:
-    """Whether two systems of equations, linear in as many accelerations, have the same solution."""
+    """Whether two systems of n equations give the same n accelerations, in which the equations are linear."""
     if any(goal.operator != "=" for goal in goals):
         return False
     unknowns = sorted({s for goal in goals for s in goal.free_symbols if str(s).endswith("_ddot")}, key=str)
@@ -88,7 +88,7 @@ def give_the_same(typed: list[Relation], goals: list[Relation]) -> bool:
 
 
 def _renamed(typed: Relation, goal: Relation, comparison: _Comparison) -> Verdict | None:
-    """Accept other names for letters of the problem, as in formulas."""
+    """Accept another name for one letter of the problem in an inequality."""
     unknown = [each for each in comparison.read.unknown if each in typed.free_symbols]
     if goal.operator == "=" or len(unknown) != 1 or len(goal.free_symbols) < 2:  # equations are compared term by term
         return None
@@ -148,7 +148,7 @@ def _wrong_inequality(typed: Relation, goal: Relation, key: Key) -> Verdict:
 
 
 def _wrong_equation(comparison: _Comparison, typed: Relation, goal: Relation) -> Verdict:
-    """Return what is wrong with an equation, after it is multiplied so that one term agrees with the right equation."""
+    """Return what is wrong with an equation, scaled so that one of its terms agrees with the right equation."""
     key = comparison.key
     given, wanted = sympy.expand(typed.residual), sympy.expand(goal.residual)
     read = comparison.read

@@ -31,7 +31,7 @@ def one_as_text(problem: str, graded: Graded) -> str:
 
 
 def explained(verdict: Verdict) -> str:
-    """Return the reason of a verdict in one line, with the place of what is not read."""
+    """Return the reason of a verdict in one line, and the text at the place that is not read."""
     if not verdict.marked:
         return verdict.because
     text, caret = verdict.marked.split("\n")

@@ -1,6 +1,6 @@
-"""What a wrong formula lacks or has too much: a factor, a sign, a term; and the values for which it is right.
+"""The slip in a wrong formula (a factor, a sign or a term), and special values for which the formula is right.
 
-Each proposal is tested exactly. The values at a few points only sort out proposals that cannot be right.
+Each proposal is tested exactly. The values at a few points only exclude proposals that cannot be right.
 """
 
 from __future__ import annotations
@@ -19,9 +19,9 @@ from derive.audit.fingerprint import CLOSE, differ, fingerprint
 from derive.grading.outcomes import Outcome
 from derive.grading.reading import FAULTS
 
-MOST_TERMS = 60  # of a sum that is searched
+MOST_TERMS = 60  # number of terms of a sum that are searched
 MOST_PROPOSALS = 600
-SHORTEST = 10  # operations of a ratio that is still worth telling
+SHORTEST = 10  # the most operations of a ratio that is shown
 _BASES = (Integer(1), pi, 1 / pi, sqrt(2), sqrt(3), pi**2, 1 / pi**2, sqrt(5), sqrt(6), sqrt(7), sqrt(pi))
 _SCALES = (Rational(1, 2), Integer(2), Rational(1, 3), Integer(3), Rational(1, 4), Integer(4))
 Shown = Callable[[Any], str]
@@ -36,7 +36,7 @@ def are_equal(left: Expr, right: Expr) -> bool:
 
 
 def are_surely_equal(left: Expr, right: Expr) -> bool:
-    """Whether two expressions are equal, for one of many proposals: most are sorted out by their values."""
+    """Whether two expressions are equal; numbers exclude most unequal ones quickly."""
     return not differ(left, right) and are_equal(left, right)
 
 
@@ -73,7 +73,7 @@ def _number_between(left: Expr, right: Expr) -> Expr | None:
 
 
 def slips_between(answer: Expr, right: Expr, shown: Shown) -> Iterator[Found]:
-    """Yield what is wrong with an answer, the plainest first: terms of the whole, then terms inside of it."""
+    """Yield the slips of an answer, the simplest first: its terms, then changes inside sums and functions."""
     yield from _of_terms(answer, right, shown)
     yield from _inside(answer, right, shown)
 
@@ -113,7 +113,7 @@ def _of_terms(answer: Expr, right: Expr, shown: Shown) -> Iterator[Found]:
 
 
 def swaps(ratio: Expr) -> bool:
-    """Whether a ratio has functions above and below, as if one function was written for another."""
+    """Whether numerator and denominator contain functions, as if one function was written for another."""
     above, below = ratio.as_numer_denom()
     return bool(above.atoms(Function) and below.atoms(Function))
 

@@ -1,6 +1,6 @@
 """Many answers at once, as CSV: a row for each answer, and the same rows with their verdicts.
 
-A spreadsheet runs a cell that begins with `=`, `+`, `-` or `@` as a formula; an apostrophe is put before such a text.
+A spreadsheet runs a cell that begins with a sign such as `=` as a formula, so an apostrophe is written before it.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ _RUNS = ("=", "+", "-", "@", "\t", "\r", "|", "%")
 
 @dataclass(frozen=True)
 class Row:
-    """One answer, with all cells of its row and the line of the file."""
+    """One answer, with all cells of its row and its line number in the file."""
 
     line: int
     cells: tuple[str, ...]
@@ -38,7 +38,7 @@ class Table:
 
 
 def read_table(content: bytes, path: str, problem: str = "") -> Table:
-    """Read the answers; `problem` is the problem of all rows, if the table has no such column."""
+    """Read the answers; `problem` is the problem of each row that does not name one."""
     if len(content) > LARGEST:
         raise Rejected(Complaint("too-large", f"`{path}` has more than {LARGEST // 1_000_000} million bytes"))
     try:
@@ -86,7 +86,7 @@ def _row(line: int, cells: Sequence[str], columns: dict[str, int], width: int, p
 
 
 def written_table(table: Table, verdicts: Iterable[Sequence[str]]) -> str:
-    """Return the rows with the columns of `ADDED`; a column that the table has already is replaced."""
+    """Return the rows with the columns of `ADDED`; a column that the table already has is replaced."""
     kept = [i for i, name in enumerate(table.heading) if name.lower() not in ADDED]
     out = io.StringIO()
     writer = csv.writer(out, delimiter=table.delimiter, lineterminator="\n")
@@ -97,5 +97,5 @@ def written_table(table: Table, verdicts: Iterable[Sequence[str]]) -> str:
 
 
 def harmless(text: str) -> str:
-    """Return a text that no spreadsheet runs as a formula."""
+    """Return a text with an apostrophe before it if a spreadsheet would run it as a formula."""
     return f"'{text}" if text.lstrip().startswith(_RUNS) or text.startswith(_RUNS) else text

@@ -1,7 +1,7 @@
 r"""The text of an answer, tidied: ASCII and Unicode become LaTeX, and the answer is split into statements.
 
 `7/24 M a^2 w^2`, `theta_ddot = -g/l sin(theta)` and `½mv²` become text that the reader of documents reads. Every change
-keeps the place in the text that was typed.
+keeps track of the place in the typed text.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from derive.grading.names import INSTEAD, Names, bare
 LONGEST = 2000  # characters of an answer
 MOST_TOKENS = 1500
 MOST_STATEMENTS = 40
-DEEPEST = 40  # nested brackets
+DEEPEST = 40  # the most levels of nested brackets
 
 TYPED_FUNCTIONS = {name: name for name in FUNCTIONS if name not in ("arg", "det", "tr", "Tr", "min", "max")} | {
     "arccosine": "arccos", "arsinh": "arcsinh", "sqrt": "sqrt", "abs": "abs", "atan": "arctan", "acos": "arccos",
@@ -33,7 +33,7 @@ _COMMENT = re.compile(r"\b(?:where|with|because|since|for|when|if)\b(?!\s*\})")
 
 
 class Unread(Exception):
-    """An answer is not read: the reason, and the place in the tidied text."""
+    """The reason why an answer is not read, and the place in the tidied text."""
 
     def __init__(self, message: str, span: Span | None = None):
         super().__init__(message)
@@ -63,7 +63,7 @@ class Typed:
 
 
 def typed(text: str, names: Names) -> Typed:
-    """Return an answer as statements; raise `Unread` if it is empty, too large, or not made of statements."""
+    """Return an answer as statements; raise `Unread` if it is empty, too large or malformed."""
     if len(text) > LONGEST:
         raise Unread(f"too large: an answer has at most {LONGEST} characters, but this one has {len(text)}")
     if not text.strip():
@@ -224,7 +224,7 @@ def _dotted(base: str, dots: int) -> str:
 
 
 def _subscript(base: str, written: str, names: Names, in_latex: bool) -> tuple[str, str]:
-    """Split what follows an underscore into the subscript and the letters after it: `v_0t` is v_0 times t."""
+    """Split the text after an underscore into the subscript and the letters after it: `v_0t` is v_0 times t."""
     plain = bare(written)
     for size in range(len(plain), 0, -1):
         if names.has(base, plain[:size]):
@@ -273,7 +273,7 @@ def _known_word(piece: str, names: Names) -> str | None:
 
 
 def _wrapped(tokens: list[Token]) -> list[Token]:
-    """Put braces around what follows a root, a power and a subscript: `sqrt(g/l)`, `x^(1/2)`, `x^-1`, `x^10`."""
+    """Put braces around the argument of a root, a power or a subscript: `sqrt(g/l)`, `x^(1/2)`, `x^-1`, `x^10`."""
     found: list[Token] = []
     at = 0
     while at < len(tokens):
@@ -298,7 +298,7 @@ def _wrapped(tokens: list[Token]) -> list[Token]:
 
 
 def _without_cells(tokens: list[Token]) -> list[Token]:
-    """Leave out the signs that align rows, outside of matrices."""
+    """Leave out the signs `&` outside matrices, which only align rows."""
     found, depth = [], 0
     for token in tokens:
         depth += token.is_command("begin") - token.is_command("end")
@@ -370,7 +370,7 @@ def _without_frame(tokens: list[Token]) -> list[Token]:
 
 
 def _pieces(tokens: list[Token]) -> Iterator[list[Token]]:
-    """Yield the statements, which a comma, a semicolon or the end of a row separates."""
+    """Split the tokens into statements at commas, semicolons and ends of rows."""
     piece: list[Token] = []
     depth = 0
     for token in tokens:
@@ -413,7 +413,7 @@ def _statement(tokens: list[Token]) -> TypedStatement | None:
 
 
 def _shed(tokens: list[Token]) -> list[Token]:
-    """Leave out spacing at the ends of a side, and braces around the whole side."""
+    """Leave out spacing at the ends of a side, and points at its end."""
     while tokens and (tokens[-1].is_mark(".") or tokens[-1].is_command(",", ";", " ", "!", ":")):
         tokens = tokens[:-1]
     while tokens and tokens[0].is_command(",", ";", " ", "!", ":", "displaystyle"):

@@ -265,10 +265,10 @@ def test_the_page_escapes_what_the_document_says() -> None:
     assert exit_code(audit(RIGHT)) == 0 and "claims" in as_text(audit(RIGHT), every=True)
 
 
-def test_a_wrong_row_lists_the_rows_that_carry_it_on_and_the_summary_the_rows_that_are_not_read() -> None:
+def test_a_wrong_row_lists_the_rows_that_repeat_it_and_the_summary_the_rows_that_are_not_read() -> None:
     text = (
         "Let $x = a t^2$ change with time $t$. Then $\\dot x = 3 a t$.\n\nHence $\\ddot x = 3 a$.\n\n$$d = (b + ) c$$\n"
     )
     told = as_text(audit(text), every=False)
-    assert "carried on in line 3" in told
+    assert "repeated in line 3" in told
     assert "  line 5 is not read: " in told

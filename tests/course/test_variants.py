@@ -73,8 +73,8 @@ def test_a_choice_replaces_the_value_of_the_file(tmp_path: Path) -> None:
     [
         ("{c: 1..2 m in steps of 1}", "neither `values` nor `given` has `c`", "c"),
         ("{particles.ring.mass: [m, 2*m]}", "has `particles.ring.mass`", "particles.ring.mass"),
-        ("{b: 30..10 cm in steps of 1}", "a range goes upwards", "30..10 cm in steps of 1"),
-        ("{b: 10..30 cm in steps of 0}", "in steps above zero", "10..30 cm in steps of 0"),
+        ("{b: 30..10 cm in steps of 1}", "a range must increase", "30..10 cm in steps of 1"),
+        ("{b: 10..30 cm in steps of 0}", "with a positive step", "10..30 cm in steps of 0"),
         ("{b: 10..30 cm in steps of 0.0001}", "has 2 to 10000 values", "10..30 cm in steps of 0.0001"),
         ("{b: 10..30 cm}", "must be a range such as", "10..30 cm"),
         ("{b: [20 cm]}", "it is a list", "[20 cm]"),
