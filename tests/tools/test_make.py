@@ -181,7 +181,8 @@ def test_clean_empties_build_and_keeps_the_folder(built: Tree) -> None:
 def test_check_and_bench_run_in_the_environment(tree: Tree) -> None:
     tree.make("check")
     tree.make("bench")
-    benches = [f"-P -m bench.{name}" for name in ("equality", "pages", "problems", "ratios", "scale", "systems")]
+    names = ("documents", "equality", "pages", "problems", "ratios", "scale", "systems")
+    benches = [f"-P -m bench.{name}" for name in names]
     assert tree.calls() == [*benches, "-P -m derive check"]
 
 
