@@ -21,7 +21,6 @@ from derive.audit.expected import Compared, Expected, compared
 from derive.audit.known import ASSUMED, Known
 from derive.audit.limited import FAULTS, OutOfTime, limited
 from derive.audit.near import Nearness, letters_in, root
-from derive.audit.numeric import FAULTS as NUMERIC_FAULTS
 from derive.audit.numeric import NoNumber
 from derive.audit.slips import WHY, Edit, nearest_edit
 from derive.audit.systems import equations_of, expanded, root_equation
@@ -426,7 +425,7 @@ class _Auditor:
             roots = [root(value, point, PIVOT) for point in near.points(letter)]
             targets = [each for each in roots if each is not None and abs(each) > 1e-9]
             return near.of_value(node, targets, letter) if len(targets) == len(roots) else None
-        except (*NUMERIC_FAULTS, NoNumber):
+        except (*FAULTS, NoNumber):
             return None
 
     def blame_earlier_rows(self) -> None:
@@ -482,7 +481,7 @@ class _Auditor:
             if edit is None or self.repeats_a_side(claim, edit.node):
                 return None
             return edit, "the side before it", ()
-        except (*NUMERIC_FAULTS, NoNumber):
+        except (*FAULTS, NoNumber):
             return None
 
     def repeats_a_side(self, claim: Claim, node: Node) -> bool:

@@ -7,11 +7,11 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Callable
-from functools import lru_cache
+from functools import lru_cache, partial
 from hashlib import blake2b
 
 import sympy
-from sympy import Expr
+from sympy import Expr, Symbol
 
 POINTS = 3
 CLOSE = 1e-7
@@ -39,29 +39,34 @@ FUNCTIONS: dict[type, Callable[[complex], complex]] = {
 def fingerprint(value: Expr) -> tuple[complex, ...] | None:
     """Return the values at the fixed points, or None if the expression has none there."""
     try:
-        return tuple(_at(value, point) for point in range(POINTS))
+        return tuple(at(value, partial(_number_at, point)) for point in range(POINTS))
     except (ValueError, ZeroDivisionError, OverflowError, KeyError, TypeError):
         return None
 
 
-def _at(value: Expr, point: int) -> complex:
+def _number_at(point: int, letter: Symbol) -> complex:
+    return number_of(letter.name, point)
+
+
+def at(value: Expr, number: Callable[[Symbol], complex]) -> complex:
+    """Return the number of an expression; `number` returns the number of each letter."""
     if value.is_Symbol:
-        return number_of(value.name, point)
+        return number(value)
     if value.is_Number or value.is_NumberSymbol:
         return complex(value)
     if value.is_Add:
-        return sum((_at(each, point) for each in value.args), 0j)
+        return sum((at(each, number) for each in value.args), 0j)
     if value.is_Mul:
         result = 1 + 0j
         for each in value.args:
-            result *= _at(each, point)
+            result *= at(each, number)
         return result
     if value.is_Pow:
         base, exponent = value.args
-        return complex(_at(base, point) ** (int(exponent) if exponent.is_Integer else _at(exponent, point)))
+        return complex(at(base, number) ** (int(exponent) if exponent.is_Integer else at(exponent, number)))
     if value is sympy.I:
         return 1j
-    return FUNCTIONS[value.func](_at(value.args[0], point))
+    return FUNCTIONS[value.func](at(value.args[0], number))
 
 
 def differ(left: Expr, right: Expr) -> bool | None:

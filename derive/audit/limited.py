@@ -10,8 +10,17 @@ from typing import NoReturn
 
 import sympy
 
-# SymPy raises these for expressions of a document that it cannot handle; the claim is then undecided, with the reason.
-FAULTS = (ValueError, TypeError, ZeroDivisionError, AttributeError, NotImplementedError, sympy.SympifyError)
+# SymPy raises these for expressions of a document or of an answer that it cannot handle. A claim is then undecided, and
+# an answer is not read, with the reason; so a defect of SymPy never becomes a verdict.
+FAULTS = (
+    ValueError,
+    TypeError,
+    ArithmeticError,
+    LookupError,
+    AttributeError,
+    NotImplementedError,
+    sympy.polys.polyerrors.BasePolynomialError,
+)
 AGAIN = 0.5  # seconds of processor time after which the limit is enforced again
 
 

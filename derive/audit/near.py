@@ -14,7 +14,8 @@ from itertools import islice
 from sympy import Expr, Symbol
 
 from derive.audit.known import Known
-from derive.audit.numeric import FAULTS, NoNumber, Numbers, at, close
+from derive.audit.limited import FAULTS
+from derive.audit.numeric import NoNumber, Numbers, at, close
 from derive.audit.slips import Edit, edits_of_side
 from derive.audit.systems import POINTS, Equation, expanded
 from derive.documents.meaning import Meaning, Meaningless

@@ -9,41 +9,18 @@ import cmath
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
-import sympy
 from sympy import Expr, MatrixBase, Symbol
 
-from derive.audit.fingerprint import CLOSE, FUNCTIONS, number_of
+from derive.audit.fingerprint import CLOSE, FUNCTIONS, at, number_of
 from derive.documents.meaning import FUNCTIONS as NAMED
 from derive.documents.meaning import INVERSE, Meaning, Meaningless
 from derive.documents.syntax import Add, Frac, Fun, Group, Letter, Mul, Node, Num, Pow, Root
 
-FAULTS = (ValueError, ZeroDivisionError, OverflowError, KeyError, TypeError, AttributeError, NotImplementedError)
 Point = Mapping[Symbol, complex]
 
 
 class NoNumber(Exception):
     """An expression has no number at a point."""
-
-
-def at(value: Expr, number: Callable[[Symbol], complex]) -> complex:
-    """Return the number of an expression; `number` returns the number of each letter."""
-    if value.is_Symbol:
-        return number(value)
-    if value.is_Number or value.is_NumberSymbol:
-        return complex(value)
-    if value.is_Add:
-        return sum((at(each, number) for each in value.args), 0j)
-    if value.is_Mul:
-        result = 1 + 0j
-        for each in value.args:
-            result *= at(each, number)
-        return result
-    if value.is_Pow:
-        base, exponent = value.args
-        return complex(at(base, number) ** (int(exponent) if exponent.is_Integer else at(exponent, number)))
-    if value is sympy.I:
-        return 1j
-    return FUNCTIONS[value.func](at(value.args[0], number))
 
 
 def close(one: complex, other: complex) -> bool:
@@ -175,4 +152,4 @@ def determined(rows: Sequence[Sequence[complex]], column: int, constant: int) ->
     return None
 
 
-__all__ = ["FAULTS", "Meaningless", "NoNumber", "Numbers", "at", "close", "determined", "spanned"]
+__all__ = ["Meaningless", "NoNumber", "Numbers", "at", "close", "determined", "spanned"]

@@ -15,7 +15,8 @@ from sympy import Expr, Integral, Poly, Symbol
 
 from derive.audit.fingerprint import CLOSE
 from derive.audit.known import Known
-from derive.audit.numeric import FAULTS, Numbers, at, determined, spanned
+from derive.audit.limited import FAULTS
+from derive.audit.numeric import Numbers, at, determined, spanned
 from derive.documents.meaning import Meaning
 from derive.documents.source import Span
 from derive.documents.syntax import Letter

@@ -96,6 +96,7 @@ def _inputs(answers: Sequence[Answer]) -> str:
 def _stack(answers: Sequence[Answer]) -> str:
     """Return the rest of a question of STACK: the right answers, the fields, and a comparison for each."""
     numbered = list(enumerate(answers, 1))
+    positive = all(answer.is_of_positive_letters for answer in answers)
     variables = "\n".join(f"ta{number}: {maxima(answer.sympy)};" for number, answer in numbered)
     feedback = " ".join(f"[[feedback:prt{number}]]" for number, _ in numbered)
     return "\n".join(
@@ -104,8 +105,8 @@ def _stack(answers: Sequence[Answer]) -> str:
             _element("questionvariables", _text(variables)),
             f'<specificfeedback format="html">{_text(feedback)}</specificfeedback>',
             "<questionnote><text></text></questionnote>",
-            # STACK simplifies as if all letters were real and positive
-            "<questionsimplify>1</questionsimplify><assumepositive>1</assumepositive><assumereal>1</assumereal>",
+            # With positive letters STACK takes sqrt(x^2) for x, which is right only if no letter can be negative.
+            f"<questionsimplify>1</questionsimplify><assumepositive>{int(positive)}</assumepositive><assumereal>1</assumereal>",
             *(_input(number) for number, _ in numbered),
             *(_comparison(number, len(numbered)) for number, _ in numbered),
         ]

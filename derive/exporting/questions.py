@@ -32,6 +32,7 @@ class Answer:
     value: float | None
     unit: str
     figures: int | None
+    is_of_positive_letters: bool = False
 
     @property
     def tolerance(self) -> float:
@@ -119,6 +120,7 @@ def _answer(told: dict[str, Any]) -> Answer:
         float(value) if isinstance(value, int | float) else None,
         number.get("unit", told["unit"]) or "",
         number.get("figures"),
+        told["positive"],
     )
 
 

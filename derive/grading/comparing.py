@@ -17,9 +17,10 @@ from sympy import Add, Expr, Integer, MatrixBase, Rational, Symbol, diff
 from derive.algebra.dimensions import NUMBER, Dimension, exponents
 from derive.algebra.expressions import PLUS_MINUS, TIME, rate
 from derive.algebra.kinds import Inhomogeneous, kind_with_article, named
+from derive.audit.limited import FAULTS
 from derive.grading.key import Key, Target
 from derive.grading.outcomes import Outcome, Verdict
-from derive.grading.reading import FAULTS, Read
+from derive.grading.reading import Read
 from derive.grading.structure import (
     are_equal,
     are_surely_equal,

@@ -13,7 +13,7 @@ from sympy import Abs, Expr, Matrix, MatrixBase, Symbol
 from derive.algebra.expressions import PLUS_MINUS, Relation
 from derive.algebra.order import in_order
 from derive.algebra.ranges import within
-from derive.audit.limited import OutOfTime, limited
+from derive.audit.limited import FAULTS, OutOfTime, limited
 from derive.audit.slips import nearest_edit
 from derive.documents.meaning import Meaningless
 from derive.documents.source import Source, Span
@@ -24,7 +24,7 @@ from derive.grading.decimals import figures_of, verdict_on_number, with_units
 from derive.grading.key import Key, Number, Part, Target
 from derive.grading.names import parts_of
 from derive.grading.outcomes import Outcome, Verdict, best_of, share_of
-from derive.grading.reading import FAULTS, Read, Reader, ReadStatement
+from derive.grading.reading import Read, Reader, ReadStatement
 from derive.grading.relations import angle_of, give_the_same, verdict_on_equation_for, verdict_on_relation
 from derive.grading.shown import RELATIONS, latex_of
 from derive.grading.structure import are_equal, are_surely_equal

@@ -31,6 +31,7 @@ from derive.algebra.kinds import dimension_of_kind
 from derive.algebra.order import Order
 from derive.algebra.ranges import Range
 from derive.algebra.rounding import Rounded
+from derive.audit.limited import FAULTS
 from derive.course.problem import Problem
 from derive.grading.names import Names, parts_of
 from derive.render.notation.notation import Notation
@@ -42,7 +43,6 @@ from derive.steps.step import Step
 
 ONE: Expr = Integer(1)
 _NAMED_RATES = (TimeRate, CarriedRate, BodyRate, Slope, At)  # a relation with one of these defines it
-FAULTS = (ValueError, TypeError, AttributeError, NotImplementedError, KeyError, ArithmeticError)
 
 
 @dataclass(frozen=True)

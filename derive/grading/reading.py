@@ -15,6 +15,7 @@ import sympy
 from sympy import Expr, Integer, MatrixBase, Rational, Symbol
 
 from derive.algebra.expressions import PLUS_MINUS, TIME, rate
+from derive.audit.limited import FAULTS
 from derive.documents.choices import readings
 from derive.documents.facts import Facts
 from derive.documents.meaning import Meaning, Meaningless
@@ -29,9 +30,6 @@ HIGHEST_POWER = 40
 MOST_TERMS = 3000  # the most terms that a power of a sum may have when it is expanded
 MOST_READINGS = 6
 _SIGN = Symbol("±", real=True)  # the symbol that the reader of documents uses for ±
-# SymPy raises these for expressions that it cannot handle
-FAULTS = (ValueError, TypeError, ZeroDivisionError, AttributeError, NotImplementedError, OverflowError, KeyError,
-          IndexError, sympy.SympifyError, sympy.polys.polyerrors.PolynomialError)  # fmt: skip
 
 
 @dataclass(frozen=True)

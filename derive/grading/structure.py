@@ -16,8 +16,8 @@ from sympy import Add, Expr, Function, Integer, Pow, Rational, Symbol, cancel, c
 from derive.algebra.equality import equal
 from derive.algebra.trig_polynomials import monomial_ratio
 from derive.audit.fingerprint import CLOSE, differ, fingerprint
+from derive.audit.limited import FAULTS
 from derive.grading.outcomes import Outcome
-from derive.grading.reading import FAULTS
 
 MOST_TERMS = 60  # number of terms of a sum that are searched
 MOST_PROPOSALS = 600

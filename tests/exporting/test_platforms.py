@@ -241,8 +241,8 @@ def test_only_plain_formulas_have_a_field_for_symbols(formula: str, letters: set
 def test_a_formula_in_letters_is_a_question_of_stack(questions: list[Question]) -> None:
     first, *_ = questions[0].parts
     formulas = (
-        Answer("frequency", r"\omega_0", "sqrt(g/b)", r"\sqrt{g/b}", None, "rad/s", None),
-        Answer("period", r"\tau", "2*pi*sqrt(b)/sqrt(g)**3", "", None, "s", None),
+        Answer("frequency", r"\omega_0", "sqrt(g/b)", r"\sqrt{g/b}", None, "rad/s", None, True),
+        Answer("period", r"\tau", "2*pi*sqrt(b)/sqrt(g)**3", "", None, "s", None, True),
     )
     changed = replace(questions[0], parts=(replace(first, answers=formulas), *questions[0].parts))
     quiz = ElementTree.fromstring(moodle_xml("A", "B", [changed], stack=True).encode())
@@ -258,3 +258,14 @@ def test_a_formula_in_letters_is_a_question_of_stack(questions: list[Question]) 
     assert [each.findtext("node/answertest") for each in trees] == ["AlgEquiv"] * 2
     assert sum(float(each.findtext("value") or 0) for each in trees) == pytest.approx(1)
     assert [(each.findtext("node/truescore"), each.findtext("node/falsescore")) for each in trees] == [("1", "0")] * 2
+    assert stack.findtext("assumepositive") == "1"
+    signed = replace(
+        changed, parts=(replace(first, answers=(formulas[0], replace(formulas[1], is_of_positive_letters=False))),)
+    )
+    (_, stack) = ElementTree.fromstring(moodle_xml("A", "B", [signed], stack=True).encode())
+    assert stack.findtext("assumepositive") == "0", "sqrt(x^2) is not x for a coordinate x"
+
+
+def test_an_answer_with_a_coordinate_is_not_of_positive_letters(questions: list[Question]) -> None:
+    positive = {each.key: each.is_of_positive_letters for part in questions[0].parts for each in part.answers}
+    assert positive == {"motion_x": False, "frequency": True, "period": True}

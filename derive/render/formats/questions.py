@@ -19,7 +19,10 @@ def _rendered(solution: Solution) -> str:
             "points": told["points"],
             "question": page.question(part),
             "solution": page.solution(part),
-            "answers": [{"key": key, **known["answers"][key]} for key in told["answers"]],
+            "answers": [
+                {"key": key, "positive": _is_of_positive_letters(solution, key), **known["answers"][key]}
+                for key in told["answers"]
+            ],
         }
         for part, told in zip(document.parts, known["parts"], strict=True)
     ]
@@ -31,6 +34,12 @@ def _rendered(solution: Solution) -> str:
         "parts": parts,
     }
     return json.dumps(data, ensure_ascii=False, indent=1)
+
+
+def _is_of_positive_letters(solution: Solution, key: str) -> bool:
+    """Return whether all letters of an answer are positive: a platform may then take sqrt(x^2) for x."""
+    step = next(step for step in solution.derivation.steps if step.key == key)
+    return all(letter.is_positive for letter in getattr(step.result, "free_symbols", ()))
 
 
 FORMAT = Format("questions", "json", _rendered, built=False, drawings="svg")
