@@ -21,7 +21,7 @@ from pathlib import Path
 from typing import Any
 
 from derive.building.cache import Cache, digest, file_digest, folder_digest
-from derive.building.files import folder, write
+from derive.building.files import folder, shown_path, write
 from derive.building.lock import locked
 from derive.building.preload import preload
 from derive.building.recipe import recipe_digest, recipe_of
@@ -35,6 +35,7 @@ from derive.grading.table import harmless
 
 STUDENTS, CLASS = "students", "class"  # folders of a set's outputs
 CACHE, MADE = ".derived", ".made"
+MADE_FROM = ".inputs"  # the digest of the inputs that all documents of a class share, and the seed
 ANSWERS = "answers"
 KINDS = (SHEET, KEY, SOLUTIONS)
 COLUMNS = ("student", "name", "problem", "part", "answer", "formula", "value", "unit", "figures")
@@ -220,9 +221,24 @@ def made_class(
                     report.made += not made.complaints
         _remove_others(shared, students)
         _write_answers(shared, students)
+        write(shared.outputs / CLASS / MADE_FROM, json.dumps({"inputs": inputs, "seed": seed}))
         Cache(shared.outputs / CACHE).evict()
     report.seconds = time.monotonic() - begun
     return report
+
+
+def class_is_older(root: Path, set_id: str, engine: Engine) -> list[Complaint]:
+    """Return a warning if the documents of a class exist, and the set has changed since they were made."""
+    try:
+        made = json.loads((set_folder(root, set_id) / CLASS / MADE_FROM).read_bytes())
+        inputs, seed = str(made["inputs"]), str(made["seed"])
+    except (OSError, ValueError, KeyError, TypeError):  # there is no class
+        return []
+    if inputs == _inputs(root, set_id, problem_set(root, set_id), engine, seed):
+        return []
+    message = f"the documents of the class in `{shown_path(set_folder(root, set_id))}` are older than the set"
+    help_line = f"`derive class {set_id}`, with the same roster and seed, makes them again"
+    return [Complaint("older", message, help=help_line, severity="warning")]
 
 
 def _inputs(root: Path, set_id: str, heading: ProblemSet, engine: Engine, seed: str) -> str:

@@ -158,10 +158,19 @@ class _Build:
             if self._is_current(self.documents) and EDITED not in self._recipe().values():
                 self._keep(self._stamp)
             names = [*self.names, *(file for _, file in self.documents)]
+            result.warnings += self._of_class()
             result.warnings += left_older(manifest, self.set_id, names, self.made_by, cache(self._digest))
         result.warnings += dict.fromkeys(self.cache.unkept)
         result.seconds = (time.time_ns() - self.started) / 1e9
         return result
+
+    def _of_class(self) -> list[Complaint]:
+        """Return a warning if the documents of a class are older than the set."""
+        if not (self.outputs / "class").is_dir():
+            return []
+        from derive.building.classes import class_is_older
+
+        return class_is_older(self.root, self.set_id, self.engine)
 
     def _keep(self, saved: Callable[[], None]) -> None:
         """Save data that only the next build uses; if saving fails, this build still succeeds."""

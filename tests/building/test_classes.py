@@ -132,3 +132,22 @@ def test_an_answer_is_graded_with_the_variant_of_its_student(tmp_path: Path, cap
     command = ["--root", str(tmp_path), "grade", "week1/bead", rows[0].split(",")[2], "--seed", "3", "--student"]
     assert main([*command, "A1"]) == 0
     assert len({chosen_for("week1", "bead", variations, code, "3")["b"] for code in ("A1", "E2", "L3")}) > 1
+
+
+def test_a_build_warns_of_documents_of_a_class_that_are_older_than_the_set(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    bead(tmp_path, "{b: [20 cm, 30 cm]}")
+    (tmp_path / "names.csv").write_text("name\nAda\n")
+    make = ["--root", str(tmp_path), "class", "week1", "--roster", str(tmp_path / "names.csv"), "-q"]
+    assert main(make) == 0
+    capfd.readouterr()
+    main(["--root", str(tmp_path), "build", "week1"])
+    assert "older" not in capfd.readouterr().err
+    file = tmp_path / "problems" / "week1" / "bead.yaml"
+    file.write_text(file.read_text().replace("title: A bead", "title: The bead"))
+    main(["--root", str(tmp_path), "build", "week1"])
+    assert "warning[older]: the documents of the class" in capfd.readouterr().err
+    assert main(make) == 0
+    main(["--root", str(tmp_path), "build", "week1"])
+    assert "older" not in capfd.readouterr().err
