@@ -45,7 +45,7 @@ def pytest_collection() -> Generator[None, object, object]:
 
 # number of cases of a test -> one case of how many is tried; all cases of tests with fewer than 4. Cases often have a
 # period of 4, 5 or 10 (shapes, surfaces), so the strides have no factor in common with these.
-SAMPLED = {4: 7, 50: 23}
+SAMPLED = {4: 13, 50: 37}
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:

@@ -78,3 +78,10 @@ def warn_of_names(root: Path) -> None:
     from derive.building.set_names import misnamed_sets
 
     complain(misnamed_sets(root))
+
+
+def warn_of_templates(root: Path) -> None:
+    if (root / "templates").is_dir():
+        from derive.page.template import unused_templates
+
+        complain(unused_templates(root))

@@ -13,7 +13,7 @@ from jinja2 import StrictUndefined
 from jinja2.sandbox import ImmutableSandboxedEnvironment
 
 from derive import FOLDER
-from derive.errors import Complaint, Rejected
+from derive.errors import Complaint, Rejected, did_you_mean
 
 COMPLETE = "new"  # a folder that only the templates of derive itself have
 
@@ -45,6 +45,30 @@ def templates_of(root: Path) -> Templates:
         raise Rejected(Complaint("no-templates", "no `templates/` with phrases was found"))
     own = folders[0]
     return Templates((own, complete) if own != complete and own.is_dir() else (complete,))
+
+
+def unused_templates(root: Path) -> list[Complaint]:
+    """Return a warning for each template of a course that replaces none of derive and that no other one includes."""
+    templates = templates_of(root)
+    if len(templates.folders) == 1:
+        return []
+    own, ours = templates.folders
+    found = [file for kind in ("latex", "html") for file in sorted((own / kind).glob("*")) if file.is_file()]
+    texts = [file.read_text(encoding="utf-8", errors="replace") for file in found]
+    unused = [
+        file
+        for file in found
+        if not (ours / file.parent.name / file.name).exists() and not any(f'"{file.name}"' in text for text in texts)
+    ]
+    return [
+        Complaint(
+            "unused-template",
+            f"nothing uses `templates/{file.parent.name}/{file.name}`: derive has no template of this name",
+            help=did_you_mean(file.name, [each.name for each in (ours / file.parent.name).glob("*")]),
+            severity="warning",
+        )
+        for file in unused
+    ]
 
 
 def environment(**own: Any) -> ImmutableSandboxedEnvironment:

@@ -10,7 +10,7 @@ import pytest
 
 from derive.course.parts import points_text
 from derive.errors import Complaint, Rejected
-from derive.page.template import Templates, templates_of
+from derive.page.template import Templates, templates_of, unused_templates
 from derive.render.printing.templates import bookmark_text, filled_template
 from derive.render.rendered import Tex
 from tests.courses import ROOT
@@ -88,3 +88,15 @@ def test_a_template_of_the_course_replaces_the_one_of_the_same_name(tmp_path: Pa
         filled_template(templates, "heading.tex.j2", {"heading": heading})
     place = caught.value.complaints[0].place
     assert place and (place.path, place.line) == ("templates/latex/heading.tex.j2", 2)
+
+
+def test_a_template_that_nothing_uses_is_reported(tmp_path: Path) -> None:
+    own = tmp_path / "templates" / "latex"
+    own.mkdir(parents=True)
+    (own / "headng.tex.j2").write_text("x")
+    (own / "heading.tex.j2").write_text('<% include "logo.tex.j2" %>')
+    (own / "logo.tex.j2").write_text("x")
+    (complaint,) = unused_templates(tmp_path)
+    assert "templates/latex/headng.tex.j2" in complaint.message
+    assert complaint.help == "did you mean `heading.tex.j2`?"
+    assert unused_templates(ROOT) == []

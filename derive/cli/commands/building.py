@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from derive.cli.asked import problem_id_of, root_of, warn_of_names
+from derive.cli.asked import problem_id_of, root_of, warn_of_names, warn_of_templates
 from derive.cli.running import internal
 from derive.cli.terminal import complain, note, tell
 from derive.errors import Complaint, Misused
@@ -44,6 +44,7 @@ def build(arguments: argparse.Namespace) -> int:
     from derive.building.sets import Options, built_set
 
     root = root_of(arguments)
+    warn_of_templates(root)
     if not arguments.sets:
         warn_of_names(root)
     options = Options(

@@ -10,7 +10,7 @@ from contextlib import nullcontext
 from functools import partial
 from typing import TYPE_CHECKING
 
-from derive.cli.asked import problem_id_of, root_of, warn_of_names
+from derive.cli.asked import problem_id_of, root_of, warn_of_names, warn_of_templates
 from derive.cli.check_table import check_table
 from derive.cli.running import delivered, internal, waiting
 from derive.cli.terminal import complain, faults_of_source, note, tell
@@ -31,6 +31,7 @@ def check(arguments: argparse.Namespace) -> int:
 
     root = root_of(arguments)
     warn_of_names(root)
+    warn_of_templates(root)
     asked = [problem_id_of(name) for name in arguments.ids]
     for set_id, stroke, name in (each.partition("/") for each in asked):
         check_asked(root, set_id, [name] if stroke else ())
