@@ -16,6 +16,7 @@ from hypothesis import settings
 import derive  # noqa: F401  before SymPy is imported, whose cache it sets
 from derive.building.workers import Crew
 from tests.browser import chromium
+from tests.covered import covered
 
 # If a script starts `make test` in the background, the shell makes it ignore interrupts. Processes that the tests start
 # would inherit this, but some tests interrupt them.
@@ -49,14 +50,17 @@ SAMPLED = {4: 13, 50: 37}
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Leave out tests of pages in a browser if none is installed, long tests, and most cases of tests with many cases.
+    """Leave out tests of pages in a browser if none is installed, long tests, most cases of tests with many cases, and
+    slow tests that run no line of their own.
 
     `DERIVE_ALL_TESTS=1 make test` tries all cases; so does a run that names single files or tests.
     """
     kept = items if chromium() is not None else [item for item in items if not item.get_closest_marker("browser")]
     names_files = any(Path(each.partition("::")[0]).suffix == ".py" for each in config.args)
     if not names_files and not os.environ.get("DERIVE_ALL_TESTS"):
+        listed = covered()
         kept = _sampled([item for item in kept if not item.get_closest_marker("long")])
+        kept = [item for item in kept if item.nodeid not in listed]
     chosen = set(kept)
     config.hook.pytest_deselected(items=[item for item in items if item not in chosen])
     items[:] = kept
