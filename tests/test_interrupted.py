@@ -6,6 +6,8 @@ import signal
 import subprocess
 import sys
 
+import pytest
+
 from tests.courses import ROOT
 
 
@@ -13,6 +15,7 @@ def test_an_interrupt_reaches_what_the_tests_start() -> None:
     assert signal.getsignal(signal.SIGINT) != signal.SIG_IGN
 
 
+@pytest.mark.long
 def test_tests_that_interrupt_pass_where_an_interrupt_is_ignored() -> None:
     test = "tests/test_interrupted.py::test_an_interrupt_reaches_what_the_tests_start"
     inner = f"{sys.executable} -P -m pytest -q -p no:cacheprovider {test}"

@@ -134,6 +134,7 @@ def test_an_answer_is_graded_with_the_variant_of_its_student(tmp_path: Path, cap
     assert len({chosen_for("week1", "bead", variations, code, "3")["b"] for code in ("A1", "E2", "L3")}) > 1
 
 
+@pytest.mark.long
 def test_a_build_warns_of_documents_of_a_class_that_are_older_than_the_set(
     tmp_path: Path, capfd: pytest.CaptureFixture[str]
 ) -> None:

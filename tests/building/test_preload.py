@@ -11,6 +11,8 @@ from tests.courses import ROOT, course_in
 CODE = """
 import sys
 from pathlib import Path
+import pytest
+
 from derive.building.preload import preload
 from derive.render.formats import formats
 preload(Path("."), derives=True, draws=True), formats()
@@ -21,6 +23,7 @@ print(*sorted(name for name in set(sys.modules) - before if name.startswith(("de
 """
 
 
+@pytest.mark.long
 def test_a_worker_need_not_load_what_its_parent_has_loaded(tmp_path: Path) -> None:
     course = course_in(tmp_path)
     command, paths = [sys.executable, "-P", "-c", CODE], {"PYTHONPATH": str(ROOT)}

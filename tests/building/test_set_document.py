@@ -142,6 +142,7 @@ def test_every_link_leads_somewhere_in_the_document(solutions: PdfReader) -> Non
     assert targets <= set(solutions.named_destinations)
 
 
+@pytest.mark.long
 def test_kept_page_numbers_save_a_run_and_change_nothing(
     course: Path, solved: list[Rendered], solutions: PdfReader, monkeypatch: pytest.MonkeyPatch
 ) -> None:

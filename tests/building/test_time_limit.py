@@ -59,6 +59,7 @@ def test_work_that_only_waits_is_said_to_wait() -> None:
     assert stopped(lambda: time.sleep(60))[0].message == "`x` waited for over 0.4 s"
 
 
+@pytest.mark.long
 def test_work_that_waits_and_catches_all_is_ended_too() -> None:
     def waits() -> None:
         while True:

@@ -204,6 +204,7 @@ def test_a_fault_is_told_and_an_interrupt_is_a_good_end(course: Course, number: 
     assert process.end(number) == (0 if number == signal.SIGINT else 143, "")
 
 
+@pytest.mark.long
 def test_words_and_templates_of_the_course_are_read_again(course: Course, tmp_path: Path) -> None:
     root = course_in(tmp_path / "real", problem="euler")
     shutil.copytree(ROOT / "templates", root / "templates")

@@ -103,6 +103,7 @@ def test_what_a_script_writes_into_a_descriptor_is_no_answer(warm: Warm, garbage
     assert asked(warm).main
 
 
+@pytest.mark.long
 def test_half_an_answer_is_not_waited_for_without_end(warm: Warm) -> None:
     warm.limit = 1
     half = "for each in range(3, 40):\n        try: os.write(each, b'half')\n        except OSError: pass"
@@ -126,6 +127,7 @@ def test_after_its_end_there_is_no_worker_and_no_answer(tmp_path: Path) -> None:
     assert warm._worker is None
 
 
+@pytest.mark.long
 def test_with_too_few_descriptors_there_is_a_complaint_and_none_is_lost(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -160,6 +162,7 @@ time.sleep(60)
 """
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("lines", "signum"), [(ENDLESS, signal.SIGHUP), (BUSY, signal.SIGKILL)])
 def test_a_worker_ends_with_a_server_that_is_killed(tmp_path: Path, signum: int, lines: str) -> None:
     begins_with(Warm(course_in(tmp_path), limit=60), lines)

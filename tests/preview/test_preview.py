@@ -81,6 +81,7 @@ def endless(course: Path) -> None:
 OTHERS = [pytest.param(signum, marks=pytest.mark.long) for signum in (signal.SIGTERM, signal.SIGHUP)]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("signum", [signal.SIGINT, *OTHERS])
 def test_while_it_is_busy_it_ends_at_once_with_its_worker_and_without_a_word(
     preview: Preview, course: Path, signum: int
@@ -105,6 +106,7 @@ def test_its_worker_ends_with_it_when_it_is_killed(preview: Preview, course: Pat
     assert is_gone(worker)
 
 
+@pytest.mark.long
 def test_it_serves_on_when_nobody_reads_what_it_says(preview: Preview, course: Path) -> None:
     assert preview.process.stdout
     preview.process.stdout.close()

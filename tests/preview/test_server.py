@@ -181,6 +181,7 @@ def test_half_a_request_is_not_waited_for_however_it_trickles(served: Server, mo
     until(lambda: busy(served) == 0)
 
 
+@pytest.mark.long
 def test_many_who_ask_nothing_hold_few_threads_and_keep_nobody_out_for_long(
     served: Server, monkeypatch: pytest.MonkeyPatch
 ) -> None:
