@@ -13,8 +13,6 @@ from tests.courses import ROOT, course_in
 CODE = """
 import sys
 from pathlib import Path
-import pytest
-
 from derive.building.preload import preload
 from derive.render.formats import formats
 preload(Path("."), derives=True, draws=True), formats()
