@@ -9,6 +9,7 @@ confirm it; a difference that shrinks as digits are added counts as zero.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from itertools import islice
 from random import Random
@@ -45,7 +46,7 @@ DIGITS = 50
 WORKING = (60, 160, 420)  # precisions in digits, tried in this order until a comparison is decided and confirmed
 SPARE = 20  # working digits that may be lost by rounding, cancellation and large arguments
 
-NEGLIGIBLE = Rational(1, 10**25)  # an entry of a matrix of ordinary numbers below this size is a rounding error
+NEGLIGIBLE = 1e-25  # an entry of a matrix of ordinary numbers below this size is a rounding error
 
 ORDINARY = (0,)
 TINY, LARGE = (-2, -5, -9, -14), (1, 2, 4, 7)  # powers of ten
@@ -213,9 +214,31 @@ def is_zero_everywhere(expr: Expr) -> bool | None:
 def generic_rank(matrix: MatrixBase) -> int:
     """The rank of a matrix for almost all values of its symbols: the largest rank at sampled points."""
     letters = set[Expr]().union(*map(letters_of, matrix))
-    tried = islice(points(letters, seed_of(*matrix)), 2 if letters else 1)
-    numbers = (matrix.xreplace(dict(point)).evalf(DIGITS) for point in tried)
-    return max(int(each.rank(iszerofunc=lambda x: abs(x) < NEGLIGIBLE)) for each in numbers)
+    ranks = [0]
+    for point in islice(points(letters, seed_of(*matrix)), 2 if letters else 1):
+        with suppress(Undefined), mp.workdps(DIGITS):
+            value = Values(point)
+            ranks.append(_rank([[value(entry) for entry in row] for row in matrix.tolist()]))
+    return max(ranks)
+
+
+def _rank(rows: list[list[Any]]) -> int:
+    """The rank of a matrix of numbers, by elimination with the largest pivot; the rows are changed."""
+    rank = 0
+    for column in range(len(rows[0]) if rows else 0):
+        below = rows[rank:]
+        if not below:
+            break
+        pivot = max(below, key=lambda row: abs(row[column]))
+        if abs(pivot[column]) < NEGLIGIBLE:
+            continue
+        below.remove(pivot)
+        for row in below:
+            factor = row[column] / pivot[column]
+            row[column:] = [x - factor * y for x, y in zip(row[column:], pivot[column:], strict=True)]
+        rows[rank:] = [pivot, *below]
+        rank += 1
+    return rank
 
 
 def shown(value: Any, figures: int = 6) -> Expr:
