@@ -280,12 +280,17 @@ def _written(value: Expr, known: Mapping[Expr, Expr]) -> Expr:
     powers = [factor.as_base_exp() for factor in Mul.make_args(value)]
     if len([base for base, n in powers if base.is_Add and n.is_Integer and n.is_positive]) > 1:
         return Mul(*(_written(factor, known) for factor in Mul.make_args(value)))
-    kept = put_in.replace(_is_root, lambda root: Pow(factor_terms(cancel(root.base)), root.exp))
+    kept = put_in.replace(_is_root, lambda root: Pow(_in_lowest_terms(root.base), root.exp))
     kept = kept.replace(lambda part: isinstance(part, Function), lambda part: part.func(*map(tidied, part.args)))
     by_terms = Add(*map(tidied, Add.make_args(kept.expand(func=False)))) if value.is_Add else kept
     if value.is_Add and len(Add.make_args(by_terms)) <= len(value.args):
         return by_terms
     return min((kept, tidied(kept), factor_terms(kept)), key=_cost)
+
+
+@lru_cache(maxsize=4096)  # the forms that are compared have most of their radicands in common
+def _in_lowest_terms(radicand: Expr) -> Expr:
+    return factor_terms(cancel(radicand))
 
 
 def _is_root(value: Expr) -> bool:
