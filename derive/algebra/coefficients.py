@@ -40,7 +40,7 @@ class Coefficient(NamedTuple):
 
 
 class Factored(NamedTuple):
-    """A sum with the common factors of its terms in front; `is_prime` is true only if no shorter factorization exists."""
+    """A sum with the common factors of its terms in front; `is_prime` is true only if no shorter one exists."""
 
     value: Expr
     is_prime: bool
