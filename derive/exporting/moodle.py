@@ -86,7 +86,6 @@ def _gaps(answers: Sequence[Answer]) -> str:
 
 
 def _inputs(answers: Sequence[Answer]) -> str:
-    """Return a line with a field of STACK for each answer."""
     return "\n".join(
         f"<p>{formula_html(answer.symbol or answer.key)} = [[input:ans{number}]] [[validation:ans{number}]]</p>"
         for number, answer in enumerate(answers, 1)
