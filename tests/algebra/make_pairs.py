@@ -364,7 +364,6 @@ def _holds(mark: str, x: Any) -> bool:
 
 
 def _solved(residual: Expr, numbers: dict[Expr, Any]) -> Iterator[dict[Expr, Any]]:
-    """The point with one letter changed so that the residual is zero there."""
     for letter in sorted(residual.free_symbols, key=str)[:4]:
         at = {**numbers}
 
@@ -421,7 +420,6 @@ def _compiled(expr: Expr, ordered: tuple[Expr, ...]) -> Callable[..., Any]:
 
 
 def by_sympy(pair: Pair) -> str:
-    """Which of `equals` and `simplify` gives the right answer."""
     if isinstance(pair.left, Relation | MatrixBase):
         return "-"
     difference = Add(pair.left.doit(), -pair.right.doit())
@@ -452,7 +450,6 @@ def _within(question: Callable[[], Any]) -> Any:
 
 
 def all_pairs(root: Path) -> Iterator[Pair]:
-    """Equal ones, and after each of them one that is not."""
     source = Random(9)
     made = ((name, pair) for name, family in FAMILIES.items() for pair in family(source))
     drawn = list(asked(root))

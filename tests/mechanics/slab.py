@@ -56,5 +56,4 @@ def _derived(
 
 @cache
 def known_slab(**variant: Any) -> dict[str, Quantity]:
-    """The slab by the laws as they are; derived once for all tests."""
     return slab_derivation(verbs_as_imported(), **variant)

@@ -44,7 +44,6 @@ class Solved:
 
     @property
     def page(self) -> str:
-        """The whole page as text, in full detail."""
         document, faults = document_of(
             self.problem, self.derivation, self.values, WORDS, Level.FULL, drawings=self.drawings
         )
@@ -76,7 +75,6 @@ class Run:
         return f"hw9/{self.name.partition('-')[0]}"
 
     def solved(self) -> Solved:
-        """Read the problem and solve it, with nothing remembered of an earlier solution."""
         forget()
         problem = load_problem(self.course, self.id)
         derivation, values, _, run = derived(problem)
@@ -85,8 +83,6 @@ class Run:
 
 @dataclass(frozen=True)
 class LibraryRun(Run):
-    """A problem of the library, unchanged."""
-
     @cached_property
     def course(self) -> Path:
         return ROOT
@@ -98,8 +94,6 @@ class LibraryRun(Run):
 
 @dataclass(frozen=True)
 class OwnRun(Run):
-    """A problem that is here for its verbs alone."""
-
     @cached_property
     def course(self) -> Path:
         course = Path(self._folder.name)
@@ -137,7 +131,6 @@ def _is_own(function: Any) -> bool:
 
 
 def _of_transcripts() -> dict[str, Run]:
-    """One run for each set of edits that some transcript has."""
     found: dict[tuple[str, tuple[tuple[str, str], ...]], Run] = {}
     for name, (edits, _) in PAGES.items():
         found.setdefault((name.partition("-")[0], tuple(edits.items())), Run(name, tuple(edits.items())))

@@ -41,14 +41,12 @@ def framed(tex: str) -> list[str]:
 
 
 def of_html(page: str) -> list[str]:
-    """The formulas that a reader copies."""
     return [
         inside for tex in re.findall(r'data-tex="([^"]*)"', without_folded(page)) for inside in boxed(unescape(tex))
     ]
 
 
 def shown_in_html(page: str) -> str:
-    """The characters of what stands in frames, one after the other."""
     page, found = without_folded(page), ""
     for start in re.finditer('<span class="answer">', page):
         depth, end = 1, start.end()
@@ -83,7 +81,6 @@ def bare(formulas: list[str]) -> str:
 
 
 def characters(text: str) -> str:
-    """Letters and digits alone."""
     return "".join(c for c in unicodedata.normalize("NFKD", unescape(text)) if c.isalnum())
 
 

@@ -59,8 +59,6 @@ PART_OF_A_NAME = re.compile("[^\\W⁰¹²³⁴⁵⁶⁷⁸⁹]|['\u0307\u0308\u2
 
 
 class TextReader:
-    """Reads one line; `sign` is what ± stands for."""
-
     def __init__(
         self,
         text: str,
@@ -402,7 +400,6 @@ def in_one_line(box: TextBox) -> str:
 
 
 def _columns(line: str) -> list[str]:
-    """What stands in each column: a character with the marks above it."""
     return re.findall("[^\u0300-\u036f\u20d0-\u20ff][\u0300-\u036f\u20d0-\u20ff]*", line)
 
 

@@ -52,7 +52,6 @@ def meaning(value: Any) -> Any:
 
 
 def letters_of(name: str, shape: tuple[Any, Any]) -> ImmutableDenseMatrix:
-    """The letters that a vector's or a tensor's name stands for."""
     rows, columns = (int(n) for n in shape)
     marks = [[f"{AXES[i]}{AXES[j]}" for j in range(columns)] if columns > 1 else [AXES[i]] for i in range(rows)]
     return ImmutableDenseMatrix([[_letter(f"{name} {mark}") for mark in line] for line in marks])
