@@ -64,7 +64,6 @@ def combination(expression: Expr, values: Mapping[Symbol, Quantity], key: str, s
 
 
 def _cancelled(value: Expr) -> Expr:
-    """Write a formula in its usual form; also cancel factors under roots if this shortens the formula."""
     plain = presented(value)
     if plain.count_ops() > LARGEST:
         return plain

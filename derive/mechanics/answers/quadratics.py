@@ -214,7 +214,6 @@ def character(of: Quadratic) -> str:
 
 
 def _linear_formula(of: Quadratic) -> Expr:
-    """Return -c/b, with as few minus signs as possible."""
     return Ratio(of.c, -of.b) if of.b.could_extract_minus_sign() else Ratio(-of.c, of.b)
 
 
@@ -247,8 +246,6 @@ def _arranged(of: Quadratic, found: Expr) -> Expr:
 
 
 def _by_size(quadratic: Quadratic, real: int | None) -> tuple[str, str]:
-    """Return the outcomes of the two roots: "nearer" and "farther" for opposite signs, "smaller" and "larger" for equal
-    signs, and "..._where_real" for roots that are not known to be real."""
     if real is None:
         return "smaller_where_real", "larger_where_real"
     return ("nearer", "farther") if sign_known(quadratic.a * quadratic.c) == -1 else ("smaller", "larger")
@@ -322,8 +319,6 @@ def with_index(name: str, index: str | int) -> str:
 
 
 def _of_sign(both: Expr, sign: int) -> Expr:
-    """Return the formula of both roots with +1 or -1 in place of the double sign; its factors are not multiplied
-    out."""
     factors = [factor.xreplace({PLUS_MINUS: Integer(sign)}) for factor in Mul.make_args(both)]
     return Mul(*factors, evaluate=False) if len(factors) > 1 else factors[0]
 
@@ -362,8 +357,6 @@ def _by_resultant(of: Roots) -> Expr:
 
 
 def _resultant(here: Quadratic) -> Expr:
-    """Return the resultant of the polynomial and its derivative by Sylvester's determinant. The coefficients of the
-    polynomial come from its values at three points."""
     at_none, at_one, at_other = (here.at(Integer(n)) for n in (0, 1, -1))
     second, first = (at_one + at_other) / 2 - at_none, (at_one - at_other) / 2
     slope = [2 * here.a, here.b]

@@ -176,7 +176,6 @@ def _reversed(curve: Curve) -> Curve:
 
 
 def _is_long(curve: Curve) -> bool:
-    """Whether a curve is more than a single place."""
     return len(set(_along(curve, 3))) > 1
 
 

@@ -153,7 +153,6 @@ def _outwards(terms: list[Separated], front: Expr) -> list[Form]:
 
 
 def _lasting(values: list[Expr]) -> list[Expr]:
-    """The values without zeros; a single zero if all values are zero."""
     return [value for value in values if value != 0] or values[:1]
 
 
@@ -166,7 +165,6 @@ def _one_further(part: Nested | Expr) -> Nested | Expr:
 
 
 def _collected(term: Separated) -> Separated:
-    """The term, with constant factors moved in front of the integrals that remain."""
     front: Expr = Integer(1)
     rest: list[Nested | Expr] = []
     for part in term:

@@ -226,7 +226,6 @@ def _has_twin(chart: Chart, at: Place) -> bool:
 
 
 def _signs(density: Expr, chart: Chart, at: Mapping[Symbol, Expr]) -> set[int]:
-    """The signs of a density at sampled points of the body."""
     value = lambdify(chart.names, explicit(density).xreplace(dict(at)), "math")
     try:
         found = [value(*point) for point in chart.points(POINTS, Random(4))]

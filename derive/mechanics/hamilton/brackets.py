@@ -137,7 +137,6 @@ def _letters(coordinates: Sequence[Coordinate]) -> dict[Symbol, str]:
 
 
 def _called(of: Any) -> str:
-    """Return the part of a key that names a function: the key of its step, its symbol, or "formula"."""
     name = of.key if isinstance(of, Quantity) else str(getattr(of, "symbol", of))
     return name if name.isidentifier() else "formula"
 

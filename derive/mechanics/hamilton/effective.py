@@ -109,7 +109,6 @@ def conserved(of: Quantity, q: Coordinate, value: str | Expr | None = None, key:
 
 
 def _pushed(matter: Matter, q: Coordinate) -> Expr:
-    """Return the generalized force along a coordinate, from all forces that the Lagrangian does not contain."""
     return tidied(explicit(matter.other_force_along(q.symbol)))
 
 
@@ -323,6 +322,5 @@ def _without_constants(of: Quantity) -> str:
 
 
 def _is_driven(of: Quantity) -> bool:
-    """Whether T has a part without rates."""
     kinetic = explicit(of.needed(Energies).kinetic.value)
     return bool(tidied(bound(kinetic, {q.rate: ZERO for q in coordinates_of(of)})) != 0)

@@ -136,7 +136,6 @@ def _solved(momenta_of: Mapping[Symbol, Expr], rates: Sequence[Symbol]) -> dict[
 
 
 def _coupled(matrix: Matrix) -> list[list[int]]:
-    """Return the sets of indices that are coupled by off-diagonal entries of the matrix."""
     blocks: list[set[int]] = []
     for i in range(matrix.rows):
         tied = {i, *(j for j in range(matrix.cols) if matrix[i, j] != 0)}

@@ -393,7 +393,6 @@ def _multiplier_by_work(of: Constraint) -> Expr:
 
 
 def _sides(found: Relation, moving: Sequence[Symbol], constraints: Sequence[Constraint]) -> Relation:
-    """Write terms with constraint forces, and terms without coordinates, rates and accelerations, on the right side."""
     whole = explicit(found.left) - explicit(found.right)
     whole = whole.expand()
     letters = [c.force for c in constraints]

@@ -77,14 +77,12 @@ def _is_conserved(facts: Judged) -> bool:
 
 
 def _is_energy(facts: Judged) -> bool:
-    """Whether the result is the kinetic energy of the mass points plus the potential energy."""
     L = facts.quantities["lagrangian"]
     whole = L.needed(Matter).kinetic_energy() + explicit(L.needed(Energies).potential.value)
     return bool(equal(_in_rates(facts), whole))
 
 
 def _is_worked_on(facts: Judged) -> bool:
-    """Whether the power of the forces outside L is not zero; the rate of the result is then not only -dL/dt."""
     L = facts.quantities["lagrangian"]
     matter, kept = L.needed(Matter), L.fact(Constrained)
     power = Add(*(rate(q) * matter.other_force_along(q) for q in matter.coordinates))
@@ -362,7 +360,6 @@ noether_with_gain: Predicate = negated(noether_symmetry)
 
 
 def _has_speed(facts: Judged, places: list[tuple[Expr, ...]]) -> bool:
-    """Whether the result is the square of the speed of one of these points."""
     moving = list(facts.subject.body.coordinates)
     return any(equal(facts.result, Add(*(by_functions_of_time(c, moving) ** 2 for c in place))) for place in places)
 

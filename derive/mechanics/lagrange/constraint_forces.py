@@ -76,7 +76,6 @@ class _Problem:
 
     @property
     def solved(self) -> list[Symbol]:
-        """The coordinates whose accelerations are unknowns."""
         return [q for q in self.moving if q not in self.keeping]
 
     @property
@@ -115,7 +114,6 @@ class _Problem:
 
     @property
     def residuals_known(self) -> list[Expr]:
-        """The residuals with the values of the coordinates that constraints determine."""
         return [row.xreplace(self.known) for row in self.residuals]
 
 
@@ -371,7 +369,6 @@ class _Isolation:
 
     @property
     def _in_use(self) -> list[Quantity]:
-        """Return the equations in the order of their use: those of the substitutions, then the last one."""
         used = [each.equation for each in self._substituted]
         order = [*used, *(i for i in range(len(self.equations)) if i not in used)]
         return [self.equations[i] for i in order]
@@ -557,7 +554,6 @@ def _check_one_sided(each: Constraint, value: Expr | None) -> None:
 
 
 def _places(problem: _Problem) -> tuple[Expr, ...]:
-    """Return the position of the only mass point; empty if there is not exactly one."""
     points = problem.lagrangian.needed(Matter).points
     return points[0].place if len(points) == 1 else ()
 
@@ -676,7 +672,6 @@ def _kind_of_acceleration(kind: str) -> str | None:
 
 
 def _solution(problem: _Problem) -> dict[Symbol, Expr]:
-    """Return the accelerations and the multipliers; reject a force that a surface or a string cannot exert."""
     found = _solved(problem)
     kept = problem.lagrangian.fact(Constrained)
     for each in kept.constraints if kept is not None else ():
@@ -686,7 +681,6 @@ def _solution(problem: _Problem) -> dict[Symbol, Expr]:
 
 @lru_cache(maxsize=16)
 def _solved(problem: _Problem) -> dict[Symbol, Expr]:
-    """Solve the linear equations for the accelerations and the multipliers."""
     unknowns = problem.unknowns
     rows = [row.xreplace(problem.known) for row in problem.residuals]
     matrix = ImmutableDenseMatrix([[derivative(row, u) for u in unknowns] for row in rows])
@@ -722,7 +716,6 @@ def _has_no_inverse(matrix: DomainMatrix, names: Mapping[Expr, Dummy]) -> bool:
 
 
 def _undetermined(problem: _Problem, matrix: ImmutableDenseMatrix) -> Rejected:
-    """Return the error for equations without a unique solution."""
     count = len(problem.solved)
     held = matrix[count:, :count]
     if len(problem.constraints) and _is_singular(ImmutableDenseMatrix(held * held.T)):

@@ -223,7 +223,6 @@ def _factored(component: Expr) -> Expr:
 
 
 def _turnings(system: System) -> list[Turning]:
-    """Return the rotations of the bodies of a system; identical bodies have one common step for their inertia."""
     found: list[Turning] = []
     known: list[tuple[PlacedBody, Any]] = []
     for i, placed in enumerate(system.bodies):
@@ -349,7 +348,6 @@ def _level_of_values(turnings: list[Turning]) -> Level | None:
 
 
 def _behind(system: System) -> list[Quantity]:
-    """Return the steps that derived the values of bodies; later quantities contain the symbols of these steps."""
     return [lettered(value) for placed in system.bodies for value in getattr(placed.body, "values", ())]
 
 
@@ -374,7 +372,6 @@ def _terms_together(value: Expr, moving: Sequence[Symbol]) -> Expr:
 
 
 def _count(value: Expr, letters: Collection[Symbol]) -> int:
-    """Return how often the letters occur in an expression."""
     return sum(part in letters for part in preorder_traversal(value))
 
 

@@ -254,7 +254,6 @@ def _has_some_fractions(factor: Expr) -> bool:
 
 
 def _product(*factors: Expr) -> Expr:
-    """Return the product, with its sums in brackets."""
     written = any(each.is_Add for each in factors)
     return Mul(*(each for each in factors if each != 1 or not written), evaluate=not written)
 

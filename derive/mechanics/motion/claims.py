@@ -148,7 +148,6 @@ def _is_reached_just_where(come: Arrival, told: Relation | None) -> bool:
 
 
 def _trials_of(come: Arrival) -> list[Point]:
-    """Trial numbers with which the motion reaches the place."""
     values = (come.squared, come.begun.start, _finite(come.place))
     letters = set[Any]().union(*(letters_of(with_numbers(each)) for each in values)) - {come.begun.coordinate}
     reached = [] if come.reached is None else [with_numbers(come.reached)]
@@ -623,7 +622,6 @@ def _where_zero(residual: Expr, s: Symbol) -> list[Expr]:
 
 
 def _trials(value: Expr, fact: InFlight) -> list[Point]:
-    """Trial numbers that satisfy the conditions under which the constraint is lost."""
     letters = letters_of(value)
     return trial_points(letters, *assumptions_about(letters), *map(with_numbers, fact.conditions))
 
@@ -700,7 +698,6 @@ def misses(facts: Judged) -> bool:
 
 
 def _later(fact: InFlight) -> tuple[Expr, ...]:
-    """Times after the departure, in units of the speed at the departure divided by the acceleration."""
     speed = sqrt(Add(*(diff(c, TIME).subs(TIME, 0) ** 2 for c in fact.path)))
     pull = sqrt(Add(*(diff(c, TIME, 2) ** 2 for c in fact.path)))
     return tuple(n * speed / pull for n in LATER)

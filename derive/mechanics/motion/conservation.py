@@ -238,7 +238,6 @@ def _gathered(of: Sequence[tuple[Quantity, Expr]], moving: Sequence[Symbol], hig
 
 
 def _added(sides: Sequence[Expr]) -> list[Expr]:
-    """Return the terms of several sums as one list without zeros; if nothing remains, the list is a single zero."""
     return [term for side in sides for term in side.as_ordered_terms() if term != 0] or [Integer(0)]
 
 

@@ -730,12 +730,10 @@ def _orbit_of(known: InFlight) -> Orbit:
 
 
 def _beyond(place: Sequence[Expr], orbit: Orbit) -> Expr:
-    """The squared distance of a place from the centre of a circle, minus the squared radius."""
     return Add(*((c - m) ** 2 for c, m in zip(place, orbit.centre, strict=True))) - orbit.radius**2
 
 
 def _distance(place: Sequence[Expr], target: Plane) -> Expr:
-    """The distance of a place from a plane, positive on the free side."""
     return dot(Location(tuple(place)) - target.through, target.unit_normal)
 
 
@@ -748,7 +746,6 @@ def _gap(place: Sequence[Expr], known: InFlight, target: Plane) -> Expr:
 
 
 def _at(time: Expr, known: InFlight, order: int = 0) -> list[Expr]:
-    """The components of the place of the particle at a time, or their derivatives of the given order."""
     return [diff(c, TIME, order).xreplace({TIME: time}) for c in known.path]
 
 

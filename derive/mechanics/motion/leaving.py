@@ -195,12 +195,10 @@ def _friction_beside(force: Quantity) -> Constraint | None:
 
 
 def _as_positive(condition: Relation) -> Relation:
-    """Write an inequality without positive factors: v^2 < 5 g l."""
     return positive(condition.residual if condition.operator in (">", ">=") else -condition.residual)
 
 
 def _check_starts_there(force: Quantity, speed: Quantity, unknown: Expr, start: Expr) -> None:
-    """Require that the given start is the start of the motion from which the force was derived."""
     known = speed.needed(ByEnergy)
     begun = unknown.xreplace({known.coordinate: known.start})
     if not is_zero(tidied(begun - start)):

@@ -230,7 +230,6 @@ NONE: Mapping[str, Expr] = MappingProxyType({})
 def _in_results(
     of: Quantity, key: str, coordinates: Mapping[str, Coordinate], values: Values = NONE, symbols: Symbols = ()
 ) -> Quantity | tuple[Quantity, ...]:
-    """Call `steady_motion` with the given values; the remaining cyclic rates get the given symbols."""
     places = {coordinates[name]: value for name, value in values.items() if name in coordinates}
     rates: dict[Coordinate, Any] = {
         q: value for name, value in values.items() for q in coordinates.values() if q.rate.name == name

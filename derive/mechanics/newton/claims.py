@@ -52,7 +52,6 @@ def coordinate_of_the_law(facts: Judged, q: Any) -> bool:
 
 
 def _way(facts: Judged, q: Any = None) -> Vector:
-    """The displacement of the body for a small change of the coordinate."""
     return tuple(explicit(diff(c, q or facts.inputs["coordinate"])) for c in facts.inputs["place"])
 
 
@@ -94,7 +93,6 @@ def _acceleration(facts: Judged) -> Vector:
 
 
 def _still(value: Expr, moving: Any) -> Expr:
-    """Return the expression with all rates and accelerations set to zero."""
     return explicit(value).xreplace({rate(q, n): Integer(0) for q in moving for n in (1, 2)})
 
 

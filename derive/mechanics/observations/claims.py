@@ -121,7 +121,6 @@ def is_value_of_the_symbol(facts: Judged, found: Expr) -> bool:
 
 
 def _agree(one: Expr, other: Expr) -> bool:
-    """Whether two values agree at all trial points."""
     return everywhere(numbers([one, other]), lambda point: same(value_at(one, point), value_at(other, point)))
 
 
@@ -351,7 +350,6 @@ def is_free_of(facts: Judged, letter: Symbol) -> bool:
 
 
 def _depends_on(letter: Symbol, value: Any) -> bool:
-    """Whether a value, or the difference of the sides of an equation, changes with the symbol."""
     inner = explicit(value.residual if isinstance(value, Relation) else value)
     if letter not in inner.free_symbols:
         return False
@@ -605,7 +603,6 @@ def circles(facts: Judged) -> bool:
 
 
 def _is_constant(value: Expr, of: Quantity) -> bool:
-    """Whether a value contains neither the time, nor a coordinate, nor a rate."""
     moving = {s for q in of.coordinates for s in (q, rate(q), rate(q, 2))}
     return not depends_on_time(value) and not explicit(value).free_symbols & {TIME, *moving}
 

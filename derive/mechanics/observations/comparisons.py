@@ -94,7 +94,6 @@ def _kind_of_the_letter(view: View, cases: Sequence[Quantity]) -> str:
 
 
 def _is_constant(q: Quantity) -> bool:
-    """Whether an answer is not zero and contains no coordinate and no rate."""
     moving = {s for each in q.coordinates for s in (each, rate(each))}
     return not is_zero(q.value) and not explicit(q.value).free_symbols & moving
 
@@ -116,7 +115,6 @@ def _in_order(falling: Sequence[Quantity], kind: str) -> Quantity:
 
 
 def _case(q: Quantity) -> Any:
-    """Return the value of a symbol in a special case, such as I = 2 M R^2/5."""
     return next(told for role, told in q.step.roles if role.startswith("value_"))
 
 

@@ -88,7 +88,6 @@ def _is_there(facts: Judged, point: Point) -> bool:
 
 
 def _sided_forces(facts: Judged) -> list[Expr]:
-    """Return the forces that contain a distance |u|, such as the force of a spring along a line."""
     sought = facts.inputs.get("sought", ())
     if len(sought) != len(_entries(facts.result)):
         return []
@@ -396,7 +395,6 @@ def is_its_derivative(facts: Judged, outcome: str) -> bool:
 
 
 def _nearby(point: Point) -> Expr:
-    """Return a distance that is small compared with every value of a trial point."""
     return min((abs(number) for number in point.values()), default=Integer(1)) / 10**9
 
 

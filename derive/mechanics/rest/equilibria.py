@@ -227,7 +227,6 @@ def _states(of: Quantity, forces: Mapping[Symbol, Expr]) -> list[State]:
 
 
 def _in_range(of: Quantity, state: State) -> bool:
-    """Whether the coordinates of the equilibrium are in their ranges."""
     inside = {q: lies_within(q, value, state.exists) for q, value in state.values.items()}
     open_ = next((q for q, known in inside.items() if known is None), None)
     if open_ is not None:

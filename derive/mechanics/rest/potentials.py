@@ -71,7 +71,6 @@ def _of_each_term(value: Expr, q: Symbol, order: int) -> Expr:
 
 
 def _coefficient(value: Expr, q: Symbol, place: Expr, order: int) -> Expr:
-    """Return the coefficient of u^n in the expansion about q = `place`, where n is the order."""
     return coefficient_along(explicit(value), {q: place}, {q: Integer(1)}, order)
 
 

@@ -259,7 +259,6 @@ def _of_one(place: Place, letter: Expr | None, key: str) -> Quantity:
 def _decided_where(
     place: Place, q: Symbol, condition: Relation | None, border: Relation | None, outcome: str
 ) -> list[Fact]:
-    """Return a list with the fact from which `stable_where` derives a condition; empty if there is no condition."""
     if condition is None:
         return []
     there = {"depends_stable_on_border": True, "depends_unstable_on_border": False}.get(outcome)
@@ -314,7 +313,6 @@ def _coefficient(energy: Expr, q: Symbol, at: Expr, order: int) -> Expr:
 
 
 def _small_force(place: Place, q: Symbol) -> Expr:
-    """Return the restoring force for a small displacement, per unit of displacement."""
     if matter_behind(place.potential) is not None:
         force = slope_otherwise(place.potential, q)
         return coefficient_along(force, place.values, {s: Integer(s == q) for s in place.values}, 1)

@@ -404,7 +404,6 @@ def _for_the_whole(part: Quantity) -> Quantity:
 
 
 def _steiner(mass: Expr, d: Any) -> Any:
-    """Return the term of the parallel-axis theorem, m (d.d 1 - d d)."""
     return scaled(mass, MatAdd(scaled(Dot(d, d), Identity(3)), scaled(Integer(-1), Outer(d, d))))
 
 

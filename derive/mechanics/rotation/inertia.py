@@ -270,7 +270,6 @@ def _definition(body: Body, point: Point, region: Region, name: str, key: str) -
 
 
 def _law(region: Region, density: Expr) -> Any:
-    """Return the unevaluated integral of (r.r 1 - r r) dm."""
     r = vector("r")
     integrand = MatAdd(scaled(Dot(r, r), Identity(3)), scaled(Integer(-1), Outer(r, r)))
     return region.with_section_put_in().mass_integral(integrand, density)
@@ -285,7 +284,6 @@ def _by_pair(entries: dict[Pair, Quantity]) -> dict[str, Quantity]:
 
 
 def _assembled(pairs: tuple[Pair, ...], found: Sequence[Any]) -> Any:
-    """Return the symmetric tensor from its entries; missing entries follow from symmetry about z, or are zero."""
     at = dict(zip(pairs, found, strict=True))
     if pairs == ROUND:
         at |= {(1, 1): at[(0, 0)]}
@@ -343,7 +341,6 @@ def _entry_by_integration(
 
 
 def _lies_in_plane(body: Body, point: Point) -> bool:
-    """Whether a body lies in the plane that is normal to the z axis and contains a point."""
     return getattr(body, "flat_across", None) == "z" and is_zero(point.seen(body.middle.position)[2])
 
 

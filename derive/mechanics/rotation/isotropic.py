@@ -93,7 +93,6 @@ def _of_known_sign(moments: Quantity, one: int, other: int, difference: Expr, ke
 
 
 def _two_to_compare(moments: Quantity) -> tuple[int, int]:
-    """Return the index of one of the two equal moments, and the index of the third moment."""
     alone = lone_moment(moments.value)
     if alone is not None:
         return (0 if alone else 1), alone
@@ -137,7 +136,6 @@ def _lengths_in(difference: Expr) -> list[Any]:
 
 
 def _letters_only(factor: Expr) -> Expr:
-    """Return the factor without its numeric coefficient: both sides are divided by M, not by 3 M/80."""
     return factor.as_coeff_Mul()[1]
 
 

@@ -58,7 +58,6 @@ def linearised_rotation(
 
 
 def _rate_of(equations: Sequence[Quantity]) -> RateOfMomentum:
-    """Return the rate of the angular momentum from which the equations were derived."""
     found = [parent.fact(RateOfMomentum) for equation in equations for parent in equation.parents]
     rates = [fact for fact in found if fact is not None]
     if len(equations) != 3 or not rates:
@@ -348,7 +347,6 @@ def perturbation_rate(squared: Quantity, symbol: str | None = None, key: str = "
 
 
 def _root_of(square: Expr) -> Expr:
-    """Return the square root of an expression, with square factors in front of the root."""
     return tidied(sqrt(tidied(square)))
 
 

@@ -155,7 +155,6 @@ def _has_root(value: Expr) -> bool:
 
 
 def _product(factors: Sequence[Expr]) -> Expr:
-    """Return the product in this order, with equal factors as a power."""
     found = [
         Pow(factor, factors.count(factor), evaluate=False) if factors.count(factor) > 1 else factor
         for factor in dict.fromkeys(factors)
@@ -261,7 +260,6 @@ def _is_round(moments: Quantity) -> bool:
 
 
 def _products(e: Any, before: list[Quantity]) -> list[Expr]:
-    """Return the scalar products with the earlier axes, padded with zeros to three entries."""
     found = [explicit(Dot(e, other.value)) for other in before]
     return [*found, *[Integer(0)] * (3 - len(found))]
 
@@ -300,7 +298,6 @@ def lone_moment(moments: Any) -> int | None:
 
 
 def _by_entries(inertia: Quantity) -> Any:
-    """Return the tensor with the symbols of its entries, if its step shows them; otherwise its value."""
     formula = inertia.step.chain[0].expr
     return formula if isinstance(formula, MatrixBase) else inertia.value
 
@@ -346,7 +343,6 @@ def _size(root: Expr) -> tuple[float, str]:
 
 
 def _number(value: Expr) -> float:
-    """Return the value with every symbol equal to 1."""
     return float(value.subs(dict.fromkeys(value.free_symbols, 1)))
 
 

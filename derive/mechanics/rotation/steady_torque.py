@@ -121,6 +121,5 @@ def _by_euler(omega: Quantity, inertia: Quantity) -> list[Form]:
 
 
 def _moments(inertia: Quantity) -> list[Quantity]:
-    """Return the steps of the diagonal entries of the tensor."""
     keys = {f"{inertia.key}_{axis * 2}" for axis in AXES}
     return [parent for parent in inertia.parents if parent.key in keys]

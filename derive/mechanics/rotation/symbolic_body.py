@@ -87,7 +87,6 @@ def symbolic_body(body: Body, about: str = "pivot", symbol: str = "I") -> Letter
 
 
 def _letter(quantity: Quantity) -> Expr:
-    """Return the symbol of a quantity, or 0 if the quantity vanishes."""
     found: Expr = quantity.symbol if quantity.value != 0 else Integer(0)
     return found
 

@@ -283,7 +283,6 @@ def principal_angle(inertia: Quantity, symbol: str = "theta", key: str = "princi
 
 
 def _entry_of(inertia: Quantity, i: int, j: int) -> Quantity | Expr:
-    """Return the step of an entry, if there is one; otherwise the value of the entry."""
     name = entry_name(inertia.symbol.name, i, j)
     value: Expr = inertia.value[i, j]
     return next((parent for parent in inertia.parents if parent.symbol == name), value)

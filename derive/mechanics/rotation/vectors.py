@@ -218,7 +218,6 @@ def _over_the_body(inertia: Quantity, integrand: Any) -> Any:
 
 
 def _acceleration(omega: Quantity) -> Callable[[Any], Any]:
-    """Return the acceleration of a particle of the body as a function of r, omega_dot x r + omega x (omega x r)."""
     turning = explicit(BodyRate(omega.value, *omega.coordinates))
     return lambda r: explicit(Cross(turning, r)) + explicit(Cross(omega.value, Cross(omega.value, r)))
 
@@ -315,7 +314,6 @@ def _energy_by_components(inertia: Any, omega: Any) -> list[Form]:
 
 
 def _as_ratio(size: Expr) -> Expr:
-    """Write a product as one fraction: omega^2/14, not (1/14) omega^2."""
     above, below = size.as_numer_denom()
     return size if below == 1 else Ratio(above, below)
 
@@ -436,7 +434,6 @@ def _lengths_worked(a: Quantity, b: Quantity, lengths: list[Expr]) -> list[Form]
 
 
 def _as_root_of_squares(vector: Any) -> Expr:
-    """Write the length of a vector as a root of a sum of squares: sqrt(169 + 400 + 225)."""
     squares = [entry**2 for entry in vector if entry != 0]
     return Root(Terms(*squares)) if len(squares) > 1 else sqrt(squares[0])
 

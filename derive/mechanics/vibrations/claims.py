@@ -140,7 +140,6 @@ def constants_as_told(facts: Judged, outcome: str) -> bool:
 
 
 def _coefficients(facts: Judged) -> tuple[Expr, ...]:
-    """Return the coefficients of the acceleration, the rate and the coordinate in the equation of motion."""
     q, equation = facts.inputs["q"], explicit(facts.inputs["equation"])
     solved_for = facts.quantities["equation"].symbol
     residual = equation.residual if isinstance(equation, Relation) else solved_for - equation
@@ -243,15 +242,12 @@ S = Dummy("s")
 
 
 def _of_equations(facts: Judged) -> tuple[Any, ...]:
-    """Return the symbols of the equations of motion, and the condition under which the equilibrium exists, if there is
-    one."""
     exists = facts.inputs.get("exists")
     letters = set().union(*(facts.inputs[role].free_symbols for role in MATRICES if role in facts.inputs))
     return letters, *([] if exists is None else [exists])
 
 
 def _points(facts: Judged, tried: int = TRIED) -> list[Point]:
-    """Return trial points at which the equilibrium exists."""
     return trial_points(*_of_equations(facts), tried=tried)
 
 
@@ -293,7 +289,6 @@ def free(facts: Judged) -> bool:
 
 
 def _steady(facts: Judged, point: Point) -> bool:
-    """Whether all exponents at a trial point are imaginary or zero."""
     roots = _roots(facts, point)
     size = max(abs(root) for root in roots)
     return all(abs(root.real) <= LITTLE * size for root in roots)
@@ -411,7 +406,6 @@ FEW = 5  # number of trial points at which a determinant is evaluated
 
 
 def _polynomial(facts: Judged, point: Point) -> Poly:
-    """Return det(K - lambda M) at a trial point."""
     there = (facts.inputs[role].xreplace(dict(point)) for role in ("stiffness", "mass"))
     return _determinant(*map(ImmutableDenseMatrix, there))
 
@@ -466,7 +460,6 @@ def moves_by_itself(sign: int | None) -> Predicate:
 
 
 def _is_uncoupled(facts: Judged, i: int) -> bool:
-    """Whether no other coordinate occurs in equation i, and coordinate i occurs in no other equation."""
     matrices = [Matrix(facts.inputs[role]) for role in MATRICES]
     others = [j for j in range(matrices[0].shape[0]) if j != i]
     return all(is_zero(each[i, j]) and is_zero(each[j, i]) for each in matrices for j in others)
@@ -717,7 +710,6 @@ def coupled_only_to_each_other(facts: Judged, outcome: str) -> bool:
 
 
 def _in_equation(equation: Any) -> set[Any]:
-    """Return the displacements that occur in a linear equation, or whose rates or accelerations do."""
     displaced = next(f.displacements for f in equation.facts if hasattr(f, "displacements"))
     present = explicit(equation.value).residual.free_symbols
     return {s.symbol for s in displaced if present & {s.symbol, s.rate, s.acceleration}}

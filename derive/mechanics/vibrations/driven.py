@@ -154,7 +154,6 @@ def _amplitude(force: Expr, stiff: Expr, loss: Expr) -> Expr:
 
 
 def _one_swing(linear: LinearCoefficients, equation: Quantity) -> tuple[Expr, Expr]:
-    """Return the amplitude F and the phase omega t of the driving force F cos(omega t)."""
     check_no_function("steady_amplitude", linear.driven, equation)
     outside, inside = linear.driven.as_independent(TIME, as_Add=False)
     if not isinstance(inside, cos) or not is_linear_in_time(inside.args[0]) or sign_known(outside) == -1:

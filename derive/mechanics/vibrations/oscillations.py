@@ -105,7 +105,6 @@ def _symbol(name: str) -> Symbol:
 
 
 def _quotient(stiffness: Expr, mass: Expr) -> Expr:
-    """Write k/m with one fraction line."""
     above, below = stiffness.as_numer_denom()
     if below.free_symbols:
         return Ratio(above, below * mass)

@@ -163,7 +163,6 @@ def _separates(drag: MatrixBase, columns: Sequence[MatrixBase]) -> bool:
 
 
 def _damped(together: Linear, column: MatrixBase, own: Sequence[Expr], case: str | None) -> Expr:
-    """Return the damped motion of the oscillator along a shape."""
     a, b, c = (tidied((column.T * each * column)[0]) for each in (together.mass, together.turning, together.stiffness))
     return linear_motion.free_motion(LinearCoefficients(a, b, c, ZERO), own[0], own[1], case)
 
@@ -251,13 +250,11 @@ def _motion(
 
 
 def _told(together: Linear, started: tuple[Sequence[Expr], Sequence[Expr]]) -> dict[str, tuple[Any, Any]]:
-    """Return the initial values that are not zero."""
     pairs = [(s, value) for s, value in _starts(together, started) if value != 0]
     return {f"start_{n}": (Relation(s, "=", value), Relation(value, "=", s)) for n, (s, value) in enumerate(pairs, 1)}
 
 
 def _starts(together: Linear, started: tuple[Sequence[Expr], Sequence[Expr]]) -> list[tuple[Expr, Expr]]:
-    """Return each displacement and each rate with its initial value."""
     letters = [*(s.symbol for s in together.displacements), *(s.rate for s in together.displacements)]
     return list(zip(letters, [*started[0], *started[1]], strict=True))
 
