@@ -90,6 +90,7 @@ def substitutions(residuals: Sequence[Expr], eliminated: Sequence[Symbol]) -> tu
     """Return the substitutions, in order, after which one equation contains none of the eliminated unknowns.
 
     residuals   the equations, one more than the eliminated unknowns
+
     Return nothing if no short substitutions are found.
     """
     rows, left = dict(enumerate(residuals)), list(eliminated)

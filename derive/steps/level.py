@@ -86,6 +86,7 @@ class Shown:
     result_in     outcome -> names of rules, as for `Display`
     quoted        outcomes whose steps are standard results
     verdicts      outcomes for which the answer is the sentence, such as "stable"
+
     The other fields are those of `Display`.
     """
 

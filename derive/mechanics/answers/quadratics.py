@@ -126,8 +126,7 @@ def roots_together(
 def _coefficients(equation: Quantity, x: Symbol, values: Sequence[Quantity]) -> tuple[Roots, Expr]:
     """Return the coefficients of a quadratic or linear equation in x, both in letters and with values substituted.
 
-    The second result is the value of the factor of the left side that does not contain x. The signs of the
-    coefficients are chosen so that the first coefficient has no minus sign.
+    The second result is the value of the factor of the left side that does not contain x.
     """
     factors = Mul.make_args(presented(equation.value.residual)) if isinstance(equation.value, Relation) else ()
     apart = Mul(*(f for f in factors if x not in f.free_symbols))
@@ -223,11 +222,7 @@ def _formula(of: Quadratic) -> Expr:
 
 def _arranged(of: Quadratic, found: Expr) -> Expr:
     """Write the roots as k (u +- sqrt(u^2 - w)). Here u is the product of the factors of -b that contain symbols, but
-    no symbol of a or c.
-
-    For example, u is S if -b = m l^2 S and the other coefficients contain m and l. If the sign of -b/u is unknown, the
-    roots have their tidy form.
-    """
+    no symbol of a or c."""
     own = [
         f
         for f in Mul.make_args(-of.b)

@@ -422,11 +422,7 @@ def _cells(body: GeneralBody) -> list[Quantity]:
 
 
 def _variables_of(body: GeneralBody) -> dict[Symbol, str]:
-    """The variables of a body with their kinds.
-
-    A variable in a sine or cosine is an angle. Any other variable is a length if one of its limits contains a symbol;
-    otherwise it is a number.
-    """
+    """The variables of a body with their kinds."""
     position, limits = body.map()
     angles = {s for f in position.atoms(sin, cos) for s in f.free_symbols}
     kinds = {}

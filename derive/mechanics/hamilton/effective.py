@@ -114,9 +114,7 @@ def _pushed(matter: Matter, q: Coordinate) -> Expr:
 
 def _put_aside(of: Quantity, constants: Sequence[Quantity], verb: str) -> list[Coordinate]:
     """Return the coordinates of the Lagrangian except the coordinates of the constant momenta. At least one coordinate
-    must remain. Reject momenta of another Lagrangian, momenta that are given twice, and forces outside L that act along
-    the remaining coordinates. For an effective potential energy, only forces that act where all rates vanish are
-    rejected."""
+    must remain."""
     found = coordinates_of(of)
     for each in constants:
         q = each.needed(Constant).coordinate

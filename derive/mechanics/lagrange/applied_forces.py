@@ -360,8 +360,7 @@ def _between(constraints: Sequence[Constraint]) -> str:
 def _functions_told(constraints: Sequence[Constraint]) -> dict[str, tuple[Relation, Relation]]:
     """Return the functions that vanish where the constraints hold, such as f_x = x - R sin(theta).
 
-    The index of f is the index of the multiplier, here lambda_x. For multipliers without an index, the functions are
-    f_1, f_2 and so on, or f if there is only one constraint. If the gradient of f does not have the length 1, the
+    The index of f is the index of the multiplier, here lambda_x. If the gradient of f does not have the length 1, the
     multiplier of the force N is also stated, lambda = N/sqrt(1 + x^2/b^2).
     """
     found = {}
@@ -380,8 +379,7 @@ def _functions_told(constraints: Sequence[Constraint]) -> dict[str, tuple[Relati
 
 def _multipliers_told(constraints: Sequence[Constraint]) -> dict[str, Symbol]:
     """Return the multipliers of the first four constraints, because a sentence names at most four. The key
-    `multiplier_2` belongs to `function_2`. If the gradient does not have length 1, the multiplier is not a force and is
-    omitted."""
+    `multiplier_2` belongs to `function_2`."""
     return {f"multiplier_{i}": each.force for i, each in enumerate(constraints[:4], 1) if each.gradient == 1}
 
 

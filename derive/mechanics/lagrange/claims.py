@@ -187,9 +187,7 @@ def free_bodies(facts: Judged) -> int:
 
 
 def parts_of_the_kinetic_energy(facts: Judged, _: str) -> bool:
-    """Whether the word `made` fits the system. Every word except "any" requires a single body and no particle. The word
-    "both" requires a rotation, and a centre of mass that moves. "axis", for motion in a plane, and "point", for motion
-    in space, require that the body turns about a point at rest."""
+    """Whether the word `made` fits the system."""
     system, made = facts.subject.body, facts.words["made"]
     if made == "any":
         return True
@@ -245,10 +243,7 @@ def is_stretched(facts: Judged) -> bool:
     """Whether the symbol of the result is a multiplier that differs from the constraint force.
 
     The symbol is the force if the gradient of the condition f with respect to the position r of the particle has the
-    length `gradient`. This length is 1 except for curves. Virtual work gives the gradient (J J^T)^-1 J a. Here J
-    contains the derivatives of r with respect to the coordinates, and a contains the derivatives of f. The length of
-    this gradient is computed numerically. If the position or the condition is not given, the symbol is taken to be the
-    force.
+    length `gradient`.
     """
     place, condition = (facts.inputs.get(role) for role in ("place", "condition"))
     if not place or condition is None:
@@ -301,11 +296,6 @@ def functions_of_its_constraints(facts: Judged, outcome: str) -> bool:
     """Whether the factors of the constraint forces in the equation agree with the functions that the sentence states.
 
     The factor of each force must be the derivative of a stated function with respect to the coordinate of the equation.
-    If the function contains rates, the rate of this coordinate replaces the coordinate. If the sentence also states a
-    multiplier in terms of a force, the factor is this derivative times the ratio of the multiplier to the force.
-    Friction terms in the generalized force, which are proportional to a constraint force, are not counted. The word
-    under `between` must be "coordinates", "rates" or "both", as the stated functions require, and for one function
-    "coordinates_once" or "rates_once".
     """
     told = {role[9:]: explicit(value.right) for role, value in facts.inputs.items() if role.startswith("function_")}
     stated = {role[11:]: v for role, v in facts.inputs.items() if role.startswith("multiplier_")}
@@ -332,11 +322,7 @@ def _slope(function: Expr, q: Any) -> Expr:
 
 
 def multiplier_of(i: int) -> Naming:
-    """Return the predicate for the multiplier of the i-th function in a sentence.
-
-    The factor of this multiplier in the equation must be the derivative of the function with respect to the coordinate
-    of the equation, or with respect to the rate of this coordinate.
-    """
+    """Return the predicate for the multiplier of the i-th function in a sentence."""
 
     def is_so(facts: Judged, letter: Any) -> bool:
         q = facts.inputs["coordinate"]
@@ -433,8 +419,7 @@ acceleration_without_constraints: Predicate = both(lasts, negated(_is_constraine
 def follows_from_these_equations(facts: Judged, outcome: str) -> bool:
     """Whether the named equations and the earlier unknowns give the result; true if the sentence names no equations.
 
-    With trial numbers for the other symbols, these equations are linear in the unknowns. They are solved for the
-    unknown of the step, without the formula of the step.
+    With trial numbers for the other symbols, these equations are linear in the unknowns.
     """
     equations = [q for role, q in facts.quantities.items() if role.startswith("equation_")]
     if not equations:

@@ -343,8 +343,7 @@ class _Isolation:
     @property
     def _constant(self) -> dict[Quantity, Relation]:
         """Return each equation q_ddot = 0 of a constraint q = constant, with this constraint. The sentence states both
-        in words, "with r = l and r_ddot = 0". The mapping is empty if one equation is substituted in another, or if
-        there are no other equations."""
+        in words, "with r = l and r_ddot = 0"."""
         constraints = self.problem.constraints
         first = len(self.problem.used)
         numbers = [i - first for i in self.found.equations if i >= first]

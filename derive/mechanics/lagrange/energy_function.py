@@ -93,8 +93,8 @@ def _powers_of_conditions(of: Quantity) -> list[Expr]:
 def told_of_excess(value: Expr, of: Quantity, rates: Sequence[Symbol]) -> dict[str, tuple[Any, Any]]:
     """Return T + U - h in two forms, the shorter one first; nothing if T + U = h, or if T and U are unknown.
 
-    One form is the difference. The other is T_1 + 2 T_0, where T_1 and T_0 are the parts of T of degree 1 and 0 in the
-    rates.
+    One form is the difference of energies; the other is T_1 + 2 T_0, where T_1 and T_0 are the parts of T of degree 1
+    and 0 in the rates.
     """
     if energies_of(of) is None:
         return {}

@@ -216,7 +216,7 @@ def _without_common_factor(left: Expr, moving: Sequence[Symbol]) -> Expr:
     """Divide by common positive factors: m l^2 theta_ddot + m g l sin(theta) becomes l theta_ddot + g sin(theta).
 
     Factors that contain a coordinate and factors in a denominator remain. Numeric factors that are common to all terms,
-    also inside brackets, are divided out. The result is not longer than the given sum.
+    also inside brackets, are divided out.
     """
     terms = Add.make_args(left)
     factors = Mul.make_args(common_factor(list(terms)))

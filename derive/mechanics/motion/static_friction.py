@@ -100,7 +100,7 @@ def solved_for_limit(contact: Friction, side: int, mark: str, unknown: Expr) -> 
 
 
 def solved_line(contact: Friction, result: Relation, excess: Expr) -> Form:
-    """Return the line with the solution. The line before it differs by a factor that does not vanish, such as N > 0."""
+    """Return the line with the solved relation; it differs from the line before by a factor that does not vanish."""
     alone, solved = result.sides
     if alone == contact.limit.coefficient:
         pushing = Mul.make_args(contact.N)

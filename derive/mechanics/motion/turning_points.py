@@ -119,10 +119,7 @@ def _arrival(
 
 
 def words_of(arrivals: Sequence[Arrival]) -> dict[str, str]:
-    """Return the word under `lasts` for a sentence with the condition under which the motion comes to these places.
-
-    The result is empty if there is no such condition, or if neither contact nor a taut string is needed.
-    """
+    """Return the word under `lasts` for a sentence with the condition under which the motion comes to these places."""
     lasting = next((each.lasts for each in arrivals if each.reached is not None and each.lasts), "")
     return {"lasts": lasting} if lasting else {}
 

@@ -198,11 +198,7 @@ def springs_with(of: Quantity, letter: Symbol) -> int:
 
 
 def _reason(linear: Linear, letter: Symbol, kind: str) -> tuple[str, dict[str, Any]]:
-    """Return the outcome and its data.
-
-    The outcome is "spring" for a spring constant in the stiffness matrix, "mass" for a mass that is in one diagonal
-    entry of the mass matrix and not in the stiffness matrix, and "" for any other symbol.
-    """
+    """Return the outcome and its data."""
     at = [i for i in range(linear.mass.shape[0]) if letter in linear.mass[i, i].free_symbols]
     if kind == "spring constant" and letter in linear.stiffness.free_symbols:
         return "spring", {"stiffness": linear.stiffness}

@@ -412,8 +412,7 @@ def _of_minors(matrix: MatrixBase, minors: list[Expr]) -> str:
 def _way_down(matrix: MatrixBase) -> MatrixBase | None:
     """Return a direction in which the energy falls for all values of the symbols; None if no such direction is found.
 
-    The direction is a null vector of the part of the matrix that is proportional to one symbol. If the symbol
-    is a spring constant, for example, a displacement in this direction does not stretch the spring to first order.
+    The direction is a null vector of the part of the matrix that is proportional to one symbol.
     """
     for letter in sorted(matrix.free_symbols, key=str):
         share = matrix.applyfunc(lambda entry, s=letter: tidied(derivative(entry, s)))

@@ -320,7 +320,7 @@ def perturbation_rate(squared: Quantity, symbol: str | None = None, key: str = "
         """Compare the rate with its absolute value at one point where Omega^2, or kappa^2, is positive.
 
         The determinant does not determine the sign of the rate. One point is enough, because the sign changes only
-        where the rate vanishes. If no point is suitable, the rate itself is compared, which confirms nothing.
+        where the rate vanishes.
         """
         letters = sorted(value.free_symbols, key=str)
         turned = (letters[turn:] + letters[:turn] for turn in range(len(letters) + 1))

@@ -366,9 +366,7 @@ def _frame(moments: Quantity) -> tuple[list[Any], Symbol]:
 def _eigenvectors(tensor: Any, moments: Any) -> list[Any]:
     """Return the unit eigenvectors.
 
-    The eigenvector of a moment that equals no other moment is perpendicular to the rows of I - I_k 1. If two moments
-    are equal, the first of their eigenvectors is any unit vector perpendicular to the eigenvector of the third moment.
-    The last eigenvector has the direction of the vector product of the other two.
+    The eigenvector of a moment that equals no other moment is perpendicular to the rows of I - I_k 1.
     """
     alone = lone_moment(moments)
     first = alone if alone is not None else 0

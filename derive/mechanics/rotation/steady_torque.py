@@ -100,8 +100,7 @@ def torque(omega: Quantity, momentum: Quantity, symbol: str = "tau", key: str = 
 def _by_euler(omega: Quantity, inertia: Quantity) -> list[Form]:
     """Return a list with the line ((I_z - I_y) omega_y omega_z, ...), Euler's equations without omega_dot.
 
-    The list is empty if the axes are not principal axes. A moment that no step derives is written with the symbol of an
-    equal moment; if no moment with a symbol is equal to it, all moments are replaced by their values.
+    The list is empty if the axes are not principal axes.
     """
     if not inertia.value.is_diagonal():
         return []

@@ -302,8 +302,7 @@ def kinetic_energy(
 def _energy_by_components(inertia: Any, omega: Any) -> list[Form]:
     """Return a list with the kinetic energy as an explicit sum, (1/2) w^2/14 (M a^2/12) (13 1^2 + 10 2^2 + 5 3^2).
 
-    The list is empty unless the axes are principal axes with moments that are not all equal. The moments must also be
-    numbers up to a common factor, and so must the components of omega. At least two components must be nonzero.
+    The list is empty unless the axes are principal axes with moments that are not all equal.
     """
     (w, along), (I, moments) = size_and_rest(omega), factored_matrix(inertia)
     terms = [Factors(moment, n**2) for moment, n in zip(moments.diagonal(), along, strict=True) if n != 0]

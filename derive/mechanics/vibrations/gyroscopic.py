@@ -64,11 +64,7 @@ class TurningModes(Equations[Gyroscopic]):
     """The results of `normal_modes` with gyroscopic forces, which are linear in the rates and do no work."""
 
     def found(self) -> tuple[Quantity, ...]:
-        """Return the frequencies, then the motion for each frequency for which the amplitudes are found.
-
-        No motion is returned for a zero or repeated frequency, if the sign of omega is unknown, or if an amplitude is
-        neither real nor imaginary.
-        """
+        """Return the frequencies, then the motion for each frequency for which the amplitudes are found."""
         characteristic = _characteristic(self)
         found = [_frequency(self, characteristic, n) for n in range(len(self.system.roots))]
         motions: list[Quantity] = []

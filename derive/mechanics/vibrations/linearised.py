@@ -366,11 +366,7 @@ def _displacements(moving: Sequence[Coordinate], place: Mapping[Symbol, Expr]) -
 
 
 def _pointed(equations: Sequence[Quantity], i: int) -> dict[str, Quantity]:
-    """Return the equations that the sentence names: equation i and, if there are several, one other equation.
-
-    The other equation is the one before equation i; for the first equation, it is the last one. For the first of more
-    than two equations, the second equation is also returned, so that the sentence says "(6) to (8)".
-    """
+    """Return the equations that the sentence names: equation i and, if there are several, one other equation."""
     others = {"other": equations[i - 1]} if len(equations) > 1 else {}
     middle = {"middle": equations[1]} if len(equations) > 2 and i == 0 else {}
     return {"motion": equations[i], **others, **middle}
