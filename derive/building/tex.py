@@ -2,7 +2,7 @@
 
 The default engine is part of a Python wheel, so no TeX installation is needed; `--engine` or `DERIVE_ENGINE` selects
 another engine. Shell escape is off, and access to files is restricted. A source marks its pieces with comment lines
-such as `%% derive: hw9/block part b`, which the message of a TeX error names.
+such as `%% derive: hw9/block part b`, so that the message of a TeX error can name the piece.
 """
 
 from __future__ import annotations

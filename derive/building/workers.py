@@ -398,8 +398,7 @@ def _limit_reached(trace: int, error: MemoryError | RecursionError) -> str:
 
 
 def _trail(error: BaseException) -> str:
-    """Return the lines through which an error propagated, innermost first, as `faulthandler` does; many lines are
-    shortened."""
+    """Return the lines through which an error propagated, innermost first, as `faulthandler` does."""
     trail, lines = error.__traceback__, []
     while trail:
         lines.append(f'  File "{trail.tb_frame.f_code.co_filename}", line {trail.tb_lineno} in x\n')

@@ -5,8 +5,7 @@
     unary    ("-" | "+") unary | atom ("**" unary)?
     atom     number | number unit | name | function "(" sum ")" | "(" sum ")"
 
-A number may be followed by the unit of an angle, as in `sin(30 deg)`. A number with another unit may be replaced by a
-letter.
+A number may be followed by the unit of an angle, as in `sin(30 deg)`.
 
 The grammar reads every character; no text ever reaches Python or SymPy as code. The size of every value is bounded
 before the value is computed.

@@ -182,7 +182,6 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         """Draw the forces on each particle and each body.
 
         A drawing before the steps of Newton's laws shows each force in the direction in which its symbol is positive.
-        All drawings have the same scale.
         """
         run = current_run.get()
         steps = run.established if run is not None else ()

@@ -327,8 +327,7 @@ def forced_equation(of: Quantity, q: Coordinate, derivatives: Sequence[Quantity]
 def with_derivatives(derivatives: Sequence[Quantity], right: Expr, moving: Sequence[Symbol]) -> list[Form]:
     """Return the line with the derivatives of L, d/dt (m r^2 theta_dot) + m g r sin(theta) = right.
 
-    The line is left out if it is as short as the equation. This is so if the momentum is one term without coordinates,
-    such as m x_dot, and dL/dq is at most one term.
+    The line is left out if it is as short as the equation.
     """
     if not derivatives:
         return []

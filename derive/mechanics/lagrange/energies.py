@@ -383,8 +383,8 @@ def potential_energy_of(system: System, symbol: str | None = None, key: str = "p
 
     The height y of a particle or a centre of mass is measured from the origin. By convention U is zero for weights at
     the origin and for springs at their natural length.
-    Second route: the forces do the work -dU, so -dU/dq = sum of F . dr/dq for each coordinate. The
-    same is true for the time t in place of q.
+    Second route: the forces do the work -dU, so -dU/dq = sum of F . dr/dq for each coordinate, and -dU/dt = sum of
+    F . dr/dt for the time t.
     Outcomes: generic, zero.
     Source: Taylor, *Classical Mechanics*, section 4.2.
     """

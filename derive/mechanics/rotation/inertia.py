@@ -236,8 +236,7 @@ def pairs_left_by_symmetry(body: Body, point: Point) -> tuple[Pair, ...]:
     """Return the entries to integrate.
 
     For a round body about a point on its axis, I_yy = I_xx and the products vanish. The products also vanish if, for
-    each axis, the plane through the point and normal to this axis is a mirror plane of the body. This is tested only
-    for a body with a single region, by the limits of this region.
+    each axis, the plane through the point and normal to this axis is a mirror plane of the body.
     """
     if body.is_round and point.position[0] == point.position[1] == 0:
         return ROUND
