@@ -373,6 +373,7 @@ def comparison_of(condition: Quantity, amounts: Mapping[Symbol, Amount], key: st
 
     condition   an inequality or an equation between given quantities, such as a result of `where`
     amounts     symbol -> its number with a unit
+
     Check: both sides and the sign of their difference, evaluated again as for `value_of`.
     Outcomes: fulfilled, not_fulfilled.
     Source: as `value_of`.
@@ -418,6 +419,7 @@ def coefficient_of(answer: Quantity, figures: int, of_vectors: bool = False) -> 
     figures      the number of significant figures
     of_vectors   whether products of roots and pi are also rounded, and vectors whose components are numbers times
                  letters
+
     Check: the answer divided by its letters, evaluated again as for `value_of`.
     Outcomes: exact.
     Source: as `value_of`.

@@ -76,6 +76,7 @@ def united(
     named   the key of each input, and its subject
     differ  the properties in which the inputs may differ, in addition to `axis`
     same    the function that decides whether two values are equal
+
     Errors: two inputs have different subjects.
     """
     found: dict[str, Any] = {}

@@ -116,6 +116,7 @@ class Tape:
     """Formulas as operations; `inputs` are the symbols whose values vary from point to point.
 
     inputs   the symbols whose values vary from point to point
+
     All other symbols are constants, except prescribed functions: `tested_by` gives a definite function for each.
     """
 

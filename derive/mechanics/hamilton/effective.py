@@ -59,6 +59,7 @@ def conserved(of: Quantity, q: Coordinate, value: str | Expr | None = None, key:
     q       a coordinate that L does not contain
     value   the symbol of the constant, by default p_q; or the initial value of the momentum, such as I_z*S. An initial
             value makes the result an equation for the rates, p_q = I_z*S, which `put_in` substitutes in other equations
+
     Second route: the sum of m v . dr/dq over the mass points, and of e A . dr/dq over charges e in magnetic fields.
     The time derivative of this sum, as a function of t, is the sum of (m a - F) . dr/dq, which vanishes by d'Alembert's
     principle.

@@ -95,6 +95,7 @@ def dissipation_function(system: WithForces, symbol: str = "D", key: str = "diss
 
     system   the system with the dampers; c is the force per velocity or, for a damped coordinate, the generalized force
              per rate
+
     Second route: the power of the drag forces, sum of F . v, is -2 D.
     Errors: the system has no dampers.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.5.
@@ -168,6 +169,7 @@ def applied_force(of: Quantity, q: Coordinate, key: str | None = None) -> Quanti
 
     of   the Lagrangian, J, of a system with given forces, couples or damping
     q    one of the coordinates of the system
+
     Second route: Q is the derivative of the power of all these forces, sum of F . v, with respect to q_dot, with F held
     constant.
     Outcomes: generic, zero.
@@ -269,6 +271,7 @@ def forced_equation(of: Quantity, q: Coordinate, derivatives: Sequence[Quantity]
     of            the Lagrangian, J
     q             a coordinate of this Lagrangian
     derivatives   the steps for dL/dq, dL/dq_dot and the rate of dL/dq_dot, if there are such steps
+
     If forces without a potential energy act on the system, a step derives their generalized force Q.
     Second route: d'Alembert's principle, sum of (m a - F) . dr/dq = 0, from positions and forces. For a given L, a
     further route is the energy identity.

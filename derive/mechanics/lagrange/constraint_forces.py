@@ -148,6 +148,7 @@ def accelerations(*equations: Quantity) -> tuple[Quantity, ...]:
     """Accelerations q_ddot, from the equations of motion, and from the constraints if there are any.
 
     equations   the equations of motion, one for each coordinate of one Lagrangian
+
     Keys: acceleration_x for the coordinate x.
     Outcomes: generic (with constraints), unconstrained, isolated (from the equations that the sentence names),
     eliminated (from these equations, after other unknowns are eliminated), zero.
@@ -168,6 +169,7 @@ def multipliers(*equations: Quantity, keeping: Sequence[Coordinate] = ()) -> tup
 
     equations   the equations of motion, one for each coordinate of one Lagrangian
     keeping     coordinates whose accelerations remain in the forces; the equations of these coordinates are not used
+
     Keys: the symbols of the forces.
     Second route: d'Alembert's principle, as for `accelerations`.
     Outcomes: generic (the multiplier is the constraint force), negative (the multiplier is the constraint force on a
@@ -237,6 +239,7 @@ def constraint_rate(of: Quantity, number: int = 0, key: str | None = None) -> Qu
 
     of       the Lagrangian of a system with constraints
     number   the index of the constraint, 0 for the first
+
     Outcomes: in_rates, in_coordinates, constant (the constraint is y = a, with one coordinate).
     Check: differentiate with each coordinate as its Taylor series in t.
     Errors: there is no constraint with this index.
@@ -579,6 +582,7 @@ def constraint_force(
     forces   results of `multipliers` for one system
     along    coordinate -> its change per unit of the displacement: `{x: sin(theta), y: cos(theta)}`
     symbol   the symbol of the component, which is a force if the displacement is a length
+
     Second route: by Newton's law along the displacement, N is the sum of m a . dr over the mass points, minus the work
     of all other forces.
     Outcomes: generic, zero.

@@ -476,6 +476,7 @@ def magnetic_term_of(system: System, symbol: str = "L_B", key: str = "magnetic_t
     """Term of uniform magnetic fields in a Lagrangian, sum of q v . A with the vector potential A = (1/2) B x r, J.
 
     system   charges q, in C, in magnetic fields B, in T
+
     Second route: for this term L_B, dL_B/ds - d/dt dL_B/ds_dot is the virtual work of the forces q v x B along each
     coordinate s.
     Outcomes: alone (one charge in a field), several.

@@ -152,6 +152,7 @@ def equation_of_motion(
     of            the Lagrangian, J
     q             a coordinate of this Lagrangian
     derivatives   whether steps derive the force dL/dq, the momentum dL/dq_dot and the rate of the momentum
+
     Second route: d'Alembert's principle, sum of (m a - F) . dr/dq = 0, from positions and forces. For a given L, a
     further route is the energy identity.
     Outcomes: generic, cyclic (L does not contain q, so the momentum of q is constant).
@@ -270,6 +271,7 @@ def equations_of_motion(of: Quantity, derivatives: bool = True) -> tuple[Quantit
 
     of            the Lagrangian, J
     derivatives   whether steps derive dL/dq, dL/dq_dot and the rate of dL/dq_dot
+
     Keys: motion_x for the coordinate x.
     Second route: as `equation_of_motion`.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.4.
@@ -301,6 +303,7 @@ def generalized_force(of: Quantity, q: Coordinate, key: str | None = None) -> Qu
 
     of   the Lagrangian, J
     q    a coordinate of this Lagrangian
+
     Second route: the sum of F . dr/dq over the forces in L, and of m v . d(dr/dq)/dt over the mass points. For charges
     e in magnetic fields, the time derivative of the sum of e A . dr/dq is added.
     Outcomes: generic, zero (L does not contain q).
@@ -343,6 +346,7 @@ def generalized_momentum(of: Quantity, q: Coordinate, key: str | None = None) ->
 
     of   the Lagrangian, J
     q    a coordinate of this Lagrangian
+
     Second route: the sum of m v . dr/dq over the mass points, and of e A . dr/dq over charges e in magnetic fields.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.6.
     """
@@ -372,6 +376,7 @@ def momentum_rate(momentum: Quantity, q: Coordinate, key: str | None = None) -> 
 
     momentum   the generalized momentum dL/dq_dot
     q          the coordinate of the momentum
+
     Check: differentiate with each coordinate as its Taylor series in t.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.4.
     """

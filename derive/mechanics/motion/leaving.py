@@ -71,6 +71,7 @@ def leaves_contact(force: Quantity, letter: Letter, start: Value, key: str = "le
     force    the normal force, positive while it pushes, in N; or the tension of a string, positive while it pulls
     letter   the unknown: a coordinate, or a function of a coordinate such as `cos(theta)`
     start    the value of the unknown at the start, where the force is positive
+
     The motion must reach the place. If the force depends on a squared rate, q_dot^2 = f(q) by conservation of energy,
     f must be positive at the place. If the sign of f at the place depends on the symbols, the page states the condition
     f > 0. If f cannot be positive at the place, contact is not lost.

@@ -85,6 +85,7 @@ def stability(
     at       the equilibrium: as `equilibria` yields it, or `{theta: 0}`
     letter   the symbol that a condition is solved for; by default the symbol that occurs as a square, if there is
              exactly one such symbol
+
     Second route: the restoring force for a small displacement, from virtual work if mass points and forces are known.
     For several coordinates, the energy of a small displacement in an arbitrary direction.
     Outcomes: stable, unstable, depends (on the stated condition), depends_stable_on_border,

@@ -76,6 +76,7 @@ def inertia_tensor(
     body         a body with mass M
     about        a named point of the body: "centre", "corner", "apex", ...
     coordinates  the coordinates of integration, "cartesian" or "cylindrical", if the body has both
+
     The axes are the body axes. In general, a step derives each of the six entries. If the body is round about z and the
     point is on this axis, steps derive only the two distinct entries that symmetry leaves. If three mirror planes
     through the point are normal to the axes, steps derive only the moments. For a composite body, the tensors of its
@@ -143,6 +144,7 @@ def moment_of_inertia(
     body    a body with mass M
     axis    "x", "y" or "z": the moment is about an axis parallel to this body axis
     about   a named point of the body on the axis of the moment
+
     Second route: the sum of m d^2 over equimomental particles; for a body defined by a position map, a numerical sum
     over its cells.
     The moment of a composite body is derived from its parts.
@@ -193,6 +195,7 @@ def moment_seen(
            for an axis of a body that a position map defines, "across_plane" for the normal of the plane of motion,
            "part" for an axis of a part. The word under "whole", for a part only, is the parallel axis of the whole body
     turn   the matrix whose columns are the axes of the whole body, in components along the axes of the part
+
     Source: the same as for `moment_of_inertia`.
     """
     point, i = body.point(about), "xyz".index(axis)
@@ -407,6 +410,7 @@ def moved_to(tensor_there: Quantity, centre: Quantity, symbol: str = "I", key: s
 
     tensor_there    tensor J (3, 3), kg m^2, about a point of the body
     centre          vector c (3), m: the position of the centre of mass relative to the point of J, along the same axes
+
     Second route: each entry, and the whole tensor, integrated about the centre of mass; also, the trace must be twice
     the integral of r.r dm.
     Outcomes: the same as those of `inertia_tensor`.
@@ -430,6 +434,7 @@ def moved_from_centre(inertia: Quantity, centre: Quantity, symbol: str = "J", ke
 
     inertia   tensor I (3, 3), kg m^2, about the centre of mass
     centre    vector c (3), m: the position of the centre of mass relative to the other point, along the same axes
+
     Second route: each entry, and the whole tensor, integrated about the other point; also, the trace must be twice the
     integral of r.r dm.
     Outcomes: outward.
@@ -576,6 +581,7 @@ def agreement(found: Quantity, again: Quantity, key: str = "agreement") -> Quant
 
     found   tensor (3, 3), kg m^2
     again   the tensor of the same body about the same point by another derivation, possibly along rotated axes
+
     Check: `again`, rotated to the axes of `found`, is equal to `found`.
     Outcomes: generic (the axes are the same), turned (the axes of `again` are rotated by half a turn about x).
     Errors: the tensors belong to different bodies or points.

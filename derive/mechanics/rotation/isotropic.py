@@ -33,6 +33,7 @@ def isotropic_where(moments: Quantity, letter: Expr, key: str = "special_case") 
 
     moments   principal moments (3), kg m^2, at least two of them equal
     letter    the symbol of a positive quantity, or the expression of this quantity in the script, such as 2b for h
+
     Check: with the result substituted, the tensor is a multiple of the unit tensor; and the difference of the two
     moments has opposite signs for greater and smaller values of the symbol. If no condition on a symbol is derived, the
     sign of this difference is checked instead.

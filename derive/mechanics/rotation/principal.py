@@ -71,6 +71,7 @@ def principal_moments(inertia: Quantity, symbol: str = "I", key: str = "principa
     """Principal moments of inertia: the three roots of det(I - lambda 1) = 0.
 
     inertia   symmetric tensor (3, 3), kg m^2
+
     The moments of a diagonal tensor are in the order of the axes. Other moments are in the order of their values with
     every symbol equal to 1, the smallest first.
     Check: I_1 + I_2 + I_3, I_1 I_2 + I_1 I_3 + I_2 I_3 and I_1 I_2 I_3 are the invariants of the tensor. For a diagonal
@@ -173,6 +174,7 @@ def principal_axes(
     """Principal axes, a right-handed set of unit vectors with I e_k = I_k e_k.
 
     moments   the principal moments of a tensor
+
     If two moments are equal, the unit vectors of their axes contain a free angle; if all three are equal, any three
     perpendicular axes are principal axes.
     Check: each vector satisfies I e = I_k e; the vectors have length 1, are perpendicular and right-handed.

@@ -49,6 +49,7 @@ def torque(omega: Quantity, momentum: Quantity, symbol: str = "tau", key: str = 
     omega      vector (3), 1/s, along the body axes, constant
     momentum   angular momentum L, vector (3), kg m^2/s, along the same axes, about a fixed point or the centre of mass,
                constant in the body
+
     Second route: rotate L about omega by a rotation matrix and differentiate.
     Outcomes: zero (omega is along a principal axis), generic (the torque is never zero), in_general (the torque may be
     zero for some values of the symbols).

@@ -165,6 +165,7 @@ def spin(rate: Expr, along: Quantity, through: str = "centre", symbol: str = "om
     rate      angular speed omega, 1/s; a negative rate is a left-handed rotation
     along     vector d (3) along the axis
     through   a point of the body on the axis of rotation; this point stays at rest
+
     Check: the length of the result is the magnitude of the rate; the scalar product of the result with d is the rate
     times |d|.
     Outcomes: left_handed (the rate is known to be negative), right_handed (any other rate).
@@ -267,6 +268,7 @@ def kinetic_energy(
 
     inertia   tensor (3, 3), kg m^2, about the point that stays at rest
     omega     vector (3), 1/s, same axes
+
     Second route: half the integral of |omega x r|^2 dm over the body.
     Errors: the axis does not go through the point of the tensor; the size or mass of the body changes; `inertia` is not
     an inertia tensor, or `omega` is not an angular velocity.
@@ -335,6 +337,7 @@ def angular_momentum(inertia: Quantity, omega: Quantity, symbol: str = "L", key:
 
     inertia   tensor (3, 3), kg m^2, about the point that stays at rest
     omega     vector (3), 1/s, same axes
+
     Second route: the integral of r x (omega x r) dm over the body.
     Outcomes: parallel (L is parallel to omega, which is along a principal axis), generic (L is never parallel to
     omega), in_general (L may be parallel to omega for some values of the symbols).
@@ -376,6 +379,7 @@ def cosine_between(a: Quantity, b: Quantity, key: str = "cosine", angle: str = "
 
     a, b    vectors (3) along the same axes, not zero
     angle   the symbol of the angle
+
     Check: the law of cosines in a triangle with sides along a and b.
     Outcomes: parallel, opposite, perpendicular, generic.
     Errors: a or b vanishes; a and b belong to different bodies.
@@ -458,6 +462,7 @@ def angle_between(a: Quantity, b: Quantity, symbol: str = "theta", key: str = "a
     """Angle between two vectors, theta = arccos(a.b/(|a||b|)), from 0 to pi.
 
     a, b    vectors (3) along the same axes, not zero
+
     Check: |a||b| sin theta = |a x b| and a.b sin theta = |a x b| cos theta, which together determine one angle from 0
     to pi.
     Outcomes: parallel, opposite, perpendicular, generic.

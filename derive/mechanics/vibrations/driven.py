@@ -63,6 +63,7 @@ def steady_amplitude(
 
     equation   a q_ddot + b q_dot + c q = F cos(omega t)
     q          the coordinate of the equation of motion
+
     Check: the forced oscillation with this amplitude and this lag is substituted back into the equation.
     Outcomes: damped, undamped (the lag is 0), opposite (only for the lag, which is pi above resonance without
     damping).
@@ -187,6 +188,7 @@ def quality_factor(equation: Quantity, q: Coordinate, symbol: str = "Q", key: st
 
     equation   a q_ddot + b q_dot + c q = f(t) with positive a, b and c
     q          the coordinate of the equation of motion
+
     Second route: with the driving force F cos(omega_0 t), where omega_0 = sqrt(c/a), the motion
     q = Q (F/c) sin(omega_0 t) satisfies the equation. Also, Q is 2 pi times the energy of this oscillation, divided by
     the energy that the damping takes in one period.

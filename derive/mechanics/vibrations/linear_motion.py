@@ -105,6 +105,7 @@ def solution(
     start        the value of q at t = 0
     start_rate   the rate of q at t = 0, for an equation of second order; 0 by default
     case         `underdamped`, `critically_damped` or `overdamped`, if the symbols leave the case open
+
     The steps that lead to the motion are the characteristic equation, its roots and the general motion with two
     constants; for an oscillation without damping, only the general motion.
     Second route: the trial e^(s t) is substituted into the equation, which gives the characteristic equation. The

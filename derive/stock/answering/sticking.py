@@ -23,6 +23,7 @@ def state_static_friction(contact: Constraint, answer: Callable[[str, str], Quan
 
     contact   the constraint of a contact with static friction
     answer    a function of the name of an answer and of the key of one of its steps; it returns this step
+
     Nothing is assumed if the derived forces are known to satisfy the condition. The condition is solved for mu_s if
     possible.
     Errors: the condition is known to be false.
