@@ -19,7 +19,6 @@ R, a, M, I, g = symbols("R a M I g", positive=True)
 def slab_derivation(
     verbs: SimpleNamespace, radius: Any = R, thickness: Any = a, mass: Any = M, inertia: Any = I, gravity: Any = g
 ) -> dict[str, Quantity]:
-    """Every quantity of the slab, by key; where no letter decides the stability there is no bound."""
     with recorded():
         return _derived(verbs, radius, thickness, mass, inertia, gravity)
 

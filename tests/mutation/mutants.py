@@ -120,7 +120,6 @@ SOURCES = {module: path_of(module).read_text(encoding="utf-8") for module in MOD
 
 
 def mutants_of(module: str) -> tuple[ast.Module, list[Mutant]]:
-    """The tree of a module, and every mutant of it, in the order of the text."""
     importlib.import_module("derive.mechanics")
     tree = ast.parse(SOURCES[module])
     records = [rule for name, _, rule in rules() if name == module]
@@ -148,7 +147,6 @@ def _called(call: ast.Call) -> str:
 
 @functools.lru_cache(maxsize=1)  # as long as its mutants are asked for
 def _local_names(top: ast.stmt) -> set[str]:
-    """The names of a function, or of all functions of a class, that stand for something in it alone."""
     names = {n.arg for n in ast.walk(top) if isinstance(n, ast.arg)}
     return names | {n.id for n in ast.walk(top) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)}
 

@@ -27,8 +27,6 @@ WORDS = phrases(templates_of(ROOT))
 
 @dataclass(frozen=True)
 class Solved:
-    """The steps and the numbers of a run; two that are equal print the same page."""
-
     derivation: Derivation
     values: dict[str, Step]
     problem: Problem
@@ -66,7 +64,6 @@ class Run:
 
     @cached_property
     def course(self) -> Path:
-        """The folder from which the problem is read; it lasts as long as the run."""
         name = self.name.partition("-")[0]
         return course_in(Path(self._folder.name), dict(self.edits), dict(self.script), problem=name)
 
@@ -138,7 +135,6 @@ def _of_transcripts() -> dict[str, Run]:
 
 
 def _body(name: str, made: str, start: str, axes: Sequence[int] = (), edits: Sequence[tuple[str, str]] = ()) -> Run:
-    """The problem of one body with another body, its tensor taken about a point and moved to the centre and back."""
     script = [
         ("mechanics.Ball(radius, mass)", f"mechanics.{made}"),
         ('start, about = "centre"', f'start, about = "{start}"'),

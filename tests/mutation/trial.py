@@ -70,7 +70,6 @@ class Tried:
 
 
 def remember(module: types.ModuleType, name: str) -> None:
-    """Keep what a function of SymPy values has found; it is replaced wherever it was imported."""
     original = getattr(module, name)
     found: dict[Any, Any] = {}
 
@@ -103,8 +102,6 @@ class Recording:
 
 
 class _Marked(ast.NodeTransformer):
-    """Each statement and each lambda tells that it is carried out, each function that it is called."""
-
     def __init__(self, module: str, tree: ast.Module):
         self.module, self.tree = module, tree
 
@@ -230,7 +227,6 @@ def tried_on(recorded: Recording, mutants: Sequence[Mutant], trees: dict[str, An
 
 
 def _first_use(recorded: Recording, mutant: Mutant) -> int:
-    """After how many steps the changed function is called for the first time; 0 for what is not a function."""
     return recorded.first.get((mutant.module, mutant.where), 0)
 
 
@@ -430,7 +426,6 @@ class Trials:
         self.recordings.sort(key=lambda each: len(each.solved.derivation.steps))  # a short run is tried first
 
     def changed(self) -> set[str]:
-        """The functions in which something that is carried out can be changed: a sign, a number, a term, an order."""
         of_laws = {"sign", "number", "dropped", "order", "plus/minus", "name", "index", "side", "mark"}
         return {mutant.where for mutant in self.mutants if mutant.change in of_laws}
 
@@ -446,7 +441,6 @@ class Trials:
         return [mutant for mutant in found if mutant.id in drawn]
 
     def verdicts(self, mutants: Iterable[Mutant], at_most: int = 3) -> Iterator[Tried]:
-        """What became of each: on every run that uses it, up to so many, until one refuses it."""
         so_far: dict[str, Tried] = {}
         left: dict[str, int] = {}
         planned: list[list[Mutant]] = [[] for _ in self.recordings]

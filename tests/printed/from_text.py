@@ -378,7 +378,6 @@ def _in_body(letter: Any) -> Any:
 
 
 def in_one_line(box: TextBox) -> str:
-    """Matrices of several lines as `⟦a;b\\nc;d⟧` in the line that goes on, tall brackets as brackets."""
     lines = [_columns(line) for line in box.lines]
     line = lines[box.middle]
     result, at = "", 0
@@ -406,7 +405,6 @@ def _columns(line: str) -> list[str]:
 def read_text(
     box: TextBox, names: Mapping[str, Any], units: Iterable[str] = (), bound: Iterable[Any] = (), positions: Any = None
 ) -> tuple[list[list[Any]], list[str]]:
-    """The sides of a printed chain, in each branch of its signs, and the marks between them."""
     text = in_one_line(box)
     branches, marks = [], []
     for sign in (1, -1) if "±" in text else (1,):

@@ -36,7 +36,6 @@ class Count:
 
 
 def read_back(expr: Any, layout: Any, notation: Notation) -> Iterator[tuple[str, str, list[list[Any]], list[str]]]:
-    """Format, the line as printed, and what a reader takes it for; raises `Misprint` where it cannot be read."""
     names = names_in(expr, notation)
     bound, positions = bound_in(expr), [letters_of(r.name, r.shape) for r in positions_in(expr)]
     printed_apart(names, latex)

@@ -58,7 +58,6 @@ def letters_of(name: str, shape: tuple[Any, Any]) -> ImmutableDenseMatrix:
 
 
 def differentiated(value: Any, by: str) -> Any:
-    """The derivative of what is named: every letter in it has one of its own."""
     if isinstance(value, MatrixBase):
         return value.applyfunc(lambda entry: differentiated(entry, by))
     letters = sorted(value.free_symbols, key=str)
@@ -66,13 +65,11 @@ def differentiated(value: Any, by: str) -> Any:
 
 
 def taken_at(value: Any, letter: Any, place: Any) -> Any:
-    """The value where a letter has a value: a letter of its own for every letter in it."""
     where = f"{letter} = {cancel(place)}"  # a b/(2 (a + b)) is the same place as a b/(2 a + 2 b)
     return value.xreplace({s: _letter(f"{s} at {where}") for s in value.free_symbols})
 
 
 def over_the_mass(value: Any, position: ImmutableDenseMatrix) -> Any:
-    """The integral of a function of a position over a body: linear, and its position is nobody else's."""
     own = {component: _letter(f"own {component}") for component in position}
     return value.xreplace(own) * _letter("dm")
 

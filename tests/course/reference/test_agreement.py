@@ -130,7 +130,6 @@ EQUATION = Relation(M_ours * omega_dot - M_ours * Symbol("omega", positive=True)
 def compared_with(
     block: tuple[Problem, dict[str, Quantity]], compared: Compared, monkeypatch: pytest.MonkeyPatch
 ) -> Compared:
-    """Comparisons with the step `cosine` having another value, a relation or one of two branches."""
     _, known = block
 
     def compare(value: object, *entries: str) -> tuple[Comparison, ...]:
