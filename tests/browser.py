@@ -36,7 +36,6 @@ def _browser() -> Browser:
 
 @contextmanager
 def browser_page(width: int = 1000, **options: Any) -> Iterator[Page]:
-    """Yield a page in a new window."""
     context = _browser().new_context(viewport={"width": width, "height": 800}, **options)
     try:
         yield context.new_page()

@@ -102,6 +102,5 @@ def own_key(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
 
 @pytest.fixture
 def workers(course: object, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Real workers for the stand-in course: each job runs in a process with limits."""
     for module in ("workers", "sets"):
         monkeypatch.setattr(f"derive.building.{module}.Crew", Crew)

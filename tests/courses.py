@@ -42,7 +42,6 @@ def course_in(
 
 
 def kept() -> Cache:
-    """Return the cache of derivations that all tests share."""
     return Cache(Path(os.environ["XDG_STATE_HOME"]) / "derivations")
 
 
@@ -53,7 +52,6 @@ def rendered_once(
     draws: bool = False,
     only: Collection[str] | None = None,
 ) -> Rendered:
-    """Render a problem like `rendered`, without repeating a derivation that another test has made."""
     return rendered(root, problem_id, detail, kept(), draws, only)
 
 

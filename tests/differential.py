@@ -211,7 +211,6 @@ def _body(dice: random.Random, system: Drawn, name: str, mass: Expr, centre: Pla
 
 
 def _fill_space(dice: random.Random, system: Drawn, names: Sequence[str]) -> None:
-    """Add particles on axes that rotate steadily, or by a coordinate, or both."""
     Omega, l, R = LETTER["Omega"], LETTER["l"], LETTER["R"]
     angles = [q for q in names if q in ANGLES]
     turns = [("z", dice.choice((Omega, Omega, sqrt(LETTER["k"] / LETTER["m"]))) * t)]
@@ -251,7 +250,6 @@ def _turned(place: Place, axis: str, angle: Expr) -> Place:
 
 
 def _connect(dice: random.Random, system: Drawn, ends: Sequence[Place], size: int) -> None:
-    """Add springs, drag, given forces and a constraint."""
     d, k, zero = LETTER["d"], LETTER["k"], Integer(0)
     on_axis = (zero, d, -d, LETTER["A"] - d, 2 * d)
     walls: list[Place] = [(at, *(zero,) * (size - 1)) for at in on_axis] + [(*(zero,) * (size - 1), d)]
@@ -408,7 +406,6 @@ class Outcome:
 
 
 def compared(seed: str, folder: Path) -> Outcome:
-    """Compare the equations of motion of a random system by both derivations."""
     system, begun = drawn(seed), time.monotonic()
     try:
         with _limited():

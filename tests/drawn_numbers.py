@@ -43,8 +43,6 @@ GOOD, REFUSED, INTERNAL = "printed", "refused", "internal error"
 
 @dataclass(frozen=True)
 class Outcome:
-    """The result for a problem with one draw of numbers."""
-
     problem: str
     draw: int
     sort: str
@@ -79,7 +77,6 @@ def tried(name: str, draws: int, seed: int) -> Iterator[Outcome]:
 
 
 def _course(folder: Path) -> Path:
-    """Copy the sets to files that may be changed."""
     (folder / "templates").symlink_to(ROOT / "templates")
     for name in SETS:
         for file in (ROOT / "problems" / name).rglob("*.*"):

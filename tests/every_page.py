@@ -26,7 +26,6 @@ HIDDEN = """[...document.querySelectorAll('math')].filter((each) => {
 
 
 def faults(page: Page, address: str) -> list[str]:
-    """Return the errors of a page in its window."""
     found: list[str] = []
 
     def complain(what: object) -> None:
@@ -44,7 +43,6 @@ def faults(page: Page, address: str) -> list[str]:
 
 
 def main(folders: list[str]) -> int:
-    """Check all pages in these folders, and print each error."""
     files = sorted(file for folder in folders for file in Path(folder).resolve().glob("*.html"))
     count = 0
     for file in files:

@@ -156,8 +156,6 @@ def index_page(root: Path, heading: object, problems: list[Rendered]) -> str:
 
 
 class Course:
-    """A root with one set `hw1`, whose problems are `one` and `two`."""
-
     def __init__(self, root: Path):
         self.root = root
         self.folder = root / "problems" / "hw1"
@@ -213,7 +211,6 @@ def stand_in_course(root: Path, monkeypatch: Any) -> Course:
 
 
 def replace_derivation(monkeypatch: Any) -> None:
-    """Put substitutes in place of the modules of `derive.building` with these functions."""
     documents = (
         problem_document,
         set_document,

@@ -98,7 +98,6 @@ def mutated(text: str, random_: random.Random) -> str:
 
 
 def written(random_: random.Random, depth: int = 0) -> str:
-    """Return a formula that a small grammar writes."""
     if depth > 5 or random_.random() < 0.3:
         return random_.choice(["x", "m", "a_1", "\\dot x", "\\theta", "2", "3.5", "\\vec a", "\\pi", "f(x)", "t", "9"])
     one, two = (written(random_, depth + 1) for _ in range(2))

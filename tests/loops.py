@@ -8,8 +8,6 @@ from typing import Any
 
 
 def over(cases: Iterable[Any]) -> Callable[[Callable[[Any], None]], Callable[[], None]]:
-    """Run a test for all cases, and report all cases that fail."""
-
     def looped(test: Callable[[Any], None]) -> Callable[[], None]:
         def run() -> None:
             failures = {}

@@ -77,8 +77,6 @@ EXCEPTIONS = {
 
 @dataclass(frozen=True)
 class Established:
-    """A result and the second routes to it."""
-
     run: str
     rule: str
     key: str
@@ -126,8 +124,6 @@ def established_in(run: Run) -> list[Established]:
 
 @dataclass(frozen=True)
 class Perturbed:
-    """A changed result, and the kind of the change."""
-
     of: Established
     what: str
     result: Any
@@ -228,7 +224,6 @@ def verdict_on(each: Perturbed) -> str:
 
 
 def main() -> int:
-    """Try every perturbation of every run, and print those that no route refuses."""
     os.nice(5)
     counts: Counter[str] = Counter()
     for name in sys.argv[1:] or RUNS:

@@ -40,7 +40,6 @@ def wrongly_named(rule: str, facts: Judged, named: Mapping[str, Any]) -> str | N
 
 
 def theorems() -> list[Theorem]:
-    """Every theorem that a rule in the code quotes."""
     return list({quote.theorem.name: quote.theorem for *_, rule in records() for quote in rule.quotes}.values())
 
 

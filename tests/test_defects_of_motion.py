@@ -280,7 +280,6 @@ def answers(folder: Path, name: str, *edits: tuple[str, str]) -> dict[str, Quant
 
 
 def page(folder: Path, name: str) -> str:
-    """Return the page as one line."""
     text = rendered(course_of(folder, name), "trial/one", only={"text"}).texts["text"]
     return normalize("NFC", " ".join(text.split()))
 

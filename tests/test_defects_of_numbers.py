@@ -28,7 +28,6 @@ def problem(symbols_: str, given: str, answer: str, more: str = "", solve: str =
 
 
 def page(folder: Path, text: str) -> str:
-    """Return the page as one line."""
     return " ".join(rendered(course_with(folder, text), "trial/one", only={"text"}).texts["text"].split())
 
 

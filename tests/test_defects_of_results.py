@@ -70,7 +70,6 @@ figures: 5
 
 
 def printed(folder: Path, text: str, form: str = "text") -> str:
-    """Return the page of a problem in a format."""
     found = rendered_once(course_with(folder, text), "trial/one", only={form})
     return found.texts.get(form) or getattr(found, form)
 

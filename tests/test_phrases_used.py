@@ -50,8 +50,6 @@ def variants() -> dict[str, str]:
 
 
 class _Noted(dict[str, Any]):
-    """A table of phrases that notes the phrases that are read from it."""
-
     def __init__(self, table: Mapping[str, Any], used: set[str]):
         super().__init__({k: _Noted(v, used) if isinstance(v, Mapping) else v for k, v in table.items()})
         self.used = used
@@ -69,8 +67,6 @@ class _Noted(dict[str, Any]):
 
 
 class _NotedPhrases(Phrases):
-    """Phrases that note which of them a page uses."""
-
     used: set[str]
 
     def _noted(self, found: str) -> str:

@@ -104,7 +104,6 @@ def differences(base: str, variant: str) -> str:
 
 
 def pinned(name: str, folder: Path) -> str:
-    """Return the contents of the file of a page."""
     base = name.partition("-")[0]
     made = page(name, folder / name)
     return made if base == name else differences(page(base, folder / base), made)

@@ -7,7 +7,6 @@ from collections.abc import Callable
 
 
 def until(condition: Callable[[], bool]) -> None:
-    """Wait until the condition is true; fail after a minute and a half."""
     for _ in range(4500):
         if condition():
             return

@@ -23,7 +23,7 @@ class Amount(ScalarNode):
         return explicit(self.args[0]) * self.args[2]
 
     def dimension(self, of: DimensionOf) -> Dimension | None:
-        return None  # unknown here: the unit is checked when the problem file is parsed
+        return None
 
     def lowered(self, text: TextOf) -> str:
         return f"({text(self.args[0])}*{text(self.args[2])})"

@@ -49,10 +49,10 @@ class Determinant(ScalarNode):
         return determinant_of(explicit(self.args[0]))
 
     def dimension(self, of: DimensionOf) -> Dimension | None:
-        """The dimension of a nonzero product with one entry from each row and column.
+        """The dimension of a product of nonzero entries with one entry from each row and column.
 
-        All such products are assumed to have the same dimension. The result is None if every such product vanishes, or
-        if the dimension of an entry of the chosen product is unknown.
+        The dimension is assumed to be the same for all such products. The result is None if every such product
+        vanishes, or if the dimension of an entry of the chosen product is unknown.
         """
         matrix = self.args[0]
         for entry in matrix:
@@ -67,8 +67,7 @@ class Determinant(ScalarNode):
 def determinant_of(matrix: MatrixBase) -> Expr:
     """Compute the determinant without division, in the ring of polynomials in the symbols of the matrix.
 
-    If an entry has a symbol in a denominator, the ring contains fractions. Each function and each root counts as a
-    symbol: SymPy has no ring for functions and roots, and without a ring it would cancel factors after each step.
+    Functions and roots count as symbols, because SymPy would cancel factors after each step without a ring.
     """
     parts = matrix.atoms(Function, Pow)
     named = {part: Dummy() for part in sorted(parts, key=str) if not (part.is_Pow and part.exp.is_Integer)}
@@ -90,7 +89,7 @@ def inverse_of(matrix: MatrixBase) -> MatrixBase:
 
 
 def expanded_by_rows(matrix: MatrixBase) -> Expr:
-    """The determinant by expansion along the rows; each minor of the lower rows is computed only once.
+    """The determinant by expansion along the rows.
 
     Source: Axler, *Linear Algebra Done Right*, section 9C; no code is shared with `determinant_of`.
     """

@@ -1,8 +1,7 @@
 """The coefficients of an expression that is a polynomial in some of its symbols.
 
-A ring of sparse polynomials, and not SymPy's `expand`, multiplies the expression out.
-Sines and cosines count as symbols here: cos(a - b) is one symbol, and its relation to cos a is not used. The ring
-raises `Outside` for any other function, and for an angle that is not a sum of products of symbols and rational numbers.
+A ring of sparse polynomials, and not SymPy's `expand`, multiplies the expression out. Sines and cosines count as
+symbols: cos(a - b) is one symbol, and its relation to cos a is not used.
 """
 
 from __future__ import annotations
@@ -41,8 +40,7 @@ class Coefficient(NamedTuple):
 
 
 class Factored(NamedTuple):
-    """A sum with the common factors of its terms in front; `is_prime` is true if it is known that no factorization is
-    shorter."""
+    """A sum with the common factors of its terms in front; `is_prime` is true only if no shorter one exists."""
 
     value: Expr
     is_prime: bool
@@ -120,8 +118,6 @@ class Expanded(Ring):
         )
 
     def _as_product(self, terms: Terms) -> tuple[Terms, Terms] | None:
-        """Split the sum into a factor without sines and cosines and a factor of sines and cosines only; None if no such
-        factors exist."""
         by_rest: dict[int, Terms] = {}
         for monomial, coefficient in terms.items():
             angles = monomial & self._angles
@@ -152,8 +148,6 @@ class Expanded(Ring):
         return Factored(found, is_prime)
 
     def product_in_front(self, terms: Terms, power: int = 1) -> Product:
-        """The common factors of the terms times the sum of the terms without these factors, all raised to `power`,
-        which is 1 or -1."""
         lowest, content, rest = _in_front(terms)
         powers = {letter: power * n for letter, n in self._letters(lowest)}
         if len(rest) > 1:
@@ -168,7 +162,6 @@ class Expanded(Ring):
         return found
 
     def _term(self, coefficient: Rational, monomial: int) -> Expr:
-        """Return the same product as `Mul`, but without a search for repeated symbols, since no symbol is repeated."""
         factors = [letter ** Integer(power) for letter, power in self._letters(monomial)]
         if not all(factor.is_Symbol or factor.is_Pow and factor.base.is_Symbol for factor in factors):
             return Mul(coefficient, *factors)
@@ -179,8 +172,7 @@ class Expanded(Ring):
         return (letter ** Integer(power) for letter, power in self._letters(monomial))
 
     def _letters(self, monomial: int) -> Iterator[tuple[Expr, int]]:
-        """Yield each symbol of a monomial with its power. Each symbol has `WIDTH` bits of the monomial; the first
-        begins at the bit `PHASE`."""
+        """Yield each symbol of a monomial with its power."""
         monomial >>= PHASE
         place = PHASE
         while monomial:
@@ -204,14 +196,12 @@ def _sum(terms: list[Expr]) -> Expr:
 
 
 def _in_front(terms: Terms) -> tuple[int, int, Terms]:
-    """The monomial and the number that all terms have in common, and the terms divided by both."""
     lowest = reduce(_common, terms)
     content = gcd(*terms.values()) * (-1 if all(coefficient < 0 for coefficient in terms.values()) else 1)
     return lowest, content, {monomial - lowest: coefficient // content for monomial, coefficient in terms.items()}
 
 
 def _common(one: int, other: int) -> int:
-    """The greatest common monomial of two monomials: each shared symbol has the lower of its two powers."""
     shared, place = 0, PHASE
     while one >> place and other >> place:
         shared += min((one >> place) & ONES, (other >> place) & ONES) << place
@@ -220,10 +210,7 @@ def _common(one: int, other: int) -> int:
 
 
 def is_linear_in_some_letter(terms: Terms) -> bool:
-    """Whether some symbol occurs in exactly one term, and its power in this term is 1.
-
-    Such a sum is the product of the common factors of its terms and of one sum that cannot be factored.
-    """
+    """Whether some symbol occurs in exactly one term, and its power in this term is 1."""
     place, every = PHASE, reduce(int.__or__, terms)
     while every >> place:
         powers = [power for monomial in terms if (power := (monomial >> place) & ONES)]
@@ -234,6 +221,4 @@ def is_linear_in_some_letter(terms: Terms) -> bool:
 
 
 class _Kept:
-    """The ring that is reused from one sum to the next."""
-
     ring = Expanded()

@@ -18,8 +18,6 @@ LONGEST_PRODUCT = 60  # longest sum (`length`) for which the factored form is tr
 
 
 def by_accelerations(value: Expr, moving: Sequence[Symbol]) -> Expr:
-    """Collect the terms by products of powers of rates and accelerations; each of these products has one
-    coefficient."""
     return by_rates(value, moving, 2)
 
 
@@ -59,7 +57,6 @@ def by_rates(value: Expr, moving: Sequence[Symbol], highest: int = 1, halves: bo
 
 
 def _alike_together(terms: Iterable[Expr]) -> list[Expr]:
-    """Add up terms that differ only by a numerical factor, and keep the order of the terms."""
     numbers: dict[Expr, Expr] = {}
     for term in terms:
         number, rest = term.as_coeff_Mul()
@@ -70,7 +67,7 @@ def _alike_together(terms: Iterable[Expr]) -> list[Expr]:
 def _by_directions(value: Expr) -> tuple[Expr, list[Expr]] | None:
     """Split k u - k l u/|u| into the part without a direction u/|u| and the terms with a direction.
 
-    The result is None if no |u| is a divisor, or if the value is not a polynomial in these directions.
+    The result is None if there is no such direction.
 
     With s = u/|u|, which is 1 or -1, |u| is s u and s^2 is 1, so only the first power of each s is left.
     """
@@ -164,7 +161,6 @@ def _with_short_sums(value: Expr, moving: Collection[Symbol]) -> Expr:
 
 
 def _apart(term: Expr, letters: Collection[Symbol]) -> tuple[Expr, list[Expr], list[Expr]]:
-    """The numerical factor of a term, its constant factors, and its factors that contain one of these symbols."""
     number, constants, others = Integer(1), [], []
     for each in Mul.make_args(term):
         if each.is_Rational:
@@ -177,8 +173,8 @@ def _apart(term: Expr, letters: Collection[Symbol]) -> tuple[Expr, list[Expr], l
 
 
 def _common_number(numbers: Sequence[Expr]) -> Expr | None:
-    """The common factor of the numbers: 1/2 for 1/2, 1 and 3/2. None if the denominators differ and their least common
-    multiple is above 2, as for 1/2 and 3/4."""
+    """The common factor of the numbers: 1/2 for 1/2, 1 and 3/2. None if there is no simple common factor, as for 1/2
+    and 3/4."""
     below = ilcm(*(n.q for n in numbers))
     if below > 2 and len({n.q for n in numbers}) > 1:
         return None
@@ -186,8 +182,7 @@ def _common_number(numbers: Sequence[Expr]) -> Expr | None:
 
 
 def _gathered(value: Expr, letters: Sequence[Symbol]) -> list[tuple[tuple[int, ...], Coefficient]]:
-    """The tuples of powers of these symbols that occur in the value, in descending order, each with its coefficient;
-    empty if the value is not a polynomial in these symbols."""
+    """As `coefficients`, but empty if the value is not a polynomial in these symbols."""
     try:
         return coefficients(value, letters)
     except Outside:
@@ -198,7 +193,7 @@ def _gathered(value: Expr, letters: Sequence[Symbol]) -> list[tuple[tuple[int, .
 
 
 def _has_root_of(term: Expr, moving: Sequence[Symbol]) -> bool:
-    """Whether the term contains a root with a coordinate, as the force of a spring does. Such a term stays separate."""
+    """Whether the term contains a root with a coordinate, as the force of a spring does."""
     return any(root.base.has(*moving) for root in _roots_in(term))
 
 
@@ -212,8 +207,7 @@ def _roots_in(expr: Expr) -> frozenset[Pow]:
 def by_products(value: Expr, moving: Sequence[Symbol]) -> Expr:
     """Collect the terms by rates and by products of the coordinates.
 
-    If a coefficient has terms of both signs, a minus sign precedes its bracket: I_x omega_x_dot - (I_y - I_z) omega_y
-    omega_z, and cyclically.
+    A bracket with terms of both signs is preceded by a minus sign: I_x omega_x_dot - (I_y - I_z) omega_y omega_z.
     """
     rates = [rate(q, n) for n in (2, 1) for q in moving]
     present = [s for s in (*rates, *moving) if value.has(s)]
@@ -248,8 +242,7 @@ def _with_one(product: Expr) -> Expr:
 
 
 def _times_rates(coefficient: Coefficient, rates: list[tuple[Symbol, int]], halves: bool) -> Expr:
-    """Multiply a coefficient by powers of rates: (1/2)(I + M R^2/4) q_dot^2. A numerical denominator in front of a sum
-    is moved into the sum if the result is simpler."""
+    """Multiply a coefficient by powers of rates: (1/2)(I + M R^2/4) q_dot^2."""
     powers = [s**n for s, n in rates]
     if halves and any(n == 2 for _, n in rates) and coefficient.terms > 1:
         inside, whole = _spread(_tidied(coefficient, Integer(2)).value), _shortest(_tidied(coefficient, Integer(1)))
@@ -266,8 +259,7 @@ def _times_rates(coefficient: Coefficient, rates: list[tuple[Symbol, int]], halv
 
 
 def _tidied(coefficient: Coefficient, times: Integer) -> Factored:
-    """Tidy a coefficient times a number. The factor of sines and cosines stays separate from the rest of the
-    coefficient if the tidy form of this factor contains no sum."""
+    """Tidy a coefficient times a number."""
     if coefficient.written:
         number, turning = tidied(coefficient.angles).as_coeff_Mul()
         if not any(part.as_base_exp()[0].is_Add for part in Mul.make_args(turning)):
@@ -286,7 +278,7 @@ def _has_fractions_inside(value: Expr) -> bool:
 
 
 def _shorter_as_product(value: Expr) -> Expr:
-    """Return the value or its factored form, whichever is shorter: (l + x)^2, not l^2 + 2 l x + x^2.
+    """The value or its factored form, whichever is shorter: (l + x)^2, not l^2 + 2 l x + x^2.
 
     A long value is left unchanged: SymPy may need minutes to find that it is not a product.
     """
@@ -297,8 +289,7 @@ def spread(value: Expr) -> Expr:
     """Move a numerical denominator into a sum if this leaves a term without a denominator: I + M a^2/4, not
     (4 I + M a^2)/4.
 
-    The form a (3 g - 2 l omega^2)/6 is kept, because a (g/2 - l omega^2/3) is not simpler. The fraction
-    (2 M + m) l/(2 (M + m)) is also kept, because the denominator contains another sum.
+    The form a (3 g - 2 l omega^2)/6 is kept, because a (g/2 - l omega^2/3) is not simpler.
     """
     return _spread(tidied(value))
 
@@ -326,9 +317,7 @@ def _shorter(term: Expr) -> Expr:
 
 def spread_or_by_terms(value: Expr, *others: Expr) -> Expr:
     """Return one product or a sum of tidy terms, whichever is shorter; `others` are further forms of the value to
-    choose from. If the denominator contains a sine or cosine, return the tidy terms of the first other form, or of the
-    value if there is no other form.
-    """
+    choose from."""
     if tidied(value).as_numer_denom()[1].has(sin, cos):
         return by_terms(others[0] if others else value)
     forms = [spread(value), by_terms(value.expand()), *(by_terms(other) for other in others)]

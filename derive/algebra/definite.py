@@ -19,7 +19,7 @@ def is_positive_definite(matrix: MatrixBase, sign: Sign) -> bool:
 
 
 def leading_minors(matrix: MatrixBase) -> Iterator[Expr]:
-    """The determinants of the first row and column, of the first two rows and columns, and so on."""
+    """The determinants of the first n rows and columns, for n = 1, 2, and so on."""
     yield from (_minor(matrix, tuple(range(n))) for n in range(1, matrix.shape[0] + 1))
 
 

@@ -36,7 +36,7 @@ def _in_turn(by: Sequence[Symbol | int]) -> list[Symbol]:
     return letters
 
 
-@lru_cache(maxsize=16384)  # a Lagrangian has many symbols, but most of its parts contain few of them
+@lru_cache(maxsize=16384)
 def _letters(expr: Expr) -> frozenset[Symbol]:
     if expr.is_Symbol:
         return frozenset(expr.free_symbols)
@@ -53,7 +53,7 @@ def _derivative(expr: Expr, s: Symbol) -> Expr:
     return _derivative_by_parts(expr, s) if s in _letters(expr) else ZERO
 
 
-@lru_cache(maxsize=16384)  # forces, momenta and equations of motion share most of these derivatives
+@lru_cache(maxsize=16384)
 def _derivative_by_parts(expr: Expr, s: Symbol) -> Expr:
     if expr.is_Add:
         return Add(*(_derivative(term, s) for term in expr.args))

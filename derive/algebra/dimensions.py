@@ -44,7 +44,7 @@ class Dimension:
         return self == NUMBER
 
 
-@lru_cache(maxsize=1024)  # few dimensions occur, but each line of a page is checked
+@lru_cache(maxsize=1024)
 def _multiplied(one: Dimension, other: Dimension) -> Dimension:
     return Dimension(*(a + b for a, b in zip(one.powers.values(), other.powers.values(), strict=True)))
 

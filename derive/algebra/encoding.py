@@ -34,8 +34,8 @@ _CONSTANTS: dict[str, Any] = {"Pi": sympy.pi, "Exp1": sympy.E, "ImaginaryUnit": 
 
 
 def encoded(expr: Any, name: Callable[[Dummy], str] | None = None) -> list[Any]:
-    """Encode an expression as data for JSON; `name` returns the name of a dummy symbol. Raises TypeError for an object
-    without an encoding."""
+    """Encode an expression as data for JSON; `name` returns the name of a dummy symbol. Raises `TypeError` for an
+    object without an encoding."""
     if expr is None:
         return ["None"]
     if name and isinstance(expr, Dummy):
@@ -62,13 +62,10 @@ def encoded(expr: Any, name: Callable[[Dummy], str] | None = None) -> list[Any]:
     return [kind, *(encoded(arg, name) for arg in expr.args)]
 
 
-@lru_cache(maxsize=4096)  # the same few symbols occur in most lines of a derivation
+@lru_cache(maxsize=4096)
 def _assumptions(symbol: Symbol) -> dict[str, bool]:
-    """Return assumptions with which SymPy makes an equal symbol; SymPy does not record which assumptions were written.
-
-    The usual sets of assumptions are tried in order, and the first one that gives an equal symbol is returned. If none
-    does, the set of all assumptions that SymPy derived is returned.
-    """
+    """Return assumptions with which SymPy makes an equal symbol, because SymPy does not record which ones were
+    written."""
     usual: tuple[dict[str, bool], ...] = ({}, {"real": True}, {"positive": True}, {"nonnegative": True})
     for assumptions in usual:
         if Symbol(symbol.name, **assumptions) == symbol:
@@ -110,7 +107,6 @@ def decoded(data: Any, named: Callable[[str], Dummy] | None = None) -> Any:
 
 
 def _plain(name: str, args: list[Any]) -> Any:
-    """Decode an object whose arguments are not expressions: a symbol with its assumptions, a number, a word or None."""
     match name, args:
         case "None", []:
             return None
@@ -141,8 +137,8 @@ def _is_small(size: Any) -> bool:
 
 
 def as_data(value: Any, classes: Mapping[str, Any]) -> Any:
-    """Encode records of these classes, and the values in them, as lists, mappings and plain values. Raises TypeError
-    for a value without an encoding."""
+    """Encode records of these classes as lists, mappings and plain values. Raises `TypeError` for a value without an
+    encoding."""
     if isinstance(value, Basic | MatrixBase):
         return {"expr": encoded(value)}
     if isinstance(value, tuple | list):

@@ -6,8 +6,7 @@ refuted         the sides differ, or they cannot be compared
 definition      nothing is compared: the line defines a symbol
 approximation   a rounded value or a series, whose error is checked separately
 
-Two equal polynomials in symbols, sines and cosines are recognised directly. Any other two expressions are first
-compared at a few points, because this is cheap and can refute quickly. A sample never counts as a proof.
+A sample never counts as a proof.
 """
 
 from __future__ import annotations
@@ -66,7 +65,7 @@ from derive.algebra.trig_polynomials import monomial_ratio
 
 MANY = 20  # greatest number of points drawn for each needed point, because some points have no physical meaning
 FIRST, POINTS = 2, 26  # numbers of points at which sides are compared before the exact method, and after its failure
-TURNS = 400  # greatest number of points drawn in search of another sign of the argument of an `Abs` or `sign`
+TURNS = 400  # greatest number of points drawn for the other sign of an argument of `Abs` or `sign`
 FEWEST = 8  # the fewest points at which both sides must have values
 UNTOLD = "undefined at every tested point"
 LETTERS = 6  # derivatives are compared with respect to at most this many symbols
@@ -85,8 +84,8 @@ LEAST_SURE_FIRST = (Grade.REFUTED, Grade.SAMPLED, Grade.APPROXIMATION, Grade.DEF
 
 
 class Compared(StrEnum):
-    """The sorts of comparison. Either two lines of a calculation are compared, or the result is compared with a second
-    route, a check or a simulated motion, or nothing is compared."""
+    """What is compared: two lines of a calculation, or the result with a second route, a check or a simulated
+    motion."""
 
     LINES = "lines"
     ROUTE = "route"
@@ -107,8 +106,7 @@ class Evidence:
 
 @dataclass(frozen=True)
 class Verdict:
-    """The outcome of a comparison; if the compared values differ at a point, `point` contains the numbers of the
-    symbols at this point."""
+    """The outcome of a comparison; `point` has the numbers of the symbols at which the values were found to differ."""
 
     grade: Grade
     detail: str = ""
@@ -121,9 +119,9 @@ class Verdict:
 def equal(left: Any, right: Any, nonzero: Sequence[Expr] = ()) -> Verdict:
     """Compare two scalars, two matrices entry by entry, or two relations.
 
-    The grade of a matrix is the grade of its least certain entry. Relations are equal if each follows from the other.
-    `nonzero` lists factors that may be divided out: factors of an equation are known not to vanish, and factors of an
-    inequality are known to be positive.
+    The grade of a matrix is the grade of its least certain entry. Relations count as equal if each follows from the
+    other. `nonzero` lists factors that may be divided out: factors of an equation are known not to vanish, and factors
+    of an inequality are known to be positive.
     """
     given: tuple[Any, Any] = (left, right)
     if not all(isinstance(value, Basic | MatrixBase | int) for value in given):
@@ -206,9 +204,9 @@ def _stripped(left: Expr, right: Expr) -> tuple[Expr, Expr]:
 def _samples(left: Expr, right: Expr, count: int, thoroughly: bool = False) -> Iterator[Sample]:
     """The values of both sides at points at which both sides are defined.
 
-    Values that are not real, such as sqrt(g/l - k/m) for a strong spring, have no physical meaning, and two forms of
-    one expression may have such values on different branches. So points at which neither side is real are used only if
-    there are no other points. Points that contradict an assumption of the problem, such as c^2 - v^2 > 0, are left out.
+    Points at which neither side is real are used only if there are no other points, because two forms of one expression
+    may have such values on different branches. Points that contradict an assumption of the problem, such as c^2 - v^2 >
+    0, are left out.
     """
     letters = letters_of(left) | letters_of(right)
     drawn = points(letters, seed_of(left, right))
@@ -257,7 +255,6 @@ def _apart_where_signs_turn(left: Expr, right: Expr, seen: Sequence[SamplePoint]
 
 
 def _side(inside: Expr, point: SamplePoint) -> bool | None:
-    """Whether the expression is positive at the point; None if its value is zero, not real or undefined."""
     try:
         value = value_at(inside, point)
     except (Undefined, NoNumber):
@@ -280,8 +277,8 @@ def _refutation(sample: Sample) -> Verdict:
 
 
 def _equivalent(left: Any, right: Any, nonzero: Sequence[Expr]) -> Verdict:
-    """Whether two equations or inequalities are equivalent. In most cases this is decided by the ratio of their
-    residuals: for inequalities the sign of the ratio must be known, for equations the ratio must not vanish."""
+    """Whether two equations or inequalities are equivalent. The main test is the ratio of their residuals: for
+    inequalities its sign must be known, for equations it must not vanish."""
     if not (isinstance(left, Relation) and isinstance(right, Relation)):
         return Verdict(Grade.REFUTED, "a relation against a value")
     if left.has(*UNDEFINED) or right.has(*UNDEFINED):
@@ -323,8 +320,7 @@ def _equivalent(left: Any, right: Any, nonzero: Sequence[Expr]) -> Verdict:
 
 
 def _seen_ratio(left: Relation, right: Relation) -> Expr | None:
-    """The ratio of the two residuals, if it is a number times powers of symbols, or if it is shown to be 1 or -1; else
-    None."""
+    """The ratio of the two residuals, if it is easily found; else None."""
     found = monomial_ratio(left.residual, right.residual)
     if found is None:
         signs = (Integer(sign) for sign in (1, -1) if _same_mark(left.operator, right.operator, sign))
@@ -340,7 +336,7 @@ def _is_borne(left: str, right: str, factor: Expr) -> bool:
 
 
 def _equivalent_by_entries(left: Relation, right: Relation) -> Verdict:
-    """Compare two equations between matrices, directly or with the sides of one equation exchanged."""
+    """Compare two equations between matrices, also with the sides of one equation exchanged."""
     shapes = {getattr(side, "shape", None) for side in (*left.sides, *right.sides)}
     if left.operator != right.operator or left.operator != "=" or len(shapes) > 1:
         return Verdict(Grade.REFUTED, f"`{left}` against `{right}`")
@@ -371,8 +367,7 @@ def _never_vanishes(factor: Expr) -> bool:
 
 
 def _counterexample(left: Expr, right: Expr) -> Verdict | None:
-    """Look for a point where `right` is zero and `left` is not. To find one, `right` = 0 is solved for a symbol in
-    which it is linear. None if no such point is found."""
+    """Look for a point where `right` is zero and `left` is not; None if no such point is found."""
     drawn = points(letters_of(left) | letters_of(right), seed_of(left, right))
     curved = {letter for part in right.atoms(Pow, Function) for letter in part.free_symbols}
     for letter in sorted(right.free_symbols - curved, key=lambda s: (not str(s).endswith("dot"), str(s))):
@@ -411,8 +406,7 @@ def _same_mark(left: str, right: str, sign: int) -> bool:
 
 
 def _both_squared(left: Relation, right: Relation) -> bool:
-    """Whether one relation is x > y, where neither side is negative, and the other relation is a positive multiple of
-    x^2 > y^2. The two relations have the same operator, which need not be >."""
+    """Whether one relation is the other one with both sides squared, where neither side is negative."""
     for squares, roots in ((left, right), (right, left)):
         difference = roots.left**2 - roots.right**2
         if difference != 0 and all(side.is_nonnegative or strict_sign_within(side) == 1 for side in roots.sides):
@@ -439,9 +433,8 @@ def _ratio(above: Expr, below: Expr) -> Expr:
 
 
 def _ratio_by_a_letter(above: Expr, below: Expr) -> Expr | None:
-    """The ratio of the derivatives with respect to a symbol, if this is also the ratio of the whole expressions. These
-    derivatives show a common factor that is hidden in sin(2 x) or in a fractional power. None if this ratio is not
-    found."""
+    """The ratio of the derivatives with respect to a symbol, if this is also the ratio of the whole expressions; else
+    None. A common factor may be hidden in sin(2 x) or in a fractional power."""
     for letter in sorted(above.free_symbols & below.free_symbols, key=str)[:LETTERS]:
         slopes = derivative(above, letter), derivative(below, letter)
         if slopes[1] != 0:
@@ -453,8 +446,7 @@ def _ratio_by_a_letter(above: Expr, below: Expr) -> Expr | None:
 
 
 def _by_cosines(expr: Expr) -> Expr:
-    """Replace tangents by sines and cosines. If the expression then has a sine, multiply out and replace squares of
-    sines by squares of cosines, so that common factors are visible."""
+    """Replace tangents, and squares of sines, so that common factors are visible."""
     expr = expr.replace(tan, lambda angle: sin(angle) / cos(angle))
     return TR5(expr.expand(), max=8) if expr.has(sin) else expr
 

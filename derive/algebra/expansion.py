@@ -2,8 +2,8 @@
 
     f = N/D: N and D are expanded in Taylor series in the small symbol, and the series are divided
 
-The leading power may be negative or half-integer. SymPy's own `series` is not used. A function without an expansion in
-powers is rejected. Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.6.22 (quotient of power series).
+The leading power may be negative or half-integer. Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*,
+3.6.22 (quotient of power series).
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ Series = dict[Rational, Expr]  # power -> coefficient
 
 
 class NoExpansion(Exception):
-    """The expression has no expansion in powers at this limit, or the expression is too large for this module."""
+    """No expansion in powers was found at this limit."""
 
 
 class BeginsBeyond(NoExpansion):
@@ -89,7 +89,7 @@ class Approach(Node):
 class FirstOrder(ScalarNode):
     """The terms of f up to first order in several small symbols. Arguments: f, and the symbols.
 
-    A page displays the node as f, in the line before the higher orders are dropped.
+    A page displays the node as f.
     """
 
     def _evaluated(self, f: Expr, *small: Expr) -> Expr:
@@ -105,7 +105,7 @@ class FirstOrder(ScalarNode):
 
 def expanded(f: Expr, x: Symbol, to: Expr, power: Rational | None = None) -> Series:
     """The terms up to this power of the small quantity, as power -> coefficient; only the leading term if no power is
-    given. Raises `NoExpansion` if there is no expansion in powers."""
+    given. Raises `NoExpansion` if none are found."""
     written = in_small(f, x, to)
     if written.count_ops() > LARGEST:
         raise NoExpansion(f)
@@ -127,12 +127,7 @@ def in_small(f: Expr, x: Symbol, to: Expr) -> Expr:
 
 
 def _without_what_dies(f: Expr) -> Expr:
-    """Drop exponentials that go to zero faster than any power: for long times only 1 is left of 1 - exp(-k t). Raises
-    `NoExpansion` if this is not possible.
-
-    All exponentials with a constant rate are written as powers of one decaying exponential, with negative powers for
-    growing exponentials. This decaying exponential is then set to zero.
-    """
+    """Drop exponentials that go to zero faster than any power: for long times only 1 is left of 1 - exp(-k t)."""
     f = f.replace(lambda e: isinstance(e, sinh | cosh | tanh) and e.has(SMALL), lambda e: e.rewrite(exp))
     rates = {e: (e.args[0] * SMALL).expand() for e in f.atoms(exp) if e.has(SMALL)}
     rates = {e: rate for e, rate in rates.items() if not rate.has(SMALL) and rate.is_nonzero}
@@ -155,13 +150,12 @@ def small_of(x: Symbol, to: Expr) -> Expr:
 
 
 def tidied_terms(series: Series, x: Symbol, to: Expr) -> Expr:
-    """The sum of the tidied terms."""
     small = small_of(x, to)
     return Add(*(tidied(c) * small**n for n, c in sorted(series.items())))
 
 
 def in_ascending_powers(series: Series, x: Symbol, to: Expr) -> Expr:
-    """The terms in ascending powers, with the leading term in front of a bracket if this form is shorter."""
+    """The terms in ascending powers; the leading term is in front of a bracket if this is shorter."""
     small = small_of(x, to)
     terms = [(n, tidied(c)) for n, c in sorted(series.items())]
     plain = Terms(*(c * small**n for n, c in terms))

@@ -72,8 +72,7 @@ def scalar(name: str, **assumptions: bool) -> Symbol:
 
 
 def stand_in(name: str, **assumptions: bool) -> Symbol:
-    """An auxiliary symbol, with a prime in its name. No problem can use a name with a prime, so the symbol differs from
-    all symbols of a problem."""
+    """An auxiliary symbol, with a prime in its name, so that it differs from all symbols of a problem."""
     return scalar(f"{name}\u2032", **assumptions)
 
 
@@ -104,7 +103,7 @@ def component_names(name: str) -> tuple[Symbol, Symbol, Symbol]:
     return x, y, z
 
 
-@lru_cache(maxsize=4096, typed=True)  # several verbs build the same positions and velocities
+@lru_cache(maxsize=4096, typed=True)
 def column(*components: Any) -> ImmutableMatrix:
     return ImmutableDenseMatrix(3, 1, list(components))
 
@@ -163,8 +162,7 @@ class CarriedRate(VectorNode):
     omega. Arguments: A, omega, and the coordinates that move; without coordinates, A is constant in the body.
 
     The value is the rate of the components plus the rate of the rotated vector. The second rate is found by
-    differentiating R(t) A, not as omega x A; the columns of R(t) are the body's axes after the time t. R(t) is built
-    from Euler rotations: rotate about z and y until omega lies along z, rotate by |omega| t, rotate back.
+    differentiating R(t) A, where R(t) is the rotation by |omega| t about omega, and not as omega x A.
     """
 
     def _evaluated(self, a: Matrix, omega: Matrix, *moving: Symbol) -> ImmutableMatrix:
@@ -342,9 +340,8 @@ class Partial(ScalarNode):
 class TimeRate(ScalarNode):
     """df/dt along a motion. Arguments: f, then the coordinates that move.
 
-    The value follows from the chain rule. The partial derivative of f with respect to each coordinate, rate and
-    acceleration is multiplied by the time derivative of this coordinate, rate or acceleration. The partial derivative
-    with respect to the time is added; it includes the rates of prescribed functions.
+    The value follows from the chain rule, with the partial derivative with respect to the time; it includes the rates
+    of prescribed functions.
     """
 
     def doit(self, **hints: Any) -> Expr:
@@ -420,7 +417,7 @@ class Outer(MatrixNode):
 
 
 def _entries(vector: Value, text: TextOf) -> str:
-    """The text of a vector; a name is put in `Matrix(...)`, so that SymPy can take entries of the vector."""
+    """The text of a vector; a name is put in `Matrix(...)`, so that the text can be indexed."""
     return text(vector) if isinstance(vector, MatrixBase) else f"Matrix({text(vector)})"
 
 

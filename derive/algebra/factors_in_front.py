@@ -22,7 +22,7 @@ Terms = dict[frozenset[tuple[Expr, int]], Rational]
 
 
 class Product(NamedTuple):
-    """A number times powers with positive or negative exponents; no base is a sum whose terms have a common factor."""
+    """A number times powers with positive or negative exponents."""
 
     number: Rational
     powers: Powers
@@ -40,8 +40,7 @@ def written(product: Product) -> Expr:
 
 
 def fraction_of(product: Product) -> tuple[Expr, Expr]:
-    """The numerator and the denominator, with signs such that at least half of the terms of each sum in the denominator
-    are positive."""
+    """The numerator and the denominator; few terms of the denominator have a minus sign."""
     number, powers = product
     above, below = [], []
     for base, power in powers.items():
@@ -100,7 +99,6 @@ def product_of(value: Expr) -> Product:
 
 
 def _function(value: Function) -> Product:
-    """A function whose arguments have common factors in front; angles such as 2 a + 2 b are unchanged."""
     args = [in_front(arg) if isinstance(arg, Expr) and not _is_of_letters(arg) else arg for arg in value.args]
     found = value if args == list(value.args) else value.func(*args)
     return _root(found, 1) if isinstance(found, Function) else product_of(found)
@@ -153,7 +151,6 @@ def _is_one_sum(powers: frozenset[tuple[Expr, int]]) -> bool:
 
 
 def _apart(products: list[Product]) -> tuple[Product, Terms]:
-    """The common factor of the terms of a sum, and the terms without this factor."""
     terms: Terms = {}
     for number, powers in products:
         key = frozenset(powers.items())

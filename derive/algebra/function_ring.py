@@ -1,10 +1,9 @@
 """Polynomials in symbols and angles, and in roots, absolute values, exponentials and other functions.
 
-An absolute value is split into absolute values of irreducible factors. A root is split in the same way, as far as the
-signs of the factors allow it. Each such root or absolute value becomes a new letter, which is a variable of the ring
-with a relation, r^q = p or |p|^2 = p^2. A power whose exponent is a sum becomes a product with one factor for each term
-of the exponent, exp(u + v) = exp u exp v. Trigonometric and hyperbolic functions, signs and logarithms are rewritten
-first. For any other function, only one property is used: equal arguments give equal values.
+Roots and absolute values are split into those of their factors, as far as the signs of the factors allow it. A root or
+an absolute value becomes a new letter, which is a variable of the ring with a relation, r^q = p or |p|^2 = p^2. A power
+with a sum as its exponent becomes a product, exp(u + v) = exp u exp v. For an unknown function, only one property is
+used: equal arguments give equal values.
 
 The new letters may depend on one another, so a form with terms may still be zero. A form without terms is zero,
 provided that it contains no division by zero.
@@ -63,7 +62,7 @@ __all__ = ["FunctionRing"]
 
 
 class FunctionRing(TrigRing):
-    """The polynomials in letters and in all functions that an expression may have."""
+    """The polynomials in letters and functions."""
 
     highest = HIGHEST
 
@@ -123,7 +122,6 @@ class FunctionRing(TrigRing):
         return place
 
     def _opaque(self, expr: Expr) -> Form:
-        """A function of which only one property is used: equal arguments give equal values."""
         if expr.is_infinite or expr is S.NaN:
             raise Outside
         if isinstance(expr, AppliedUndef | Derivative):
@@ -137,8 +135,7 @@ class FunctionRing(TrigRing):
         return letter
 
     def _agree(self, a: Any, b: Any) -> bool:
-        """Whether two arguments are equal; arguments that are not expressions, as in a `Piecewise`, must be
-        identical."""
+        """Whether two arguments are equal; arguments that are not expressions must be identical."""
         return bool(a == b) or isinstance(a, Expr) and isinstance(b, Expr) and self._are_equal(a, b)
 
     def _are_equal(self, a: Expr, b: Expr) -> bool:
@@ -161,7 +158,7 @@ class FunctionRing(TrigRing):
     # --- powers -------------------------------------------------------------------------------------------------
 
     def _exponential(self, exponent: Expr) -> Form:
-        """The exponential of a sum as a product with one factor for each term; an imaginary term i q gives exp(i q)."""
+        """The exponential of a sum as a product with one factor for each term."""
         powers = 0
         for number, term in terms_of_angle(exponent):
             if I in Mul.make_args(term):
@@ -172,7 +169,7 @@ class FunctionRing(TrigRing):
         return Form({powers: 1}, 1, HIGHEST)
 
     def _power_of(self, base: Expr, exponent: Expr) -> Form:
-        """Use b^(u + v) = b^u b^v, and (a b)^u = a^u b^u where a is not negative."""
+        """Use b^(u + v) = b^u b^v, and (a b)^u = a^u b^u if a is known not to be negative."""
         powers, product = 0, ONE
         factors = [(self._key(factor), power) for factor, power in factors_under_a_root(base, 1)]
         for number, term in terms_of_angle(exponent):
@@ -196,7 +193,7 @@ class FunctionRing(TrigRing):
         return double._replace(below=2 * double.below)
 
     def _logarithm(self, of: Expr) -> Form:
-        """Use log(a b) = log a + log b where a is not negative."""
+        """Use log(a b) = log a + log b if a is known not to be negative."""
         logs = [
             Form({1 << self._dependent_place((log, self._key(factor))): power}, reach=1)
             for factor, power in factors_under_a_root(of, 1)
@@ -204,7 +201,7 @@ class FunctionRing(TrigRing):
         return self.sum(logs) if logs else Form({})
 
     def _root(self, base: Expr, exponent: Rational) -> Form:
-        """p^(n/q) as a product of roots of irreducible factors, so that sqrt(6) is sqrt(2) sqrt(3)."""
+        """p^(n/q) as a product of roots of factors, so that sqrt(6) is sqrt(2) sqrt(3)."""
         q, product = int(exponent.q), ONE
         denested = _denested(base) if q == 2 and base.is_number and base.has(Pow) else None
         if denested is not None:
@@ -251,7 +248,6 @@ class FunctionRing(TrigRing):
 
 
 def _number_in_front(form: Form) -> tuple[Rational, Form]:
-    """The positive numerical factor that all terms have in common, and the sum without this factor."""
     content = gcd(*form.terms.values())
     terms = {monomial: coefficient // content for monomial, coefficient in form.terms.items()}
     return Rational(content, form.below), form._replace(terms=terms, below=1)
@@ -261,8 +257,7 @@ def _number_in_front(form: Form) -> tuple[Rational, Form]:
 
 
 def _denested(base: Expr) -> Expr | None:
-    """The square root without nested roots, sqrt(2) + sqrt(3) for 5 + 2 sqrt(6), checked by its square and its sign;
-    None if it is not found."""
+    """The square root without nested roots, sqrt(2) + sqrt(3) for 5 + 2 sqrt(6); None if it is not found."""
     found = sqrtdenest(sqrt(base))
     if isinstance(found, Pow) or found.is_nonnegative is not True:
         return None
@@ -274,7 +269,7 @@ def factors_under_a_root(base: Expr, q: int) -> tuple[tuple[Expr, int], ...]:
     """Factors of the radicand with their powers; the product of these powers is the radicand.
 
     Factors that are known to be non-negative are separated. Under a square root, an even power of another real factor f
-    becomes a power of |f|. All other factors stay together.
+    becomes a power of |f|.
     """
     found: list[tuple[Expr, int]] = []
     unsure: Expr = Integer(1)

@@ -5,9 +5,8 @@
     sines      sin(m x), cos(n x) and their products, over any limits
     chords     y^m (w^2 - y^2)^(k/2) from -w to w: integrals over a disc of radius w in Cartesian coordinates
 
-SymPy's own integrator is slow for most of these kinds, and gives a wrong result or none for chords. For any other
-integral the functions of this module return None. Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*,
-4.3.127 and 6.2.1 (powers of sine and cosine).
+SymPy's own integrator is slow for these kinds, and may give a wrong result or none for chords. Source: Abramowitz,
+Stegun, *Handbook of Mathematical Functions*, 4.3.127 and 6.2.1 (powers of sine and cosine).
 """
 
 from __future__ import annotations
@@ -29,7 +28,7 @@ def definite(value: Expr, limits: Limits) -> Expr | None:
     return _definite(value, tuple(tuple(limit) for limit in limits))
 
 
-@lru_cache(maxsize=1024)  # each integral is needed for its value, a check and a comparison
+@lru_cache(maxsize=1024)
 def _definite(value: Expr, limits: Limits) -> Expr | None:
     for i, (x, lower, upper) in enumerate(limits):
         terms = [_term(outside, inside, x, lower, upper, limits[i + 1 :]) for outside, inside in _terms(value, x)]
@@ -46,8 +45,7 @@ def antiderivative(value: Expr, x: Symbol) -> Expr | None:
 
 
 def _terms(value: Expr, x: Symbol) -> list[tuple[Expr, Expr]]:
-    """The terms of the value, each split into a factor without x and a factor with x. A product of sines and
-    cosines becomes a sum, unless an odd power in it allows the integration by a substitution."""
+    """The terms of the value, each split into a factor without x and a factor with x."""
     found = []
     for term in Add.make_args(_expanded(value)):
         outside, inside = _apart(term, x)
@@ -59,7 +57,7 @@ def _terms(value: Expr, x: Symbol) -> list[tuple[Expr, Expr]]:
     return found
 
 
-@lru_cache(maxsize=1024)  # the entries of a tensor have few distinct products
+@lru_cache(maxsize=1024)
 def _by_sums(product: Expr) -> Expr:
     return TR8(product).expand()
 
@@ -69,7 +67,6 @@ def _expanded(value: Expr) -> Expr:
 
 
 def _is_product(term: Expr) -> bool:
-    """Whether each factor is a numerical power of a number, of a symbol, or of the sine or cosine of a symbol."""
     factors = (factor.as_base_exp() for factor in Mul.make_args(term))
     return all(
         (base.is_Atom or isinstance(base, sin | cos) and base.args[0].is_Atom) and exponent.is_Number
@@ -78,7 +75,6 @@ def _is_product(term: Expr) -> bool:
 
 
 def _apart(term: Expr, x: Symbol) -> tuple[Expr, Expr]:
-    """The product of the factors without x, and the product of the factors with x."""
     factors: tuple[list[Expr], list[Expr]] = [], []
     for factor in Mul.make_args(term):
         factors[factor.has(x)].append(factor)
@@ -106,8 +102,8 @@ def _antiderivative_of_factor(inside: Expr, x: Symbol) -> Expr | None:
 
 @lru_cache(maxsize=1024)
 def _odd_powers(inside: Expr, x: Symbol) -> Expr | None:
-    """The antiderivative of sin^p(u) cos^q(u) if p or q is odd: sin^3 u = (1 - cos^2 u) sin u, and c = cos u is
-    substituted. None for any other product."""
+    """The antiderivative of sin^p(u) cos^q(u) if p or q is odd, by a substitution: c = cos u in
+    sin^3 u = (1 - cos^2 u) sin u. None for any other product."""
     powers = dict(factor.as_base_exp() for factor in Mul.make_args(inside))
     angle = next((f.args[0] for f in powers if isinstance(f, sin | cos)), None)
     if angle is None or powers.keys() - {sin(angle), cos(angle)}:
@@ -160,8 +156,7 @@ def _chord_integral(outside: Expr, inside: Expr, y: Symbol, lower: Expr, upper: 
     """The integral of y^m (w^2 - y^2)^(k/2) from -w to w: the substitution y = w sin u gives w^(m+k+1) times a number.
     None for any other integral.
 
-    This substitution requires w >= 0, because otherwise the root is not w cos u. It must be known that w >= 0 between
-    the limits of the outer integrals.
+    The result is also None if it is not known that w >= 0, because otherwise the root is not w cos u.
     """
     m, k = 0, 0
     for base, exponent in (factor.as_base_exp() for factor in Mul.make_args(inside)):
@@ -196,8 +191,7 @@ def sine_and_cosine_integral(m: int, n: int) -> Expr:
 def _nonnegative_within(w: Expr, outer: Limits) -> bool:
     """Whether it is known that w >= 0 between the limits.
 
-    This is known in three cases: it follows from the assumptions of the symbols in w; or w is a square root; or w
-    contains only one variable of integration, is linear in it, and is non-negative at both limits of this variable.
+    A function w that is linear in one variable of integration must be non-negative at both limits of this variable.
     """
     if w.is_nonnegative or isinstance(w, Pow) and w.exp == HALF:
         return True

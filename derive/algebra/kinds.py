@@ -25,8 +25,7 @@ class Kind:
 
     unit      the coherent SI unit as text
     positive  whether symbols of this kind are positive; symbols of the other kinds are only real
-    signed    whether a minus sign is allowed in the value of a positive kind: it reverses a direction, such as the
-              direction of rotation. For all other positive kinds a minus sign is an error
+    signed    whether a minus sign is allowed in the value of a positive kind, where it reverses a direction
     angles    the powers of the radian that a unit of the kind may have: 1 or 0 for an angular speed (rad/s or 1/s),
               only 1 for an angle
     """
@@ -108,8 +107,7 @@ def plural(kind: str) -> str:
 
 
 def kind_of_dimension(dimension: Dimension) -> str | None:
-    """The first kind in `KINDS` with that dimension: energy before torque, angular speed before frequency. None if no
-    kind has it."""
+    """The first kind in `KINDS` with that dimension: energy before torque. None if no kind has it."""
     return next((name for name, kind in KINDS.items() if kind.dimension == dimension), None)
 
 
@@ -130,7 +128,7 @@ class Inhomogeneous(Exception):
 def common(terms: Iterable[Any], of: Callable[[Any], Dimension | None]) -> Dimension | None:
     """The dimension of all terms of a sum; raises `Inhomogeneous` with the first term of another dimension.
 
-    A term of unknown dimension, such as zero, fits any other term. The result is None if all terms are of this sort.
+    A term of unknown dimension, such as zero, fits any other term. None if all dimensions are unknown.
     """
     first: tuple[Any, Dimension] | None = None
     for term in terms:
@@ -149,14 +147,14 @@ def unit_of_dimension(dimension: Dimension) -> str:
     such kind, else a product of units.
 
     Energy and torque have the same dimension, so a quantity of this dimension has the unit N m, which is correct for
-    both. In the same way a rate has the unit 1/s, because angular speed and frequency have the same dimension.
+    both.
     """
     kinds = [kind for kind in KINDS.values() if kind.dimension == dimension]
     return kinds[0].unit if len(kinds) == 1 else _product_of_units(dimension)
 
 
 def _product_of_units(dimension: Dimension) -> str:
-    """`N m`, `kg m^2/s`, `1/s`: a unit with the same powers of mass and time as a force is written with newtons."""
+    """A product of units: `N m`, `kg m^2/s`, `1/s`."""
     powers = {"kg": dimension.mass, "m": dimension.length, "s": dimension.time, "A": dimension.current}
     if dimension.mass == 1 and dimension.time == -2:
         powers = {"N": Fraction(1), "m": dimension.length - 1, "A": dimension.current}
@@ -170,7 +168,7 @@ def _product_of_units(dimension: Dimension) -> str:
 
 @dataclass(frozen=True)
 class Asked:
-    """The type of a parameter of `solve()`: a quantity of a kind, or `count` quantities of this kind.
+    """A parameter of `solve()`: `count` quantities of one kind.
 
     letters   symbols that a page can use for quantities that are given as numbers
     bounds    the least and the greatest allowed angle, in degrees
@@ -220,8 +218,7 @@ ANNOTATIONS: Mapping[str, Asked] = {
 
 
 def asked_by_annotation(annotation: Any) -> Asked | None:
-    """The type that a parameter's annotation specifies; the annotation may be a string. None if it specifies no
-    type."""
+    """What a parameter's annotation asks for; None if the annotation is a different one. It may be a string."""
     if isinstance(annotation, str):
         return ANNOTATIONS.get(annotation.strip().rpartition(".")[2])
     return DIRECTION if annotation is Direction else _asked(annotation)

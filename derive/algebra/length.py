@@ -15,15 +15,13 @@ __all__ = ["length", "shortest"]
 
 
 def shortest(forms: Iterable[Expr]) -> Expr:
-    """Return the shortest form; among equally short forms, the first in alphabetical order."""
+    """Return the shortest form; among equally short forms, the first in the order of their texts."""
     lengths = {form: length(form) for form in forms}
     least = min(lengths.values())
     return min((form for form, long in lengths.items() if long == least), key=_Text)
 
 
 class _Text:
-    """The text of an expression, computed only if texts must be compared."""
-
     def __init__(self, value: Expr) -> None:
         self.value = value
 
@@ -69,8 +67,7 @@ def _of_fraction(value: Expr) -> int:
 
 
 def _of_product(factors: list[Expr]) -> int:
-    """The length of a numerator or denominator. If its factors are a number and one sum, SymPy multiplies the number
-    into the sum."""
+    """The length of a numerator or denominator. SymPy multiplies a number into a single sum."""
     is_put_in = len(factors) == 2 and factors[0].is_Rational and factors[1].is_Add
     return length(Mul(*factors)) if is_put_in else _of_factors(factors)
 

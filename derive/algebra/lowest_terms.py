@@ -33,10 +33,10 @@ def in_lowest_terms(value: Expr) -> Expr:
 
 
 def squares_turned(value: Expr) -> list[Expr]:
-    """Other forms of the fraction; a form that equals the fraction itself is left out.
+    """Other forms of the fraction.
 
-    In one form, 1 - cos^2 and 1 - sin^2 are written as squares. If the fraction has sines and cosines, sin^2 is
-    replaced by 1 - cos^2 in a second form, and cos^2 by 1 - sin^2 in a third form.
+    In one form, 1 - cos^2 and 1 - sin^2 are written as squares. In further forms, sin^2 is replaced by 1 - cos^2, or
+    cos^2 by 1 - sin^2.
     """
     ring = _ring()
     plain = ring.fraction(product_of(value))
@@ -55,8 +55,8 @@ def is_squarefree(value: Expr) -> bool:
 
 
 def factored(value: Expr) -> Expr:
-    """One fraction with each sum factored over the rational numbers, unless the sum is too large; functions and roots
-    count as symbols."""
+    """One fraction with each sum factored over the rational numbers; functions and roots count as symbols. A sum that
+    is too large is left unchanged."""
     product = _with_plus_first(_factors(value))
     odd = [base for base, power in product.powers.items() if power % 2 and base.is_Add]
     mixed = [base for base in odd if any(term.could_extract_minus_sign() for term in base.args)]
@@ -96,8 +96,7 @@ def _turned(base: Expr, power: int) -> Product:
 
 
 class _Fraction(NamedTuple):
-    """The numerator and the denominator as sums of terms, and the factor in front, which may have powers in the
-    denominator."""
+    """The numerator and the denominator as sums of terms, and the factor in front."""
 
     top: Terms
     bottom: Terms
@@ -105,7 +104,7 @@ class _Fraction(NamedTuple):
 
 
 class _Fractions(Expanded):
-    """The ring in which each expression counts as a symbol, unless it is a sum, a product or a whole power."""
+    """The ring in which functions and roots count as symbols."""
 
     def _made(self, expr: Expr) -> Form:
         return self.letter(expr) if expr == PLUS_MINUS else super()._made(expr)
@@ -129,8 +128,6 @@ class _Fractions(Expanded):
         return reduce(self.product, sorted(forms, key=lambda form: len(form.terms)), ONE)
 
     def written(self, fraction: _Fraction) -> Expr:
-        """Write the fraction without a minus sign in front if a sum in the numerator or the denominator can absorb the
-        sign."""
         top, bottom, (number, letters) = fraction
         if not top:
             return S.Zero
@@ -147,8 +144,6 @@ class _Fractions(Expanded):
         return written(times(parts))
 
     def factors(self, base: Expr, power: int) -> Product:
-        """The factors of a power. If the base is irreducible, too large or not a sum, the only
-        factor is the power itself."""
         try:
             terms = self.form(base).terms if base.is_Add else {}
         except Outside:
@@ -161,8 +156,7 @@ class _Fractions(Expanded):
         return times((Product(Rational(int(content)) ** power, {}), *inner))
 
     def _by_degree(self, terms: Terms) -> list[int]:
-        """The places of the letters, the lowest degree first. In another order, SymPy may need a thousand times as long
-        to factor a polynomial."""
+        """The places of the letters, the lowest degree first, because SymPy factors much faster in this order."""
         degrees = {place: max((m >> place) & ONES for m in terms) for place in _places(terms)}
         return sorted(degrees, key=lambda place: (degrees[place], str(self.name(place))))
 
@@ -194,8 +188,6 @@ class _Fractions(Expanded):
         return {monomial: coefficient for monomial, coefficient in left.items() if coefficient}
 
     def _turning(self, terms: Terms) -> list[tuple[int, int]]:
-        """Return, for each sine and cosine that occurs, its place in a monomial and the place of the other function of
-        the same angle."""
         found = [self.name(place) for place in _places(terms)]
         turning = sorted((f for f in found if isinstance(f, sin | cos)), key=str)
         return [(self.place(f), self.place((cos if isinstance(f, sin) else sin)(f.args[0]))) for f in turning]
@@ -236,8 +228,7 @@ def _without_common(top: Terms, bottom: Terms) -> tuple[Terms, Terms]:
 
 
 def _quotient(top: Terms, divisor: Terms) -> Terms | None:
-    """The quotient of two sums; None if there is a remainder. Most nonzero remainders are already detected modulo a
-    prime."""
+    """The quotient of two sums; None if there is a remainder, which is mostly detected modulo a prime."""
     places = _places([*top, *divisor])
     first = next(iter(_places(divisor)), None)
     if first is None or len(divisor) < 2 or not set(_places(divisor)) <= set(_places(top)):
@@ -252,7 +243,6 @@ def _quotient(top: Terms, divisor: Terms) -> Terms | None:
 
 
 def _numbers(places: Sequence[int]) -> dict[int, int]:
-    """A fixed number modulo the prime for each symbol."""
     return {place: pow(3, 5 + 2 * n, PRIME) for n, place in enumerate(places)}
 
 
@@ -294,7 +284,6 @@ def _image(valued: Terms, place: int, number: int) -> list[int]:
 
 
 def _is_coprime(one: list[int], other: list[int]) -> bool:
-    """Whether both images keep their highest power and have no common factor."""
     return bool(one[0] and other[0] and gf_degree(gf_gcd(one, other, PRIME, ZZ)) == 0)
 
 
@@ -320,8 +309,6 @@ def _terms(polynomial: PolyElement, places: list[int]) -> Terms:
 
 
 class _Kept:
-    """The ring that is reused from one fraction to the next."""
-
     ring = _Fractions()
 
 

@@ -52,8 +52,7 @@ class MassIntegral(MatrixNode):
 
 
 def dimensions_of_variables(limits: Any, of: DimensionOf) -> dict[Any, Dimension | None]:
-    """The dimension of each variable of integration, from its limits. The limits may contain variables of outer
-    integrals."""
+    """The dimension of each variable of integration, from its limits."""
     inner: dict[Any, Dimension | None] = {}
     for x, *ends in reversed(limits):
         inner[x] = common(ends, lambda end: of(end, inner))

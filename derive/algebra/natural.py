@@ -1,8 +1,7 @@
 """An expression written with named quantities: l/(m r_0^2) for G^2 M^2 m^3/l^3 with r_0 = l^2/(G M m^2).
 
-A named quantity eliminates one symbol of its formula. Among all choices of quantities and symbols, the shortest form is
-kept. The length of a form is its number of operations (`length`), plus two for each of its symbols. So a form with
-fewer symbols but more operations may be the shorter one.
+A named quantity eliminates one symbol of its formula. Among the choices of quantities and symbols, the shortest form is
+kept. Its length is the number of operations (`length`), plus two for each of its symbols.
 """
 
 from __future__ import annotations
@@ -69,8 +68,8 @@ class Shortened:
 
 
 def shortened(value: Any, quantities: Mapping[Symbol, Expr], kept: Collection[Symbol] = ()) -> Shortened | None:
-    """Return the shortest form of an expression or an equation in which quantities replace symbols; None if no form is
-    shorter than the value, or if the value is longer than `LONGEST`.
+    """Return the shortest form of an expression or an equation in which quantities replace symbols; None if no shorter
+    form is found.
 
     quantities   symbol -> its value in other symbols
     kept         symbols that must not be eliminated, such as the coordinates
@@ -105,7 +104,7 @@ def shortened(value: Any, quantities: Mapping[Symbol, Expr], kept: Collection[Sy
 
 
 def _brings(known: Mapping[Symbol, Expr], value: Any, quantities: Mapping[Symbol, Expr]) -> bool:
-    """Whether the substitution can bring every quantity into the value; nothing is simplified for this decision."""
+    """Whether the substitution can bring every quantity into the value."""
     names = {name for symbol in known.keys() & value.free_symbols for name in known[symbol].free_symbols}
     return {*quantities} <= names | {*value.free_symbols}
 
@@ -123,25 +122,21 @@ def _is_natural(form: Any, quantities: Mapping[Symbol, Expr]) -> bool:
 
 
 def _with_sign(name: Symbol, value: Expr) -> Symbol:
-    """A dummy symbol for a quantity with this value. The dummy symbol is positive if `is_positive(value)`, so that
-    SymPy writes the root of its square as the symbol itself."""
     return _stand_in(name.name, value, is_positive(value))
 
 
-@lru_cache(maxsize=1024)  # the same dummy symbol each time, so that `_solutions` finds its earlier results
+@lru_cache(maxsize=1024)
 def _stand_in(name: str, value: Expr, positive: bool) -> Dummy:
     return Dummy(name, positive=True) if positive else Dummy(name, real=True)
 
 
 def is_positive(value: Expr) -> bool:
-    """Whether a value is positive wherever it is real and not zero: each factor is positive, except that one may be a
-    square root."""
     others = [factor for factor in Mul.make_args(value) if sign_within(factor) != 1]
     return not others or len(others) == 1 and others[0].is_Pow and others[0].exp == HALF
 
 
 def _functions_under_roots(value: Expr) -> Iterator[Expr]:
-    """Yield sin(beta) for sqrt(g sin(beta)/h): wherever the value is real and not zero, this factor is positive."""
+    """Yield sin(beta) for sqrt(g sin(beta)/h): this factor is positive wherever the value is real and not zero."""
     if is_positive(value):
         roots = (factor for factor in Mul.make_args(value) if factor.is_Pow and factor.exp in (HALF, -HALF))
         bases = (root.base for root in roots if sign_within(root.base) != 1)
@@ -154,8 +149,7 @@ def _some_of(names: Mapping[Symbol, Expr]) -> Iterator[tuple[Symbol, ...]]:
 
 
 def _eliminations(quantities: Mapping[Symbol, Expr], kept: Collection[Symbol]) -> Iterator[dict[Symbol, Expr]]:
-    """Yield a mapping, symbol -> its value in the names of the quantities, for each choice of the eliminated symbols.
-    One symbol is eliminated for each quantity."""
+    """Yield a mapping, eliminated symbol -> its value, for each choice of one symbol for each quantity."""
     choices = [_solutions(name, value, frozenset(kept)) for name, value in quantities.items()]
     for choice in product(*choices):
         found = _solved_together(choice)
@@ -165,8 +159,7 @@ def _eliminations(quantities: Mapping[Symbol, Expr], kept: Collection[Symbol]) -
 
 @lru_cache(maxsize=4096)
 def _solutions(name: Symbol, value: Expr, kept: frozenset[Symbol]) -> tuple[tuple[Symbol, Expr], ...]:
-    """Return each symbol of a formula that is not in `kept`, with its value, if the equation name = formula has one
-    solution for it."""
+    """Return the symbols for which the equation name = formula can be solved, each with its value."""
     left, right = name, value
     for sign in (1, -1):
         if function := INVERSES.get(type(sign * value)):
@@ -176,11 +169,7 @@ def _solutions(name: Symbol, value: Expr, kept: frozenset[Symbol]) -> tuple[tupl
 
 
 def _solved(left: Expr, right: Expr, symbol: Symbol) -> Expr | None:
-    """Solve left = right for a symbol. If the symbol is under a q-th root, both sides are first raised to the power q.
-
-    Then the equation must be linear in the symbol, or the symbol must be positive and occur in only one power.
-    Otherwise the result is None.
-    """
+    """Solve left = right for a symbol; None if no unique solution is found."""
     order = _order_of_root(right, symbol)
     above, below = fraction(together(cancel(right**order)))
     try:
@@ -198,7 +187,6 @@ def _solved(left: Expr, right: Expr, symbol: Symbol) -> Expr | None:
 
 
 def _order_of_root(value: Expr, symbol: Symbol) -> int:
-    """Return q if the value is a product with a q-th root that contains the symbol; otherwise 1."""
     roots = {f.exp.q for f in Mul.make_args(value) if f.is_Pow and f.exp.is_Rational and f.has(symbol)} - {1}
     return int(next(iter(roots))) if len(roots) == 1 else 1
 
@@ -225,8 +213,7 @@ def _with(
 
 
 def compared(left: Expr, mark: str, right: Expr, takes_roots: bool = True) -> Relation:
-    """Write gamma < omega_0, not 4 gamma^2 < 4 omega_0^2, if both sides are squares of positive expressions. A number
-    that is compared with an expression is on the right."""
+    """Write gamma < omega_0, not 4 gamma^2 < 4 omega_0^2, if both sides are squares of positive expressions."""
     shared = common_factor([left, right])
     if shared.is_positive:
         left, right = tidied(left / shared), tidied(right / shared)
@@ -243,12 +230,7 @@ def compared(left: Expr, mark: str, right: Expr, takes_roots: bool = True) -> Re
 def _relation(
     value: Relation, known: Mapping[Expr, Expr], quantities: Mapping[Symbol, Expr], is_motion: bool
 ) -> Shortened:
-    """Rewrite both sides term by term; if the relation gives the value of a symbol, rewrite only the right side.
-
-    Divide an equation with zero on the right by the positive numbers, symbols and powers that all terms on the left
-    have in common. Divide any other relation without a zero side by the common factor of both sides, unless it is an
-    equation of motion.
-    """
+    """Rewrite both sides term by term, and divide them by a common factor."""
     used = tuple(quantities)
     if value.operator == "=" and value.left.is_Symbol and value.left not in {*known, *value.right.free_symbols}:
         return Shortened(Relation(value.left, "=", _written(value.right, known)), used)
@@ -268,12 +250,7 @@ def _relation(
 
 
 def _written(value: Expr, known: Mapping[Expr, Expr]) -> Expr:
-    """Substitute, and bring radicands and the arguments of functions to lowest terms.
-
-    A sum is written term by term, unless this gives more terms. A product of several sums is written factor by factor.
-    For any other value, the result of the substitution is returned unchanged, in its tidy form, or with the common
-    factors of sums in front, whichever is shortest.
-    """
+    """Substitute, and return the shortest of a few forms of the result."""
     put_in = value.subs(known)
     if put_in == value:
         return value
@@ -325,7 +302,6 @@ def _under_one_root(value: Expr) -> Expr:
 
 
 def _cost(value: Any) -> tuple[int, int]:
-    """The length with the symbols counted, and the number of symbols. If two forms have the same length, the form with
-    fewer symbols is preferred."""
+    """The length with the symbols counted, and the number of symbols, which decides between equal lengths."""
     symbols = len(value.free_symbols)
     return _size(value) + SIGNS_OF_A_SYMBOL * symbols, symbols

@@ -43,7 +43,7 @@ NODES: dict[str, Any] = {}  # every kind of node by its name
 
 
 class Node(Basic):
-    """Base class of all unevaluated forms: `doit()` evaluates the operands, and `_evaluated` evaluates the form."""
+    """Base class of all unevaluated forms."""
 
     def __init_subclass__(cls, abstract: bool = False, **keywords: Any) -> None:
         super().__init_subclass__(**keywords)
@@ -65,7 +65,7 @@ class Node(Basic):
         raise AttributeError(f"{type(self).__name__} must define `_evaluated`")
 
     def dimension(self, of: DimensionOf) -> Dimension | None:
-        """The dimension of the node; raises `Inhomogeneous` if its terms differ in dimension."""
+        """The dimension of the node; may raise `Inhomogeneous`."""
         raise AttributeError(f"{type(self).__name__} must define `dimension`")
 
     @property
@@ -79,7 +79,6 @@ class Node(Basic):
 
 
 def dimension_of_first(node: Node, of: DimensionOf) -> Dimension | None:
-    """The dimension of the first argument, for nodes such as a bracket, a component or a norm."""
     return of(node.args[0])
 
 
@@ -123,7 +122,7 @@ def explicit(expr: Value) -> Value:
     return Integer(expr)
 
 
-@lru_cache(maxsize=16384)  # neighbouring lines of a calculation have most parts in common
+@lru_cache(maxsize=16384)
 def _carried_out(expr: Basic) -> Value:
     if type(expr) in (Add, Mul, Pow, sin, cos):
         return expr.func(*map(_carried_out, expr.args))
@@ -138,8 +137,8 @@ def _carried_out(expr: Basic) -> Value:
 def _definite(integral: Integral) -> Expr:
     """Evaluate a definite integral by the rules of `derive.algebra.integrals` or, if these do not apply, by SymPy.
 
-    If the rules do not apply to an integral with a root in the integrand or in a limit, the result is `nan`, which is
-    equal to no value. For such an integral SymPy may be wrong or may not terminate.
+    If the rules do not apply to an integral with a root, the result is `nan`, which is equal to no value, because SymPy
+    may be wrong or may not terminate.
     """
     integrand = explicit(integral.function)
     value = definite(integrand, integral.limits)

@@ -1,7 +1,7 @@
 """Decide exactly whether an expression is zero.
 
-Polynomials in symbols, sines and cosines have a normal form (`trig_polynomials`). An expression that this form does not
-decide uses a ring with additional letters for roots, absolute values and other functions.
+Polynomials in symbols, sines and cosines have a normal form (`trig_polynomials`). Other expressions use a ring with
+additional letters for roots, absolute values and other functions.
 """
 
 from __future__ import annotations
@@ -66,9 +66,8 @@ def is_identity(left: Expr, right: Expr) -> bool:
         return False
 
 
-@lru_cache(maxsize=4096, typed=True)  # a verb, `establish()` and the predicates ask about the same expression
+@lru_cache(maxsize=4096, typed=True)
 def _vanishes_by_relations(expr: Expr) -> bool:
-    """Whether an expression that `trig_polynomials` cannot decide is zero; False means "not shown"."""
     try:
         expr = _with_common_angles(expr)
         return not expr.has(nan, zoo) and _is_zero(expr) and not any(map(_is_nothing, _divisors(expr)))
@@ -85,7 +84,7 @@ def _divisors(expr: Expr) -> set[Expr]:
 
 
 def _is_nothing(divisor: Expr) -> bool:
-    """Whether a divisor is zero everywhere, so that a quotient that seems zero is 0/0."""
+    """Whether a divisor is zero everywhere; a quotient that seems zero is then 0/0."""
     if asked(FunctionRing, lambda ring: ring.is_nonzero(ring.form(divisor)), divisor):
         return False
     everywhere = is_zero_everywhere(divisor)
@@ -93,16 +92,14 @@ def _is_nothing(divisor: Expr) -> bool:
 
 
 def _hides_angles(expr: Expr) -> bool:
-    """Whether a sine, cosine or tangent is under a root or in an absolute value, or its angle contains pi or an arc
-    function."""
+    """Whether a sine is under a root, for example, or an angle contains pi, so that angles must be compared."""
     under = (root for root in expr.atoms(Pow, Abs) if not (root.is_Pow and root.exp.is_Integer))
     angles = (function.args[0] for function in expr.atoms(sin, cos, tan))
     return any(each.has(sin, cos, tan) for each in under) or any(each.has(acos, asin, atan, pi) for each in angles)
 
 
 def _with_common_angles(expr: Expr) -> Expr:
-    """If an expression hides angles (`_hides_angles`), write it in sines and cosines of the angles of
-    `_smallest_angles`."""
+    """Write an expression that hides angles (`_hides_angles`) in sines and cosines of smaller angles."""
     if not _hides_angles(expr):
         return expr
     expr = expr.replace(lambda e: isinstance(e, tan), lambda e: sin(e.args[0]) / cos(e.args[0]))
@@ -126,8 +123,8 @@ def _angle_terms(angle: Expr) -> list[tuple[Rational, Expr]]:
 
 
 def _smallest_angles(functions: set[Any]) -> dict[Expr, tuple[Expr, Symbol]]:
-    """Group the terms of the angles, so that all ratios in a group are rational. For each group, return the largest
-    angle of which all terms of the group are whole multiples, and a dummy symbol for this angle."""
+    """For each group of angles with rational ratios, return the largest angle of which all are whole multiples, and a
+    dummy symbol for this angle."""
     found: dict[Expr, list[Rational]] = {}
     for function in functions:
         for coefficient, rest in _angle_terms(function.args[0]):

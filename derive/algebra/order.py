@@ -1,8 +1,7 @@
 """Assumed relations between symbols, l < r_0 or v_0^2 < g R, and their consequences for signs and for sample values.
 
 A symbol is replaced by its value from the relation, r_0 = l + u with an amount u > 0. The sign of a polynomial in l and
-r_0 can then often be read from its coefficients. Relations are applied one after another. For a < b < c, the value of
-c is a + u + w.
+r_0 can then often be read from its coefficients.
 """
 
 from __future__ import annotations
@@ -40,11 +39,9 @@ class Order:
     amounts: Mapping[Symbol, Symbol] = field(default_factory=dict)
 
     def with_relation(self, difference: Expr, strict: bool, sign_of: SignOf) -> Order:
-        """Return these relations and a further one: the difference is greater than zero, or greater than or equal to
-        zero if the relation is not strict. Raise `Contradiction` if the further relation contradicts these relations.
-        The further relation is left out if the sign of the difference is already known, or if the relation is not
-        strict and no symbol can be replaced.
-        """
+        """Return these relations and a further one: the difference is greater than zero, or may be zero if the relation
+        is not strict. Raise `Contradiction` if the further relation contradicts these relations. A relation that adds
+        nothing is left out."""
         there, below = together(self.put_in(difference)).as_numer_denom()
         there = expand(there) if sign_of(below) == 1 else expand(there / below)
         sign = 0 if there.is_zero else sign_of(there)
@@ -65,7 +62,7 @@ class Order:
         return expr.xreplace(dict(self.replaced)) if self.replaced else expr
 
     def touches(self, expr: Expr) -> bool:
-        """Whether the expression contains a symbol that is replaced, or a symbol of a strict relation."""
+        """Whether the relations can matter for the expression."""
         if not self:
             return False
         known = self.replaced.keys() | set().union(*(each.free_symbols for each in self.positive))
@@ -90,9 +87,8 @@ class Order:
         return None if None in signs else prod(sign for sign in signs if sign is not None)
 
     def at(self, point: Mapping[Expr, Expr], fits: Callable[[Expr, Expr], bool]) -> dict[Expr, Expr]:
-        """The point, with the numbers of replaced symbols changed so that they satisfy the relations. The amount of a
-        replaced symbol is first the absolute value of its number at the point. While the resulting values do not fit
-        their symbols (`fits`), each amount is divided by 8."""
+        """The point, with the numbers of replaced symbols changed so that they satisfy the relations. The amounts are
+        made smaller until the numbers fit their symbols (`fits`)."""
         missing = set().union(*(v.free_symbols for v in self.replaced.values())) - {*self.amounts.values(), *point}
         free = {**point, **{s: Rational(7 + 2 * n, 5) for n, s in enumerate(sorted(missing, key=str))}}
         wanted = [(s, value) for s, value in self.replaced.items() if s in point]
@@ -109,8 +105,7 @@ def _letter_replaced(
     difference: Expr, strict: bool, sign_of: SignOf
 ) -> tuple[Symbol, Expr, Symbol] | tuple[None, None, None]:
     """A symbol in which the difference is linear, its value, and a new amount: with this value, the difference equals
-    the amount. A positive symbol is chosen only if its value is positive. If there is no such symbol, the result is
-    (None, None, None)."""
+    the amount."""
     amount = Dummy("more", positive=True) if strict else Dummy("more", nonnegative=True)
     for letter in sorted((s for s in difference.free_symbols if isinstance(s, Symbol)), key=str):
         slope = difference.diff(letter)

@@ -1,8 +1,7 @@
 """The time, and prescribed functions of the time such as the position X(t) of a shaken support.
 
-A prescribed function X and its rates X_dot, X_ddot are symbols, as a coordinate and its rates are. But X depends on the
-time alone. So the partial derivative of a formula with respect to t includes the derivatives of X and of its rates, and
-`depends_on_time` is true for each formula that contains one of these symbols.
+A prescribed function X and its rates X_dot, X_ddot are symbols. X depends on the time alone, so the partial derivative
+of a formula with respect to t includes the derivatives of X and of its rates.
 """
 
 from __future__ import annotations

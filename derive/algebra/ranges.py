@@ -1,7 +1,4 @@
-"""Symbols that lie between two numbers, 0 < alpha < pi/2, and the signs that follow from this.
-
-Checks that need the sign of an expression for all allowed values of its symbols use this module.
-"""
+"""Symbols that lie between two numbers, 0 < alpha < pi/2, and the signs that follow from this."""
 
 from __future__ import annotations
 
@@ -43,8 +40,7 @@ class Range:
         return bool(self.least.is_extended_positive or self.least.is_zero and not self.closed[0])
 
     def at(self, way: Expr) -> Expr:
-        """The number at the fraction `way` of the range, 0 < way < 1. A finite range is divided evenly; for an infinite
-        range the number is an increasing function of `way`."""
+        """A number in the range that increases with `way`, where 0 < way < 1."""
         if self.least.is_finite and self.greatest.is_finite:
             return self.least + (self.greatest - self.least) * way
         beyond = way / (1 - way)
@@ -53,8 +49,7 @@ class Range:
         return self.greatest - 1 / beyond if self.greatest.is_finite else beyond - 1 / beyond
 
     def near(self, number: Expr) -> Expr:
-        """Map a positive number to a number in the range by an increasing function; for the range `POSITIVE` the number
-        is unchanged."""
+        """Map a positive number to a number in the range by an increasing function."""
         return number if self == POSITIVE else self.at(number / (1 + number))
 
 
@@ -69,7 +64,7 @@ _POSITIVE: ContextVar[tuple[Expr, ...]] = ContextVar("positive", default=())
 
 @contextmanager
 def own_meaning() -> Iterator[None]:
-    """Begin a `with` block without assumptions of positivity, and restore the earlier assumptions after the block."""
+    """Make no assumptions of positivity at the start of the `with` block, and restore the earlier ones after it."""
     token = _POSITIVE.set(())
     try:
         yield
@@ -104,8 +99,7 @@ def known_ranges() -> Mapping[Symbol, Range]:
 
 
 def has_meaning(point: Mapping[Expr, Expr]) -> bool:
-    """Whether the point satisfies all assumptions of positivity; an assumption about a symbol without a number is
-    ignored."""
+    """Whether the point is not known to contradict an assumption of positivity."""
     told = (each for each in _POSITIVE.get() if each.free_symbols <= point.keys())
     return all(each.xreplace(dict(point)).evalf(20).is_positive is not False for each in told)
 
@@ -145,7 +139,7 @@ def _fits(letter: Any, number: Expr) -> bool:
 
 
 def without_abs(value: Any) -> Any:
-    """Remove the absolute values whose argument has a definite sign in the ranges of its symbols."""
+    """Remove absolute values whose argument has a known sign in the ranges of its symbols."""
     known = _KNOWN.get()
     if not hasattr(value, "atoms") or not (value.free_symbols & known.keys() or known_order().touches(value)):
         return value
@@ -185,8 +179,7 @@ def sign_within(expr: Expr) -> int | None:
 
 
 def strict_sign_within(expr: Expr) -> int | None:
-    """The sign from `sign_within`; None if the expression does not have this sign at an end that belongs to the range
-    of a symbol."""
+    """As `sign_within`, but the ends that belong to the ranges count."""
     sign = sign_within(expr)
     if sign is None:
         return None
@@ -195,7 +188,6 @@ def strict_sign_within(expr: Expr) -> int | None:
 
 
 def _ends_included(letter: Any) -> list[Expr]:
-    """Return the ends that belong to the range of a symbol."""
     known = range_of(letter)
     ends = zip((known.least, known.greatest), known.closed, strict=True) if known is not None else ()
     return [end for end, closed in ends if closed]
@@ -245,8 +237,7 @@ def _sign_between(least: Expr, greatest: Expr) -> int | None:
 
 
 def _sign_of_sum(total: Expr) -> int | None:
-    """The sign of a sum: from the common sign of its terms, from the bounds between which it lies, or from its form as
-    a product of sines and cosines. None if the sign is unknown."""
+    """The sign of a sum; None if it is unknown."""
     for sign in (1, -1):
         terms = [sign * term for term in total.args]
         strict = [sign_within(term) == 1 for term in terms]
@@ -266,8 +257,7 @@ def _is_nonnegative(term: Expr) -> bool:
 
 
 def _sign_by_squares(total: Add) -> int | None:
-    """The sign of a sum with sines or cosines that has the same sign for all angles, such as m + M - m cos^2. None if
-    the sign is unknown."""
+    """The sign of a sum with squares of sines or cosines, such as m + M - m cos^2. None if the sign is unknown."""
     if not total.has(sin, cos) or total.count_ops() > LARGEST:
         return None
     for squares in (total, TR5(total.expand()), TR6(total.expand())):
@@ -291,8 +281,8 @@ def _have_sine_and_cosine(terms: Sequence[Expr]) -> bool:
 
 
 def _sign_as_product(total: Add) -> int | None:
-    """The sign of a sum or difference of two sines or two cosines with the same factor, from its form as a product.
-    None if the sign is unknown."""
+    """The sign of a sum or difference of two sines or two cosines, from its form as a product; None if it is
+    unknown."""
     if len(total.args) != 2:
         return None
     (factor, one), (other_factor, other) = (term.as_independent(sin, cos, as_Add=False) for term in total.args)
@@ -309,8 +299,7 @@ def _sign_as_product(total: Add) -> int | None:
 
 
 def _sign_of_function(function: Expr) -> int | None:
-    """The sign of a sine, cosine or tangent, if its angle stays within a range in which this sign is constant. None if
-    the sign is unknown."""
+    """The sign of a sine, cosine or tangent, from the range of its angle; None if it is unknown."""
     ends = _ends(function.args[0])
     if ends is None or not (ends[0].is_finite and ends[1].is_finite):
         return None
@@ -330,8 +319,7 @@ def ends_within(expr: Expr) -> tuple[Expr, Expr] | None:
 
 
 def _ends(expr: Expr) -> tuple[Expr, Expr] | None:
-    """The bounds of a sum of numbers and of multiples of terms that `_between` bounds; None if they are unknown. The
-    sum does not reach the bounds, except if it is constant or the range of a symbol includes an end."""
+    """The bounds of a sum of multiples of terms that `_between` bounds; None if they are unknown."""
     least: Expr = Integer(0)
     greatest: Expr = Integer(0)
     for term in Add.make_args(expr):
@@ -349,8 +337,7 @@ def _ends(expr: Expr) -> tuple[Expr, Expr] | None:
 
 
 def _between(rest: Expr) -> tuple[Expr, Expr] | None:
-    """The bounds of a symbol, of a sine or cosine that is monotonic in the range of its angle, of an arctangent, or of
-    a whole power of a positive expression; None if they are unknown."""
+    """The bounds of a symbol, a function or a power; None if they are unknown."""
     if (known := _range_of_letter(rest)) is not None:
         return known.least, known.greatest
     if isinstance(rest, atan):

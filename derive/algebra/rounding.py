@@ -73,7 +73,7 @@ def off_by_more_than_half_a_unit(exact: Any, shown: Any) -> tuple[str, str] | No
     exact value.
 
     Returns None if there is no such number. In a relation, the right side is the rounded number. mpmath computes the
-    exact value here, with extra digits for cancellation; `rounded` uses SymPy's own `evalf`.
+    exact value here, while `rounded` uses SymPy's own `evalf`.
     """
     for number, factor, value in _pairs(shown, exact):
         target = explicit(number)

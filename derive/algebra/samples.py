@@ -1,9 +1,8 @@
 """Points at which two expressions are compared, and the values of the expressions at these points.
 
-A point gives each symbol a random number, in most cases rational; the numbers have several orders of magnitude. The
-seed of the random numbers is computed from the expressions, so each run has the same points for the same expressions.
-mpmath computes the values with enough digits to exclude rounding errors. A difference counts only if more digits
-confirm it; a difference that shrinks as digits are added counts as zero.
+A point gives each symbol a random number; the numbers have several orders of magnitude. The seed is computed from the
+expressions, so each run has the same points for the same expressions. A difference counts only if more digits confirm
+it; a difference that shrinks as digits are added counts as zero.
 """
 
 from __future__ import annotations
@@ -55,11 +54,11 @@ SamplePoint = Mapping[Expr, Expr]
 
 
 class Undefined(Exception):
-    """The expression has no value at this point, for example because of a division by zero or an infinite value."""
+    """The expression has no value at this point, for example because of a division by zero."""
 
 
 class NoNumber(Exception):
-    """The value of the expression at this point cannot be computed, or only with too much work."""
+    """The value of the expression at this point cannot be computed."""
 
 
 @dataclass(frozen=True)
@@ -73,8 +72,7 @@ class Sample:
 
 
 def points(letters: set[Expr], seed: int) -> Iterator[SamplePoint]:
-    """Yield points without end: first of ordinary size, then of each scale in turn, then with a random scale for each
-    symbol."""
+    """Yield points without end, the first ones of ordinary size."""
     ordered = sorted(letters, key=str)
     source = Random(seed)
     for scales in (ORDINARY, ORDINARY, ORDINARY, *((tiny,) for tiny in TINY), *((large,) for large in LARGE)):
@@ -84,7 +82,7 @@ def points(letters: set[Expr], seed: int) -> Iterator[SamplePoint]:
 
 
 def _of_both_signs(letters: list[Expr], scales: list[int], source: Random) -> Iterator[SamplePoint]:
-    """Two points: each symbol that may have either sign and has no range is negative at one of them."""
+    """Two points at which the symbols have opposite signs, where this is allowed."""
     signs = [source.choice((1, -1)) for _ in letters]
     for turn in (1, -1):
         point = {
@@ -116,7 +114,7 @@ def _drawn(letter: Expr, scale: int, sign: int, source: Random) -> Expr:
 
 
 def letters_of(expr: Expr) -> set[Expr]:
-    """The quantities that can be varied freely: unbound symbols, functions of time and their derivatives."""
+    """The quantities that can be varied freely: free symbols, unknown functions and their derivatives."""
     functions = expr.atoms(AppliedUndef) | expr.atoms(Derivative)
     return set(functions) | {s for s in expr.free_symbols if isinstance(s, Symbol)}
 
@@ -131,8 +129,7 @@ def seed_of(*exprs: Expr) -> int:
 def compared_at(left: Expr, right: Expr, point: SamplePoint, thoroughly: bool = False) -> Sample:
     """The values of both sides at a point; raises `Undefined` or `NoNumber`.
 
-    A difference counts only if more digits confirm it. With `thoroughly`, agreement counts only if more digits confirm
-    the value of each side, or show that it is zero.
+    With `thoroughly`, agreement counts only if more digits confirm the value of each side, or show that it is zero.
     """
     before: tuple[Any, Any, Any] | None = None
     for digits in WORKING:
@@ -165,10 +162,9 @@ def _shrinks(before: Any, now: Any) -> bool:
 
 
 def value_at(expr: Expr, point: SamplePoint) -> Expr:
-    """The value of an expression at a point, confirmed with a second precision; if digits cancel, higher precisions are
-    used.
+    """The value of an expression at a point, confirmed with a second precision.
 
-    Returns zero if the value shrinks as digits are added. Raises `Undefined`, or `NoNumber` if no two precisions agree.
+    Returns zero if the value shrinks as digits are added. Raises `Undefined` or `NoNumber`.
     """
     before: Any = None
     for digits in (30, *WORKING):
@@ -190,11 +186,7 @@ def value_at(expr: Expr, point: SamplePoint) -> Expr:
 
 
 def is_zero_everywhere(expr: Expr) -> bool | None:
-    """Whether the expression is zero at all sampled points; None if it has a value at none of them.
-
-    A point at which the expression is undefined is left out. The first point at which the value cannot be computed ends
-    the search.
-    """
+    """Whether the expression is zero at all sampled points; None if no value is found."""
     found: bool | None = None
     letters = letters_of(expr)
     for point in islice(points(letters, seed_of(expr)), 6 if letters else 1):
@@ -258,13 +250,11 @@ def as_sympy(x: Any) -> Expr:
 # --- the value of an expression --------------------------------------------------------------------------------------
 
 _OF_ZERO = -(10**30)
-# Largest size of a power: the exponent times the number of bits of the base. A larger power would hide the other terms
-# of a sum. For a whole exponent the limit is four times this number. This is also the largest argument of a function in
-# `_GROWING`.
+# Largest size of a power (the exponent times the number of bits of the base) and largest argument of a function in
+# `_GROWING`. Larger values would hide the other terms of a sum.
 _LARGEST = 300
 _MOST = 60  # greatest number of bits of the integer part of a function's argument
 _GROWING = {"exp", "sinh", "cosh", "tanh", "coth", "sech", "csch", "erf"}
-# functions that lose no digits for any argument
 _OF_ANY_SIZE = {"Abs", "sign", "re", "im", "conjugate", "arg", "Max", "Min", "log"}
 _ONE_ARGUMENT = {
     name: getattr(mp, name)
@@ -376,7 +366,7 @@ class Values:
         return bool({"<": x < 0, "<=": x <= 0, ">": x > 0, ">=": x >= 0}[condition.rel_op])
 
     def _by_sympy(self, expr: Expr) -> Any:
-        """Evaluate a function by SymPy, with values substituted for its symbols, if this module has no rule for it."""
+        """Evaluate a function by SymPy if this module has no rule for it."""
         letters = letters_of(expr)
         if not letters <= self.known.keys() or expr.count_ops() > 200:
             raise NoNumber(expr)
@@ -434,7 +424,7 @@ def _atom(expr: Expr) -> Any:
 
 
 def _real(x: Any) -> Any:
-    """The real part of a value that is real up to rounding errors; raises `Undefined` for any other value."""
+    """The value as a real number; raises `Undefined` if its imaginary part is more than a rounding error."""
     if not isinstance(x, mpmath.mpc):
         return x
     if x.imag and _bits(x.imag) > _bits(x.real) - mp.prec + 30:

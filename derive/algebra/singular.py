@@ -25,8 +25,8 @@ def is_not_real(value: Any) -> bool:
 
 
 def undefined_part(before: Any, put: Callable[[Expr], Any]) -> Expr | None:
-    """The innermost part that makes an expression undefined after symbols are replaced: a denominator that becomes
-    zero, or a function that becomes infinite. None if there is no such part.
+    """A part that makes an expression undefined after symbols are replaced: a denominator that becomes zero, or a
+    function that becomes infinite. None if there is no such part.
 
     put   a function that replaces the symbols in a part
     """

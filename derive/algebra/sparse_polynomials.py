@@ -1,9 +1,7 @@
 """Sparse sums of monomials in many letters; each monomial is stored as one whole number.
 
 A letter is a variable of the ring: a symbol, or an expression that counts as a symbol. The powers of all letters of a
-monomial, with their signs, are packed into one whole number, so one addition multiplies two monomials. The work for a
-part of a sum counts even if the part is in the cache, so an expression that takes too much work is rejected in every
-run.
+monomial, with their signs, are packed into one whole number, so one addition multiplies two monomials.
 
 Source: Monagan, Pearce, *Sparse polynomial division using a heap*, J. Symb. Comp. 46 (2011), section 2 (packed
 monomials).
@@ -31,14 +29,14 @@ Terms = dict[int, int]
 
 
 class Outside(Exception):
-    """The expression is not a sum of monomials, or is too large."""
+    """The expression has no such form, or is too large."""
 
 
 class Form(NamedTuple):
     """A sum of whole multiples of monomials, divided by one whole number.
 
-    No power in the sum exceeds `reach`. `cost` measures the work for the sum: the number of computed products of
-    two terms, plus the number of added terms.
+    No power in the sum exceeds `reach`. `cost` measures the work for the sum; it also counts cached parts, so that the
+    same expressions are rejected in every run.
     """
 
     terms: Terms

@@ -32,8 +32,7 @@ def _is_letter(value: Expr) -> bool:
 
 
 def with_squares(value: Expr) -> Expr:
-    """If three terms of a sum add up to a symbol times a square, write them in this form: M R^2 - 2 M R a + M a^2 as
-    M (R - a)^2."""
+    """Write three terms of a sum as a symbol times a square where possible: M R^2 - 2 M R a + M a^2 as M (R - a)^2."""
     terms = Add.make_args(value)
     if not 3 <= len(terms) <= MOST_TERMS:
         return value

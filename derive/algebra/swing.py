@@ -77,8 +77,8 @@ def half_swing(f: Expr, q: Symbol, amplitude: Expr, digits: int) -> Rational | N
     """The numerical integral of dq/sqrt(f) from -A to A; None if f is not positive between -A and A, or if the result
     does not converge.
 
-    With q = A sin u the integrand is periodic and has the same value at u and pi - u, so the mean of equidistant
-    values converges fast. The number of values is doubled until two results agree.
+    With q = A sin u the integrand is periodic and has the same value at u and pi - u, so the mean of equidistant values
+    converges fast.
     Source: Trefethen, Weideman, *SIAM Review* 56 (2014), section 3.
     """
     from mpmath import mp
@@ -145,7 +145,6 @@ def reduced_square(f: Expr, q: Symbol, amplitude: Symbol, order: int) -> list[Ex
 
 
 def _divided(coefficient: Expr, f: Expr) -> Expr:
-    """Divide a coefficient by cos^2 u; raises `NoExpansion` if this is not possible."""
     c = Dummy("c")
     written = coefficient.xreplace({cos(ANGLE): c})
     try:

@@ -45,7 +45,7 @@ Series = tuple[Expr, ...]
 
 
 class NoSeries(Exception):
-    """No rule of this module gives the series of the formula, or the series of a symbol is too short."""
+    """This module does not find the series of the formula."""
 
 
 def taylor(expr: Expr, letters: Mapping[Symbol, Sequence[Expr]], order: int) -> Series:
@@ -86,15 +86,15 @@ def arithmetic_along(
     expr: Expr, place: Mapping[Symbol, Expr], direction: Mapping[Symbol, Expr], order: int
 ) -> Sequence[Expr]:
     """The coefficients of `series_along` by Taylor arithmetic, also for a quotient that is 0/0 at the place. Raises
-    `NoSeries` if no rule applies."""
+    `NoSeries` if they are not found."""
     paths = {q: (at, direction[q], *[ZERO] * (order + DEEPEST)) for q, at in place.items()}
     found = taylor(expr, paths, order)
     return _of_quotient(expr, paths, order) if any(part.has(nan, zoo) for part in found) else found
 
 
 def _of_quotient(expr: Expr, paths: Mapping[Symbol, Sequence[Expr]], order: int) -> Sequence[Expr]:
-    """The coefficients of `arithmetic_along` for a quotient whose numerator and denominator both vanish at the place.
-    Raises `NoSeries` if they are not found."""
+    """The coefficients of `arithmetic_along` for a quotient whose numerator and denominator both vanish at the
+    place."""
     above, below = together(expr).as_numer_denom()
     lowest, under = next(_beginnings(below, paths, order), (None, ()))
     if lowest is None:
@@ -110,8 +110,7 @@ def _of_quotient(expr: Expr, paths: Mapping[Symbol, Sequence[Expr]], order: int)
 
 
 def _beginnings(below: Expr, paths: Mapping[Symbol, Sequence[Expr]], order: int) -> Iterator[tuple[int, Series]]:
-    """Yield each power with a nonzero coefficient, the lowest first, with the series of `below`. A short series is
-    tried before a long one."""
+    """Yield the powers with nonzero coefficients, the lowest first, each with the series of `below`."""
     for deep in (DEEPEST // 4, DEEPEST):
         under = taylor(below, paths, order + deep)
         yield from ((n, under) for n, part in enumerate(under[: deep + 1]) if not vanishes(part))
@@ -173,8 +172,7 @@ class _Arithmetic:
         return tuple(series[: len(self._orders)])
 
     def _prescribed(self, function: Prescribed) -> Series:
-        """The series X + X_dot s + X_ddot s^2/2 + ... if the series of the time is t + s; a constant if the time has no
-        series. Raises `NoSeries` for any other series of the time, and if X has too few rates for the order."""
+        """The series X + X_dot s + X_ddot s^2/2 + ..., where the series of the time is t + s."""
         times = self._letters.get(TIME)
         if times is None:
             return self._constant(function)
@@ -200,7 +198,7 @@ class _Arithmetic:
         return tuple(found)
 
     def _power(self, x: Series, a: Expr) -> Series:
-        """The series of y = x^a, term by term from x y' = a x' y. Raises `NoSeries` if x vanishes at s = 0."""
+        """The series of y = x^a, term by term from x y' = a x' y."""
         if x[0] == 0 and any(x[1:]):
             raise NoSeries
         found = [x[0] ** a]
@@ -216,13 +214,12 @@ class _Arithmetic:
         return tuple(found)
 
     def _size(self, u: Series) -> Series:
-        """The series of |u|: the sign of u_0 times the series of u. Raises `NoSeries` if u_0 vanishes."""
+        """The series of |u|: the sign of u_0 times the series of u."""
         if u[0] == 0:
             raise NoSeries
         return (Abs(u[0]), *(u[0] / Abs(u[0]) * part for part in u[1:]))
 
     def _turning(self, u: Series) -> tuple[Series, Series]:
-        """The series of the sine and of the cosine."""
         sine, cosine = [sin(u[0])], [cos(u[0])]
         for k in self._orders[1:]:
             steps = [(Rational(j, k) * u[j], k - j) for j in range(1, k + 1) if u[j]]

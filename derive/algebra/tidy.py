@@ -1,7 +1,7 @@
-"""The tidy form of a result: one fraction, common factors in front, no sum of roots of numbers in the denominator.
+"""The tidy form of a result: one fraction, common factors in front, roots of numbers in the numerator.
 
-`tidied()` simplifies a result as you would by hand, without changing its value, and keeps later steps short.
-`derive.render.notation.notation` decides how the result is displayed.
+`tidied()` simplifies a result as you would by hand, without changing its value. `derive.render.notation.notation`
+decides how the result is displayed.
 """
 
 from __future__ import annotations
@@ -58,14 +58,13 @@ def tidied(value: Any) -> Any:
 
 
 def _signs_squared(value: Any) -> Any:
-    """Replace the square of a plus-or-minus sign by 1."""
     if PLUS_MINUS not in value.free_symbols:
         return value
     powers = [p for p in value.atoms(Pow) if p.base == PLUS_MINUS and p.exp.is_Integer]
     return value.xreplace({p: PLUS_MINUS if p.exp % 2 else Integer(1) for p in powers}) if powers else value
 
 
-@lru_cache(maxsize=4096, typed=True)  # neighbouring steps have entries, factors and terms in common
+@lru_cache(maxsize=4096, typed=True)
 def _tidied_scalar(value: Expr) -> Expr:
     if value.is_Atom or value.is_number and not value.has(Pow):
         return value
@@ -84,8 +83,7 @@ def _tidied_scalar(value: Expr) -> Expr:
 
 
 def _by_addition_theorem(value: Expr) -> Expr | None:
-    """Return cos(a -+ b) for cos a cos b +- sin a sin b, and sin(a +- b) for sin a cos b +- cos a
-    sin b; None for any other expression."""
+    """Return cos(a -+ b) for cos a cos b +- sin a sin b, and sin(a +- b) for sin a cos b +- cos a sin b; else None."""
     terms = [_two_turning(term) for term in value.args] if value.is_Add and len(value.args) == 2 else []
     found = [term for term in terms if term is not None]
     if len(found) != 2:
@@ -113,8 +111,7 @@ def _by_secant(total: Expr) -> Expr:
 
 
 def _of_two_letters(function: type, angle: Expr) -> Expr:
-    """The unevaluated sine or cosine of a sum or difference of two symbols; a minus sign in front of the angle is
-    removed."""
+    """The unevaluated sine or cosine of a sum or difference of two symbols."""
     if not all(letter.is_real for letter in angle.free_symbols):
         return function(angle)
     turned = angle.could_extract_minus_sign()
@@ -123,8 +120,7 @@ def _of_two_letters(function: type, angle: Expr) -> Expr:
 
 
 def _two_turning(term: Expr) -> tuple[int, dict[type, set[Symbol]]] | None:
-    """The sign of a term, and the angles of its sines and of its cosines. None unless the term is plus or minus a
-    product of two sines or cosines of distinct symbols."""
+    """The sign of a term, and the angles of its sines and of its cosines, if it is such a product; else None."""
     number, product = term.as_coeff_Mul()
     if abs(number) != 1 or len(product.args) != 2 or not product.is_Mul:
         return None
@@ -145,8 +141,7 @@ def _as_one_fraction(value: Expr) -> Expr:
 
 
 def _with_term_in_common(value: Expr) -> Expr:
-    """Write 2 (2 u + v)/(4 u + w) as (u + v/2)/(u + w/4): a number in front may only be the ratio of the coefficients
-    of a term that the sums above and below have in common."""
+    """Write 2 (2 u + v)/(4 u + w) as (u + v/2)/(u + w/4), so that both sums contain the same term."""
     above, below = fraction(value) if value.is_Mul else (value, Integer(1))
     number, factors = above.as_coeff_Mul()
     sums = [part for part in Mul.make_args(factors) if part.is_Add]
@@ -216,7 +211,7 @@ def _denested(value: Expr) -> Expr:
 
 
 def _roots_in_the_numerator(value: Expr) -> Expr:
-    """Write 1/(1 + sqrt(2)) as sqrt(2) - 1. A root of symbols stays in the denominator, where it is easier to read."""
+    """Write 1/(1 + sqrt(2)) as sqrt(2) - 1. A root of symbols stays in the denominator."""
     numerator, denominator = fraction_of(product_of(value))
     value = numerator / denominator
     if denominator.is_number or not denominator.has(Pow):
@@ -233,7 +228,7 @@ def _expanded_above(value: Expr) -> Expr:
 def _roots_drawn_out(value: Expr) -> Expr:
     """Take powers of factors out of each root, as far as the signs allow it: sqrt(397 M^2 a^4/14) = M a^2 sqrt(397/14).
 
-    Out of a square root, the square of a real factor of unknown sign becomes its absolute value.
+    The square root of the square of a real factor of unknown sign is its absolute value.
     """
     return value.replace(lambda e: isinstance(e, Pow) and e.exp.is_Rational and not e.exp.is_Integer, _drawn_out)
 

@@ -5,11 +5,9 @@ exponential of a sum of multiples of angles is a product of powers of these z, a
 rule. A divisor is represented by an additional letter, which is eliminated again before a form is compared with zero.
 
 The letters and the z of angles that are products of letters satisfy no polynomial relation, because exponential
-functions of such angles are algebraically independent. So only the form without terms is zero. An angle may also have
-sines and cosines of letters as factors; such angles count as equal only if they are written identically. The z of a
-fraction of pi is a root of unity, and a form is reduced by the irreducible equation of this root. A square root is a
-letter whose square is known. Square roots may depend on one another, so nothing is decided if a form still contains
-roots.
+functions of such angles are algebraically independent. So only the form without terms is zero. The z of a fraction of
+pi is a root of unity, and a form is reduced by the irreducible equation of this root. A square root is a letter whose
+square is known. Square roots may depend on one another, so nothing is decided if a form still contains roots.
 
 Sources: Cox, Little, O'Shea, *Ideals, Varieties, and Algorithms*, ch. 2 (normal forms); Lang, *Algebra*, ch. VI,
 section 3 (cyclotomic polynomials are irreducible) and section 4 (the independence of characters).
@@ -73,7 +71,7 @@ def asked(kind: type[R], question: Callable[[R], Answer], *exprs: Expr) -> Answe
             return question(ring)
         except Finer as finer:
             units = {**ring.units, finer.angle: lcm(ring.units.get(finer.angle, 1), finer.parts)}
-            if units[finer.angle] > PARTS:  # restart, so that earlier questions do not affect the answer
+            if units[finer.angle] > PARTS:
                 if has_restarted:
                     raise Outside from None
                 units, has_restarted = {finer.angle: finer.parts}, True
@@ -99,8 +97,7 @@ def _has_roots(expr: Expr) -> bool:
 
 
 def _is_in_angles(base: Expr) -> bool:
-    """Whether the base is a symbol, or the sine or cosine of a symbol, as in the angle phi_dot t cos theta of a steady
-    precession."""
+    """Whether the base may occur in an angle, such as phi_dot t cos theta for a steady precession."""
     return base.is_Symbol or isinstance(base, sin | cos) and base.args[0].is_Symbol
 
 
@@ -114,8 +111,7 @@ def terms_of_angle(angle: Expr) -> list[tuple[Rational, Expr]]:
 
 
 class Finer(Exception):
-    """Raised if an angle must be divided into smaller parts, because a fraction of the angle is not a whole number of
-    the present parts."""
+    """An angle must be divided into smaller parts."""
 
     def __init__(self, angle: object, parts: int):
         super().__init__(angle)
@@ -152,7 +148,7 @@ class TrigRing(Ring):
         raise Outside
 
     def _root(self, square: Form, n: int) -> Form:
-        """A power of the square root of a form; raises `Outside` if the form may vanish or the power is too high."""
+        """A power of the square root of a form."""
         if not square.terms or self.is_unsure(square.terms) or abs(n) > self.highest:
             raise Outside
         shared = gcd(square.below, *square.terms.values())
@@ -172,16 +168,15 @@ class TrigRing(Ring):
         return Form({z + 1: -1, -z + 1: 1}, 2, reach)
 
     def angle(self, angle: Expr) -> Expr:
-        """A representative of the angle, the same for angles that are recognised as equal; raises `Outside` if no
-        representative is known."""
+        """A representative of the angle, the same for angles that are recognised as equal."""
         powers = (factor.as_base_exp() for factor in Mul.make_args(angle))
         if angle is not pi and not all(_is_in_angles(base) and power.is_Integer for base, power in powers):
             raise Outside
         return angle
 
     def multiple(self, number: Rational, angle: object) -> int:
-        """How many parts of the angle make up `number` times the angle; `units` says into how many parts each angle is
-        divided. Raises `Finer` if the angle must be divided into more parts."""
+        """How many parts of the angle make up `number` times the angle. Raises `Finer` if the angle must be divided
+        into more parts."""
         if abs(number.p) > self.highest or number.q > PARTS:
             raise Outside
         parts = self.units.get(angle, 1)
@@ -195,16 +190,14 @@ class TrigRing(Ring):
         return self.one_over(self.form(base))
 
     def one_over(self, form: Form) -> Form:
-        """The reciprocal of a form. A sum is the product of its last monomial and a remaining factor. The reciprocal of
-        the sum is the product of 1/monomial and a letter that represents 1/(remaining factor). Raises `Outside` if the
-        form may be zero."""
+        """The reciprocal of a form: 1/monomial times a letter for the reciprocal of the remaining factor. Raises
+        `Outside` if the form may be zero."""
         if not form.terms:  # the divisor is zero
             raise Outside
         last = _monomial_over(max(form.terms), form)
         return last if len(form.terms) == 1 else self.product(last, self._divisor(self.product(form, last)))
 
     def _divisor(self, form: Form) -> Form:
-        """The letter for the reciprocal of a sum; numerical multiples of the sum use the same letter."""
         content = gcd(*form.terms.values())
         terms = {monomial: coefficient // content for monomial, coefficient in form.terms.items()}
         key = frozenset(terms.items())
@@ -227,8 +220,7 @@ class TrigRing(Ring):
         return False
 
     def cleared(self, form: Form) -> Form:
-        """Return a multiple of the form in which each known power of a letter is replaced by the form that it equals
-        (see `related_letter`); the letter that was introduced last is replaced first."""
+        """Return a multiple of the form in which the known powers of letters (see `related_letter`) are replaced."""
         for place, order, of in reversed(self._relations):
             present = self.letters_in(form.terms) & self._related
             if not present:
@@ -264,8 +256,7 @@ class TrigRing(Ring):
         return Mul(*factors)
 
     def is_unsure(self, terms: Terms) -> bool:
-        """Whether the terms contain roots or parts of pi. The value of such terms may be zero even if no terms
-        cancel."""
+        """Whether the terms contain roots or parts of pi, so that they may be zero even if no terms cancel."""
         return self.has_parts_of_pi(terms) or self._has_roots(terms)
 
     def has_parts_of_pi(self, terms: Terms) -> bool:
@@ -277,7 +268,7 @@ class TrigRing(Ring):
         return bool(present) and any(order > 0 and present >> place & ONES for place, order, _ in self._relations)
 
     def is_zero_by_roots_of_one(self, terms: Terms) -> bool:
-        """Whether the terms add up to zero because exp(i pi/parts) and i are roots of unity."""
+        """Whether the terms add up to zero; exp(i pi/parts) and i are roots of unity."""
         place, parts = self.letters[(pi,)], self.units.get(pi, 1)
         order = lcm(2 * parts, 4)
         sums: dict[int, dict[int, int]] = {}
@@ -289,8 +280,8 @@ class TrigRing(Ring):
         return all(_vanishes_at_root_of_one(powers, order) for powers in sums.values())
 
     def _lowered(self, form: Form, place: int, order: int, of: Form) -> Form:
-        """Replace the known power of a letter by the form `of` that equals it. The result is multiplied by a power of
-        `of` that removes all negative powers of `of`."""
+        """Replace the known power of a letter by the form `of` that equals it, up to a factor that is a power of
+        `of`."""
         by_power: dict[int, Terms] = {}
         for monomial, coefficient in form.terms.items():
             whole = self._power_in(monomial, place) // order
@@ -310,7 +301,7 @@ class TrigRing(Ring):
         return found
 
     def _power_in(self, monomial: int, place: int) -> int:
-        """The power of the letter at this place; half of the range is added first, so that no power is negative."""
+        """The power of the letter at this place."""
         return (((monomial + self._half_of_all()) >> place) & ONES) - HALF
 
     def _half_of_all(self) -> int:
@@ -328,8 +319,7 @@ def _monomial_over(monomial: int, form: Form) -> Form:
 
 
 def _vanishes_at_root_of_one(powers: dict[int, int], order: int) -> bool:
-    """Whether a polynomial is zero at exp(2 i pi/order): its remainder after division by the cyclotomic polynomial is
-    zero."""
+    """Whether a polynomial is zero at exp(2 i pi/order), by division by the cyclotomic polynomial."""
     modulus = _irreducible_at(order)
     degree = len(modulus) - 1
     left = [powers.get(n, 0) for n in range(order)]

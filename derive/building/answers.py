@@ -25,8 +25,7 @@ Rows = list[tuple[str, ...]]
 def answers_of(root: Path, problem_id: str) -> Rows:
     """Return a row of headings and a row for each name.
 
-    The answers come first: those that the script returns or, for a description, those that the description offers and
-    the results of the problem. Then come the other steps on which these answers depend.
+    The answers come first, then the other steps on which these answers depend.
     """
     problem = load_problem(root, problem_id)
     record = Run()
@@ -53,8 +52,7 @@ def _offered(problem: Problem) -> dict[str, tuple[Quantity, ...] | DeriveError]:
 
 
 def with_ancestors_of_each(found: dict[str, tuple[Quantity, ...]]) -> dict[str, tuple[Quantity, str]]:
-    """Return, by key, the answers and every step on which they depend, each with the name of the first answer that
-    needs the step."""
+    """Return the answers and the steps on which they depend, by key, each with the name of an answer that needs it."""
     steps: dict[str, tuple[Quantity, str]] = {}
     for name, quantities in found.items():
         for key, quantity in with_ancestors(quantities).items():
@@ -88,7 +86,7 @@ def _values(found: tuple[Quantity, ...] | DeriveError, notation: Notation) -> st
 
 
 def _value(step: Step, notation: Notation) -> str:
-    """Show the value in one line; if the value takes several lines, as a tensor does, show only its symbol."""
+    """Show the value in one line, or only its symbol if the value takes several lines."""
     told = plain(named_result(step, notation))
     if "\n" in told:
         return plain(notation.layout(step.symbol)) if step.symbol is not None else ""

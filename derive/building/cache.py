@@ -1,8 +1,7 @@
 """The results that builds store, such as steps, pages, drawings and PDFs: signed values in one folder.
 
 Most values are stored under a digest of everything on which they depend. They are never out of date, because a change
-of an input gives another digest. A few values, such as recorded calls and page numbers, are replaced by newer values.
-If the folder is too large, the least recently used values are removed.
+of an input gives another digest. If the folder is too large, the least recently used values are removed.
 """
 
 from __future__ import annotations
@@ -28,7 +27,7 @@ NOT_KEPT = "not-kept"
 
 
 def digest(*parts: str | bytes) -> str:
-    """Return the digest of the parts; the digest also depends on the boundaries between the parts."""
+    """Return the digest of the parts, which also depends on their boundaries."""
     sha = sha256()
     for part in parts:
         raw = part.encode() if isinstance(part, str) else part
@@ -37,8 +36,7 @@ def digest(*parts: str | bytes) -> str:
 
 
 def file_digest(path: Path) -> str:
-    """Return the digest of the file's content, or an empty text if the file is missing or cannot be read. So creating a
-    file also changes the result."""
+    """Return the digest of the file's content, or an empty text if the file is missing or cannot be read."""
     try:
         return digest(signed.regular_content(path))
     except OSError:
@@ -58,8 +56,7 @@ def _own_modules() -> str:
 
 
 def folder_digest(folder: Path, pattern: str = "*") -> str:
-    """Return the digest of the relative paths and the contents of all files below the folder that match `pattern`;
-    files in `__pycache__` are left out."""
+    """Return the digest of the relative paths and the contents of all files below the folder that match `pattern`."""
     files = sorted(p for p in folder.rglob(pattern) if p.is_file() and "__pycache__" not in p.parts)
     return digest(*(part for p in files for part in (str(p.relative_to(folder)), p.read_bytes())))
 
@@ -80,8 +77,7 @@ def not_kept(refused: Complaint, folder: Path | None = None) -> Complaint:
 
 @dataclass(frozen=True)
 class Cache:
-    """The values stored in a folder; without a folder, nothing is stored. With `fresh`, no stored value is read, but
-    new values are stored."""
+    """The values stored in a folder; with `fresh`, no stored value is read."""
 
     folder: Path | None = None
     fresh: bool = False
@@ -91,7 +87,7 @@ class Cache:
     )  # warnings about values that could not be written
 
     def get(self, key: str) -> bytes | None:
-        """Return the content stored under that key; None if it is missing, was altered or must not be read."""
+        """Return the content stored under that key, or None."""
         if self.folder is None or self.fresh:
             return None
         content = signed.read_signed(self.folder / key, key)
@@ -101,7 +97,7 @@ class Cache:
         return content
 
     def get_data(self, key: str) -> Any:
-        """Return the JSON data stored under that key; None if they are missing, were altered or must not be read."""
+        """Return the JSON data stored under that key, or None."""
         return signed.data_of(self.get(key))
 
     def keep(self, key: str, content: bytes) -> None:
@@ -112,8 +108,7 @@ class Cache:
                 self.unkept.append(not_kept(refused.complaints[0], self.folder))
 
     def evict(self) -> None:
-        """Keep the most recently used values that fit within `limit`, and remove the others. A build calls this once,
-        because listing the folder takes time."""
+        """Keep the most recently used values that fit within `limit`, and remove the others."""
         if self.folder is None or not self.folder.is_dir():
             return
         room = self.limit
@@ -150,8 +145,7 @@ class Kept:
 
 
 def _facts(file: Path) -> tuple[int, int, Path]:
-    """Return the time of last use, the size and the path of a file. The time and the size are zero if another build has
-    just removed the file."""
+    """Return the time of last use, the size and the path of a file."""
     try:
         facts = file.lstat()
     except OSError:

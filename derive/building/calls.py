@@ -1,8 +1,7 @@
 """Recorded calls of verbs, the functions that derive steps. All calls of a problem are stored as one value.
 
-Only a build that derives the problem reads this value, and the build replaces the value if it made new calls. The
-value contains the calls of the last build, and as many earlier calls as there is room for. So the calls from before an
-edit are still stored if you undo the edit.
+The value contains the calls of the last build, and as many earlier calls as there is room for, in case an edit is
+undone.
 """
 
 from __future__ import annotations
@@ -16,13 +15,12 @@ from derive.building.cache import NO_CACHE, Cache, digest, engine_digest
 from derive.steps.memory import Memory
 
 BETWEEN = "\n\n"  # separates calls: their texts contain no empty line
-ROOM = 2 * 1024 * 1024  # the largest total length, in characters, of stored calls that the last build did not use
+ROOM = 2 * 1024 * 1024  # the largest total length of earlier calls, in characters
 
 
 @dataclass
 class Calls:
-    """The texts of calls by their keys: the calls stored by earlier builds, and the calls used by this build. Without a
-    cache, only the calls of this build are known."""
+    """The texts of calls by their keys: the calls stored by earlier builds, and the calls used by this build."""
 
     cache: Cache = NO_CACHE
     key: str = ""
@@ -31,7 +29,7 @@ class Calls:
 
     @cached_property
     def earlier(self) -> dict[str, str]:
-        """The calls stored by earlier builds; the calls of the build that stored them come first."""
+        """The calls stored by earlier builds."""
         blocks = (self.cache.get(self.key) or b"").decode().split(BETWEEN)
         return {key: text for key, _, text in (block.partition("\n") for block in blocks if block)}
 
@@ -59,8 +57,8 @@ class Calls:
 
 @contextmanager
 def calls_of(problem_id: str, cache: Cache) -> Iterator[Memory | None]:
-    """Provide the memory of a problem's calls, and save it afterwards even if the script failed. Without a cache,
-    provide None."""
+    """Provide the memory of a problem's calls, and save it afterwards even if the script failed. Provide None without a
+    cache."""
     if cache.folder is None:
         yield None
         return

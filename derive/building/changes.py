@@ -113,7 +113,7 @@ def _reference(page: Mapping[str, Any]) -> dict[str, str]:
 
 
 def _warnings(before: Mapping[str, Any], after: Mapping[str, Any]) -> Iterator[Change]:
-    """Return the new and the removed warnings; a warning that has only moved is not a difference."""
+    """Return the new and the removed warnings."""
     old, new = ({(w["code"], w["message"]): None for w in page["warnings"]} for page in (before, after))
     yield from (Change("warning", code, "", message) for code, message in new if (code, message) not in old)
     yield from (Change("warning", code, message, "") for code, message in old if (code, message) not in new)
@@ -123,8 +123,7 @@ def _warnings(before: Mapping[str, Any], after: Mapping[str, Any]) -> Iterator[C
 
 
 def _paired(before: Sequence[Any], after: Sequence[Any]) -> Iterator[tuple[Any, Any]]:
-    """Pair each part with the most similar part of the earlier page: answers, question and letter are compared. The
-    letter counts least, because a new part changes the letters of all later parts. A new or removed part is paired with
+    """Pair each part with the most similar part of the earlier page; a new or removed part is paired with
     `_NO_PART`."""
     alike = sorted(
         ((-_likeness(old, new), abs(i - j), i, j) for i, old in enumerate(before) for j, new in enumerate(after)),
@@ -160,7 +159,7 @@ def _worth(page: Mapping[str, Any]) -> str:
 
 
 def _asked(parts: Iterable[tuple[Any, Any]]) -> Iterator[Change]:
-    """Return the parts that are new, removed or relettered, and the parts that ask for other answers."""
+    """Return the changes of parts and of what they ask for."""
     for old, new in parts:
         name = _name(old, new)
         if old is _NO_PART or new is _NO_PART:
@@ -220,7 +219,7 @@ def _left_side(step: Mapping[str, Any]) -> str:
 
 
 def _grades(step: Mapping[str, Any]) -> str:
-    """Return each grade of a step's claims once, because the number of its claims depends on the number of lines."""
+    """Return the different grades of a step's claims."""
     return ", ".join(Counter(each["grade"] for each in step["evidence"]))
 
 
@@ -228,7 +227,7 @@ def _grades(step: Mapping[str, Any]) -> str:
 
 
 def _sentences(before: Mapping[str, Any], after: Mapping[str, Any], parts: Iterable[tuple[Any, Any]]) -> list[Change]:
-    """Compare all text of a page, beginning with the title; changed equation numbers are not a difference."""
+    """Compare all text of a page, beginning with the title; equation numbers are not compared."""
     places: list[tuple[str, Blocks, Blocks]] = [
         *((name, _plain(before[name]), _plain(after[name])) for name in ("title", "statement", "strategy")),
         *(place for old, new in parts for place in _of_part(old, new)),
@@ -240,7 +239,7 @@ def _sentences(before: Mapping[str, Any], after: Mapping[str, Any], parts: Itera
 
 
 def _of_part(old: Mapping[str, Any], new: Mapping[str, Any]) -> Iterator[tuple[str, Blocks, Blocks]]:
-    """Return the question and the solution of a part; omit the question if the part itself is new or removed."""
+    """Return the question and the solution of a part; the question is omitted for a new or removed part."""
     if old is not _NO_PART and new is not _NO_PART:
         yield f"{_name(old, new)}, question", _plain(old["ask"]), _plain(new["ask"])
     yield f"{_name(old, new)}, solution", old["says"], new["says"]
@@ -259,8 +258,8 @@ def _plain(text: str) -> Blocks:
 
 @dataclass(frozen=True)
 class _Sentence:
-    """The words of a sentence, and the same words for comparison, with the keys of equations in place of their
-    numbers."""
+    """The words of a sentence, and the same words with the keys of equations in place of their numbers, for a
+    comparison."""
 
     words: tuple[str, ...]
     keys: tuple[str, ...]
@@ -281,7 +280,6 @@ def _sentence_of(block: Mapping[str, Any]) -> _Sentence:
 
 
 def _edited(where: str, old: Sequence[_Sentence], new: Sequence[_Sentence]) -> Iterator[Change]:
-    """Yield the sentences that are new, removed or changed; a changed sentence comes with its earlier version."""
     matcher = SequenceMatcher(None, [each.keys for each in old], [each.keys for each in new], autojunk=False)
     for how, a, b, c, d in matcher.get_opcodes():
         if how == EQUAL:
@@ -292,7 +290,7 @@ def _edited(where: str, old: Sequence[_Sentence], new: Sequence[_Sentence]) -> I
             if known is None:
                 left.append(sentence)
                 continue
-            # The old and new sentences before this pair have no counterpart.
+            # The sentences before this pair have no counterpart.
             yield from (_sentence(where, each, None) for each in was[:known])
             yield from (_sentence(where, None, each) for each in left)
             yield _sentence(where, was[known], sentence)

@@ -2,7 +2,7 @@
 
 `students/` has the sheets and nothing else. `class/` has the files for the instructor only: the solutions, the keys and
 the table of all answers. The documents of each student are recorded, so a later run makes only documents whose inputs
-have changed, also after a run that was killed.
+have changed.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ MADE_FROM = ".inputs"  # the digest of the inputs that all documents of a class 
 ANSWERS = "answers"
 KINDS = (SHEET, KEY, SOLUTIONS)
 COLUMNS = ("student", "name", "problem", "part", "answer", "formula", "value", "unit", "figures")
-AT_ONCE = 10  # the number of students in one job, which share the data that its process has loaded and derived
+AT_ONCE = 10  # the number of students in one job
 LONGEST_ROSTER = 2_000_000  # bytes
 
 
@@ -53,7 +53,7 @@ class Student:
 
 @dataclass
 class ClassReport:
-    """The number of students, the number whose documents were made in this run, and the errors."""
+    """The outcome of a run; `made` is the number of students whose documents were made."""
 
     students: int = 0
     made: int = 0
@@ -141,19 +141,16 @@ class ClassDocuments:
         return self.outputs / CLASS / f"{student.code}-{kind}.pdf"
 
     def files(self, student: Student) -> list[Path]:
-        """Return all files of a student."""
         return [self.file(student, SHEET).with_suffix(".html"), *(self.file(student, kind) for kind in KINDS)]
 
     def record(self, student: Student) -> Path:
-        """Return the file that records the documents of a student."""
         return self.outputs / CLASS / MADE / f"{student.code}.json"
 
     def key(self, student: Student) -> str:
         return digest(self.inputs, student.name, student.code)
 
     def answers(self, student: Student) -> list[list[str]] | None:
-        """Return the student's rows of the table of answers if neither the inputs nor the documents have changed since
-        the documents were made; otherwise None."""
+        """Return the student's rows of the table of answers if the documents are up to date; otherwise None."""
         try:
             known = json.loads(self.record(student).read_bytes())
             is_current = known["key"] == self.key(student)
@@ -183,7 +180,8 @@ def made_class(
     limit: float = 120,
     tell: Callable[[str], None] = lambda _: None,
 ) -> ClassReport:
-    """Make the documents of each student whose inputs have changed. An error in one variant stops no other student."""
+    """Make the documents of each student whose inputs have changed. An error in one variant does not stop the
+    others."""
     begun, chosen = time.monotonic(), chosen_engine(engine)
     heading = done(Job(f"`problems/{set_id}/set.yaml`", partial(problem_set, root, set_id), limit))
     inputs = _inputs(root, set_id, heading, chosen, seed)
@@ -228,7 +226,7 @@ def made_class(
 
 
 def class_is_older(root: Path, set_id: str, engine: Engine) -> list[Complaint]:
-    """Return a warning if the documents of a class exist, and the set has changed since they were made."""
+    """Return a warning if the documents of a class are older than the set."""
     try:
         made = json.loads((set_folder(root, set_id) / CLASS / MADE_FROM).read_bytes())
         inputs, seed = str(made["inputs"]), str(made["seed"])
@@ -242,7 +240,6 @@ def class_is_older(root: Path, set_id: str, engine: Engine) -> list[Complaint]:
 
 
 def _inputs(root: Path, set_id: str, heading: ProblemSet, engine: Engine, seed: str) -> str:
-    """Return the digest of all inputs that the students share."""
     recipe = recipe_of(root, None, heading.evidence)
     files = [file_digest(root / path) for path in heading.inputs]
     course = folder_digest(root / "problems" / set_id, "*")
@@ -254,7 +251,7 @@ def _documents_of(shared: ClassDocuments, students: Sequence[Student]) -> list[M
 
 
 def _documents_of_one(shared: ClassDocuments, student: Student) -> Made:
-    """Make the documents of a student and record them, unless an earlier worker has done so."""
+    """Make the documents of a student and record them, unless this was done before."""
     from derive.building.set_document import document_page, the_document
     from derive.building.solution import rendered
     from derive.course.problem import problem_and_faults

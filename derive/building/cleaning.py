@@ -15,11 +15,11 @@ from derive.errors import Complaint, Misused, did_you_mean
 
 
 def cleaned(root: Path, sets: Sequence[str], cache: bool, waiting: Callable[[str], None]) -> list[tuple[Path, int]]:
-    """Remove folders and return each with its size in bytes; if a set is being built, wait for the end of its build.
+    """Remove folders and return each with its size in bytes, after the end of a running build.
 
     sets      the sets whose folders are removed; if empty, every folder in `build`
     cache     whether only the data stored for later builds are removed, and the documents stay
-    waiting   a function that is called with the name of a set before a wait for the end of its build
+    waiting   a function that is called with the name of a set before such a wait
     """
     build = root / "build"
     folders = [path for path in sorted(build.glob("*")) if path.is_dir() and not path.is_symlink()]

@@ -27,7 +27,7 @@ $E = \frac{1}{2} \omega^T I \omega$
 
 @dataclass(frozen=True)
 class Finding:
-    """One requirement of a build: whether it is satisfied, what was found, and the fix if it is not satisfied."""
+    """One requirement of a build: whether it is satisfied, what was found, and the fix."""
 
     what: str
     good: bool
@@ -76,7 +76,7 @@ def _tex(name: str | None) -> list[Finding]:
 
 
 def _test_page(name: str | None) -> Finding:
-    """Check that the engine can make a PDF on this machine: an installed program may fail to run."""
+    """Check that the engine can make a PDF on this machine, because an installed program may fail to run."""
     started = time.monotonic()
     try:
         with tempfile.TemporaryDirectory() as folder:

@@ -1,7 +1,6 @@
 """The documents of a set: those listed in the set's file, and those requested with `--only`.
 
-A document that was requested once is made again by each later build of the whole set without `--only`, so that it is
-not older than the problems. If you remove the PDF of the document, later builds do not make the document again.
+A document that was requested once is made again by later builds of the whole set, until you remove its PDF.
 """
 
 from __future__ import annotations

@@ -1,8 +1,4 @@
-"""The drawings of a page as files; a drawing is made again only if something on which it depends has changed.
-
-The bytes of a drawing depend on its description, on the numbers and dimensions of its symbols, on its size and words,
-on derive's modules and on matplotlib.
-"""
+"""The drawings of a page as files; a drawing is made again only if something on which it depends has changed."""
 
 from __future__ import annotations
 
@@ -37,12 +33,11 @@ if TYPE_CHECKING:
 SUFFIXES = ("pdf", "svg")
 POINTS_PER_CM = 72 / 2.54
 WIDTH, HEIGHT = 5.0, 4.2  # centimetres, without labels
-WIDE, LOW = 7.0, 0.4  # a drawing without a given width is made WIDE if its height is at most LOW times its width
-# A drawing without a given width is made larger if the position of a label costs more than CROWDED, or if the drawing
-# has at least MANY labels and more than DENSE labels per square centimetre. It is not made larger if the greatest cost
-# of a label would then increase by more than SLIGHT.
+WIDE, LOW = 7.0, 0.4  # the default width of a drawing that is low
+# A drawing without a given width is made larger if its labels are crowded: the position of one costs more than CROWDED,
+# or there are at least MANY labels and more than DENSE per square centimetre.
 CROWDED, MANY, DENSE, SLIGHT = 5.5, 7, 0.45, 3.0
-# The widths for the drawing of a normal mode of at most FEW masses: three fit in a row. The second is for low drawings.
+# the widths for the drawing of a normal mode of at most FEW masses; the second is for low drawings
 OF_MODES, FEW = (3.6, 4.7), 4
 
 
@@ -68,7 +63,7 @@ def drawing_files(
 def _files(
     problem: Problem, drawing: Recorded, shown: Illustration, words: Phrases, notation: Notation, cache: Cache
 ) -> tuple[bytes, bytes]:
-    """Return the stored PDF and SVG, or draw them now. Both are stored as one value, separated by a zero byte."""
+    """Return the stored PDF and SVG, or draw them now."""
     placement = placement_of(problem, drawing.key)
     width = placement.width if placement else None
     if isinstance(drawing, Drawing) and placement is not None and placement.view is not None:
@@ -98,8 +93,7 @@ def _files(
 
 
 def _within(data: str, known: Mapping[Any, Any]) -> list[tuple[str, Any]]:
-    """Return the entries of `known` for the symbols in a drawing. So other symbols do not change the digest of the
-    drawing."""
+    """Return the entries of `known` for the symbols in a drawing, because other symbols must not change its digest."""
     return [
         (str(letter), of_it) for letter, of_it in known.items() if f'["Symbol", {json.dumps(str(letter))}, ' in data
     ]
@@ -151,7 +145,7 @@ def _is_crowded(sheet: Sheet) -> bool:
 
 
 def _letters(cache: Cache, font: str, texts: Collection[str]) -> Mapping[str, Lettered]:
-    """Return each text as typeset letters: stored if a drawing has needed this text before, else typeset now."""
+    """Return each text as typeset letters, from the cache if possible."""
     keys = {text: digest("letters", engine_digest("matplotlib"), font, text) for text in texts}
     known = {text: kept for text, key in keys.items() if (kept := cache.get_data(key)) is not None}
     if new := keys.keys() - known:
@@ -164,9 +158,8 @@ def _letters(cache: Cache, font: str, texts: Collection[str]) -> Mapping[str, Le
 
 
 def numbers_of(problem: Problem, placement: Placement | None, drawing: Recorded | None = None) -> dict[Symbol, float]:
-    """Return a number for each symbol of a problem and of a drawing: from the entry of the drawing in the problem, from
-    the given values, or a substitute number. The drawing of a normal mode also uses the numbers of the sketch of the
-    system, except the numbers of coordinates."""
+    """Return a number for each symbol of a problem and of a drawing: a number of the drawing, a given value, or a
+    substitute."""
     said = dict(placement.values) if placement else {}
     if isinstance(drawing, Drawing) and drawing.mode is not None:
         sketch = placement_of(problem, drawing.mode.like)

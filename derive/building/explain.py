@@ -28,8 +28,7 @@ Rows = list[tuple[str, ...]]
 
 
 def explain(root: Path, problem_id: str, key: str | None, as_json: bool) -> str | Rows:
-    """Return the explanation of the step with that key; without a key, a table with a row for each step. With
-    `as_json`, return JSON in place of the text or the table."""
+    """Return the explanation of the step with that key; without a key, a table with a row for each step."""
     problem, words = load_problem(root, problem_id), phrases(templates_of(root))
     derivation, values, *_ = derived(problem)
     steps = {step.key: step for step in [*derivation.steps, *values.values()]}
@@ -48,8 +47,7 @@ def explain(root: Path, problem_id: str, key: str | None, as_json: bool) -> str 
 def _wanted(key: str | None, steps: Mapping[str, Step]) -> Iterable[str]:
     """Return the keys of the steps to explain: all steps if `key` is None, otherwise one step.
 
-    `key` is the key of this step, the key of a step that it replaces, or the name of a verb. The name of a verb means
-    the first step that this verb made.
+    `key` may also be the name of a verb, for the first step that this verb made.
     """
     if key is None:
         return steps
@@ -62,7 +60,7 @@ def _wanted(key: str | None, steps: Mapping[str, Step]) -> Iterable[str]:
 
 
 def _row(explanation: Explanation, words: Phrases, notation: Notation) -> tuple[str, ...]:
-    """Show a step in one line; if its value takes several lines, as a tensor does, show only the symbol."""
+    """Show a step in one line, with its symbol if its value takes several lines."""
     step, value = explanation.step, _value(explanation.step, notation)
     shown = plain(notation.layout(step.symbol)) if "\n" in value and step.symbol is not None else abridged(value, 60)
     return step.key, explanation.part, words.grades[step.grade], shown

@@ -1,7 +1,7 @@
 """Files that derive writes: each is written completely or not at all, and only when its content has changed.
 
-A finished file gets its name by one rename. So a reader or a second build finds either the old or the new content, even
-if a build is killed. If the disk refuses to write, the user sees one error.
+A finished file gets its name by one rename, so a reader finds either the old or the new content, even if a build is
+killed.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ _SHORT = {
 
 
 def shown_path(path: Path) -> str:
-    """Return a path relative to the working folder if it is below that folder, else the path unchanged."""
+    """Return a path relative to the working folder if it is below that folder."""
     try:
         relative = os.path.relpath(path)
     except FileNotFoundError:  # the working folder does not exist any more
@@ -57,7 +57,7 @@ def cannot_write(path: Path, error: OSError) -> BuildFailed:
 
 
 def of_system(error: OSError, what: str = "the system refuses") -> BuildFailed | None:
-    """Return an error that says which resource the system lacks; None if `error` has another cause."""
+    """Return an error that says which resource the system lacks, if this is the cause."""
     reason = _SHORT.get(error.errno or 0)
     return BuildFailed(Complaint("system", f"{what}: {reason}")) if reason else None
 

@@ -23,7 +23,7 @@ Asked = tuple[int, str, str, str]  # the number of the row, the name of the part
 
 @dataclass(frozen=True)
 class NotGraded:
-    """An answer that got no verdict, and the reason: its problem or part does not exist, or the derivation fails."""
+    """The reason why an answer got no verdict."""
 
     complaint: Complaint
 
@@ -39,10 +39,10 @@ def grade_answers(
     tick: Callable[[int, Mapping[str, float]], None] = lambda *_: None,
     seed: str | None = None,
 ) -> dict[int, Result]:
-    """Return the result for each row, by the number of the row; `asked` are the answers by problem. With a seed, each
-    answer is compared with the variant of its student.
+    """Return the result for each row, by its number. With a seed, each answer is compared with the variant of its
+    student.
 
-    If a worker fails, its answers are divided among new workers, so that a bad answer does not stop the others.
+    If a worker fails, its answers are divided among new workers.
     """
     found: dict[int, Result] = {}
     waiting: dict[Job, tuple[str, Sequence[Asked]]] = {}

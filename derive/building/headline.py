@@ -24,14 +24,13 @@ def headline(root: Path, problem_id: str, path: str = "") -> tuple[str, str]:
 
     path   the problem's file, relative to `root`; by default it is found from the id
 
-    If the title has no mention and no formula, and the file has no error, only the title and the points are read.
-    Otherwise the whole file is read, and the modules for mathematics are loaded if they are needed.
+    The whole file is read only if the title needs it, or if the file has an error.
     """
     return _at_a_glance(root, path or path_of(root, problem_id)) or _in_full(root, problem_id)
 
 
 def _at_a_glance(root: Path, path: str) -> tuple[str, str] | None:
-    """Return the points and the title; None if the title has a mention or a formula, or if an error is found."""
+    """Return the points and the title; None if the whole file must be read."""
     faults = Faults()
     try:
         node = mapping_in(root, path, "a problem", quickly=True)
@@ -50,7 +49,6 @@ def _at_a_glance(root: Path, path: str) -> tuple[str, str] | None:
 
 
 def _glanced(node: Tree, faults: Faults) -> Question:
-    """Read only the points of a part."""
     if not isinstance(node, Mapping):
         return Question({}, {})
     keys = keys_of(Question)

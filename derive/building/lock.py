@@ -15,8 +15,7 @@ from derive.errors import BuildFailed, Complaint
 
 @contextmanager
 def locked(outputs: Path, waiting: Callable[[], None]) -> Iterator[None]:
-    """Lock a set's folder during the `with` block. Workers do not inherit the lock; if this process is killed, the
-    system releases the lock."""
+    """Lock a set's folder during the `with` block. The system releases the lock if this process is killed."""
     path = outputs / ".lock"
     with writing(path):  # do not follow a link, and do not wait for a pipe
         lock = os.open(path, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC, 0o666)

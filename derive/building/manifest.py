@@ -19,7 +19,7 @@ from derive.building.recipe import OPTIONS, Recipe, of_documents, recipe_digest
 from derive.course.names import INDEX, ON_A_PAGE
 from derive.render.formats import built_formats
 
-Documents = Sequence[Sequence[str]]  # pairs: the kind of a document, and the name of its files without a suffix
+Documents = Sequence[Sequence[str]]  # pairs: the kind of a document, and the name of its files
 
 _PLAIN_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]*\.([a-z]+)")
 
@@ -80,8 +80,7 @@ class Manifest:
         self.documents = documents
 
     def page_key(self, problem: str, recipe: str, read: Callable[[str], str]) -> str:
-        """Return the key of a problem's page: a digest of the recipe and of the digests of the inputs, which `read`
-        returns."""
+        """Return the key of a problem's page; `read` returns the digest of an input."""
         inputs = self.inputs.get(problem, {})
         return digest("page", problem, recipe, *(part for path in inputs for part in (path, read(path))))
 
@@ -95,7 +94,7 @@ class Manifest:
         return self.pages[problem]
 
     def was_typeset(self, name: str, recipe: Recipe, engine: str) -> None:
-        """Record the recipe and the input files of the document of a problem, or of a document of the whole set."""
+        """Record the recipe and the input files of a document."""
         recipe = of_documents(recipe, engine)
         self.typeset_by[name] = recipe_digest(recipe)
         self.recipes[self.typeset_by[name]] = recipe
@@ -117,25 +116,21 @@ class Manifest:
         )
 
     def _reads_so(self, document: str, read: Callable[[str], str]) -> bool:
-        """Return whether no input file of a document has changed since the document was made."""
         return all(read(path) == content for path, content in self.typeset_from.get(document, {}).items())
 
     def is_older(self, document: str, recipe: Recipe, read: Callable[[str], str]) -> bool:
-        """Return whether the PDF of a document exists, but an input on which the document depends has changed.
-
-        Options of the command line are not compared.
-        """
+        """Return whether the PDF of a document exists but is older than its inputs."""
         before = self.recipes.get(self.typeset_by.get(document, ""), {})
         was, is_now = ({k: v for k, v in each.items() if k not in OPTIONS} for each in (before, recipe))
         return (self.folder / f"{document}.pdf").is_file() and not (was == is_now and self._reads_so(document, read))
 
     @property
     def document_files(self) -> list[str]:
-        """The file names, without suffixes, of the documents of the whole set and of its page for a browser."""
+        """The names of the documents of the whole set and of its page for a browser, without suffixes."""
         return [*(file for _, file in self.documents), INDEX]
 
     def all_outputs(self) -> list[str]:
-        """Return the outputs of every problem and of every document, and the page of the set for a browser."""
+        """Return the names of all outputs."""
         of_set = [output for kind, file in self.documents for output in outputs_of_document(kind, file)]
         return [*self._outputs_of_problems(), *of_set, f"{INDEX}.html"]
 
@@ -143,8 +138,7 @@ class Manifest:
         return [output for name in self.problems for output in self.outputs_of(name)]
 
     def outputs_of(self, name: str) -> list[str]:
-        """Return all outputs of a problem, including its drawings, or all outputs of the document with that file
-        name."""
+        """Return all outputs of a problem or of a document."""
         if name == INDEX:
             return [f"{INDEX}.html"]
         if kind := next((kind for kind, file in self.documents if file == name), None):
@@ -161,8 +155,7 @@ def _record_of(folder: Path) -> str:
 
 
 def _is_record(recorded: Any) -> bool:
-    """Return whether data are a valid record: exactly the fields of a manifest, of the right types, with plain file
-    names."""
+    """Return whether data are a valid record of a manifest."""
     empty = Manifest(Path())
     names = {field.name for field in fields(Manifest)} - {"folder"}
     if not isinstance(recorded, dict) or set(recorded) != names:

@@ -20,8 +20,7 @@ from derive.steps.step import Step
 
 @dataclass(frozen=True)
 class _Answer:
-    """An answer in the form that a part asks for: the value to be evaluated, the known numbers, and whether a number
-    was found."""
+    """An answer that a part asks for, and whether a number was found."""
 
     key: str
     asked: Word
@@ -54,10 +53,7 @@ class _Answer:
 
     @property
     def in_form(self) -> Place | None:
-        """The place in the file where the form of this answer asks for a number: its unit, else its `figures`.
-
-        `figures` count only if the answer has no number although some of its symbols have numbers.
-        """
+        """The place in the file where the form of this answer asks for a number, if it does."""
         form = self.part.form_of(self.asked)
         if form.units:
             return form.units[0].place
@@ -69,17 +65,16 @@ def faults_of_numbers(
 ) -> list[Complaint]:
     """Return errors and warnings about the numbers of the answers.
 
-    It is an error if a form asks for a number that does not exist. There are two kinds of warnings. The first concerns
-    an answer without a number: either all its symbols have numbers, or one of them has a number that no plot and no
-    answer with a number uses. The second concerns a number that an answer needs and that the sheet does not state.
+    It is an error if a form asks for a number that does not exist. Warnings concern answers that could have a number,
+    and numbers that the sheet does not state.
 
     values     the steps that evaluate answers numerically, by key
-    drawings   the drawings of the problem: a plot needs numbers too
+    drawings   the drawings of the problem
     """
     if not problem.every_amount:
         return []
     answers = list(_answers(problem, derivation, values))
-    # The form of a part may be meant only for the answers of the part that have a number.
+    # The form of a part may be meant only for those of its answers that have a number.
     served = [answer.part for answer in answers if answer.has_number]
     wanting = [a for a in answers if not a.has_number and (a.asked in a.part.forms or a.part not in served)]
     said = {(answer.key, answer.why): place for answer in wanting if (place := answer.in_form)}
@@ -106,7 +101,7 @@ def _answers(problem: Problem, derivation: Derivation, values: Mapping[str, Step
 
 def _taking_a_number(result: Any) -> Any | None:
     """Return the expression that is evaluated numerically: the result or, for a condition such as R > a/2, its right
-    side. Return None for other conditions."""
+    side."""
     if isinstance(result, Relation):
         solved = isinstance(result.left, Symbol) and not result.right.has(result.left)
         result = result.right if solved else None
@@ -118,12 +113,7 @@ def _plotted(drawings: Iterable[Recorded]) -> set[Symbol]:
 
 
 def _not_sufficient(problem: Problem, answers: Sequence[_Answer], plotted: set[Symbol]) -> Iterator[Complaint]:
-    """Warn of an answer without a number if all its letters have numbers, or if one of them has a number that no plot
-    and no answer with a number uses. The author may have forgotten a number.
-
-    Do not warn if a letter without a number is the time, a coordinate or another letter that the problem does not
-    declare.
-    """
+    """Warn of an answer without a number if the author may have forgotten a number."""
     own = {declared.symbol for declared in problem.symbols.values()} - {TIME}
     used = plotted.union(*(answer.letters for answer in answers if answer.has_number))
     found: dict[str, list[_Answer]] = {}
@@ -140,8 +130,7 @@ def _not_sufficient(problem: Problem, answers: Sequence[_Answer], plotted: set[S
 
 
 def _untold(problem: Problem, needed: set[Symbol]) -> Iterator[Complaint]:
-    """Warn of each letter whose number the answers need, if no title, statement or question mentions the given value
-    with this letter."""
+    """Warn of each number that the answers need, if the sheet does not mention it."""
     texts = [problem.title, problem.statement, *(part.ask for part in problem.parts)]
     mentioned = {mention.name for prose in texts for mention in prose.mentions if not mention.of}
     told = {letter for given in problem.givens if given.name in mentioned for letter in given.letters}

@@ -1,9 +1,9 @@
 """The common beginning of documents as a TeX format, so that TeX reads classes and packages only once.
 
 A line of the template marks where documents begin to differ. The lines above this mark are the preamble. TeX loads the
-preamble and dumps a format, which is stored in the cache of the builds. The format is not compressed, because TeX then
-reads it in half the time. In the source of a document, the lines of the preamble become comments, so that line numbers
-do not change. If the template has no such mark, or if TeX cannot dump a format, a document is typeset without a format.
+preamble and dumps a format, which is stored in the cache of the builds. In the source of a document, the lines of the
+preamble become comments, so that line numbers do not change. If TeX cannot dump a format, a document is typeset without
+it.
 
 Source: *The TeXbook*, ch. 24 (the command that dumps a format), and the package mylatexformat.
 """
@@ -32,15 +32,14 @@ __all__ = ["DIFFERS", "NAME", "at_hand", "beginning", "without_preamble"]
 DIFFERS = "%% derive: from here on documents differ\n"
 NAME = "preamble"  # the format's name in the folder where TeX runs
 PACKED = b"\x1f\x8b"
-ROOM = 64 * 1024 * 1024  # with fewer free bytes, the disk counts as full; a format takes a third of this
-CANNOT = b""  # stored in place of a format if the engine cannot dump this preamble, so that it is not tried again
+ROOM = 64 * 1024 * 1024  # with fewer free bytes, the disk counts as full
+CANNOT = b""  # stored in place of a format if the engine cannot dump this preamble
 
 Environment = Mapping[str, str]
 
 
 def beginning(templates: Templates, detail: str | None) -> str:
-    """Return the preamble that all documents at the level `detail` share; no document is needed for this. The result is
-    empty if the template has no mark or cannot be read, or if the preamble needs data other than the level."""
+    """Return the preamble that all documents at the level `detail` share; it may be empty."""
     from derive.render.printing.templates import filled_above
     from derive.steps.level import Level
 
@@ -50,7 +49,7 @@ def beginning(templates: Templates, detail: str | None) -> str:
 
 @functools.cache
 def at_hand() -> Scratch:
-    """Return the folder of the formats that this process and its workers use; it is removed when this process ends."""
+    """Return the folder of the formats that this process and its workers use."""
     return Scratch()
 
 
@@ -59,8 +58,7 @@ def without_preamble(
 ) -> str | None:
     """Return a source with its preamble turned into comments, and put the preamble's format into `place`.
 
-    The engine makes the format, unless this process or the cache has it already. The result is None if there is no
-    format.
+    The result is None if there is no format.
     """
     above, differs, below = tex.partition(DIFFERS)
     if not differs or cache.folder is None:

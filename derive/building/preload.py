@@ -27,9 +27,9 @@ DRAWING = ("derive.render.drawing.picture", "derive.render.drawing.plotting")
 
 
 def preload(root: Path, derives: bool, draws: bool, set_id: str = "") -> None:
-    """Load the phrases, the templates and the modules that print; if needed, also the modules that derive or draw.
+    """Load the phrases, the templates and the modules that workers need.
 
-    If problems are derived and `set_id` is given, also read the reference of this set.
+    If `set_id` is given, also read the reference of this set.
     """
     for name in (*PRINTING, *(DERIVING if derives else ()), *(DRAWING if draws else ())):
         import_module(name)

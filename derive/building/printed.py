@@ -1,6 +1,6 @@
 """The page of a derived problem, in every requested format and document.
 
-The result of `printed` contains only plain data, so that a worker can send it to its parent.
+The result is plain data, so that a worker can send it to its parent.
 """
 
 from __future__ import annotations
@@ -80,7 +80,7 @@ def printed(
     """Return the page of a derived problem; raise `Rejected` if it has errors.
 
     cache      the cache that stores the files of the drawings
-    failures   the disagreements with the reference, which are reported with the warnings of the page
+    failures   the disagreements with the reference, which are added to the warnings
     """
     return _Printing(problem, solved, wanted, cache, failures).rendered()
 
@@ -94,7 +94,7 @@ def rubric_of(problem: Problem, solved: Solved) -> dict[str, dict[str, Fraction]
 
 
 class _Printing:
-    """The printing of one problem; objects that several formats share are made once, when they are first needed."""
+    """The printing of one problem."""
 
     def __init__(
         self, problem: Problem, solved: Solved, wanted: Wanted, cache: Cache, failures: tuple[Complaint, ...]
@@ -144,7 +144,7 @@ class _Printing:
 
     @cached_property
     def heading(self) -> ProblemSet | None:
-        """The set of the problem, if the prose of the problem refers to other problems by their numbers; else None."""
+        """The set of the problem, if its prose refers to other problems by their numbers."""
         mentions = (mention for prose in self.problem.texts for mention in prose.mentions)
         refers = any(mention.of == PROBLEM for mention in mentions)
         return problem_set(self.problem.root, self.problem.set_id) if refers else None
@@ -158,8 +158,7 @@ class _Printing:
         return self.document if self.level is Level.FULL else self._page(Level.FULL, self.document)
 
     def _page(self, level: Level, like: Document | None = None) -> Document:
-        """Return the page at a level of detail, with the equation numbers of the page `like` if it is given; raise
-        `Rejected` with the errors of the page."""
+        """Return the page at a level of detail, if given with the equation numbers of the page `like`."""
         solved, others = self.solved, self.heading.numbers if self.heading else {}
         document, faults = document_of(
             self.problem,
@@ -244,8 +243,7 @@ class _Printing:
         return document_fragments(kinds, self._page_for, points, self.words, self.notation, self.templates, self.files)
 
     def _page_for(self, kind: str) -> Document:
-        """Return the page as this kind of document shows it. The key has the level of detail `full`, any other document
-        has the requested level, and the hints have hints in place of the derivation."""
+        """Return the page as this kind of document shows it."""
         solved = self.solved
         if kind == HINTS:
             return with_hints(self.document, self.problem, solved.derivation, solved.values, self.words)
@@ -254,12 +252,12 @@ class _Printing:
 
 @lru_cache(maxsize=4)
 def _notation(dimensions: tuple[tuple[Any, Dimension | None], ...], flat: bool) -> Notation:
-    """Return the notation for these dimensions. A notation caches the layout of every expression, so it is reused."""
+    """Return the notation for these dimensions, which caches the layout of expressions."""
     return Notation(dict(dimensions), flat=flat)
 
 
 def _source_faults(compared: Sequence[Told], notation: Notation) -> tuple[SourceFault, ...]:
-    """Return the errata of the source and the remarks on the source, in the order of the source's lines."""
+    """Return the errata of the source and the remarks on the source."""
     if not any(told.erratum or told.remark for told in compared):
         return ()
     from derive.render.notation.from_latex import in_plain_text  # needed by few problems

@@ -1,7 +1,7 @@
 """Recipes: the inputs of a page or document other than the files of its problems.
 
-These inputs are the modules of derive, packages, phrases, templates and options. A recipe maps the name of each input,
-in words that the author recognizes, to the digest or the value of this input.
+These inputs are the modules of derive, packages, phrases, templates and options. A recipe maps the name of each input
+to its digest or value.
 """
 
 from __future__ import annotations
@@ -22,14 +22,13 @@ Recipe = Mapping[str, str]
 
 
 def recipe_of(root: Path, detail: str | None, evidence: str) -> dict[str, str]:
-    """Return the recipe of pages, without the entry for the documents to which the pages contribute."""
+    """Return the recipe of pages."""
     packages = {name: package_version(name) or "" for name in PACKAGES}
     return {MODULES: engine_digest(), **packages, **_templates(root), DETAIL: detail or "", EVIDENCE: evidence}
 
 
 def of_documents(recipe: Recipe, engine: str) -> dict[str, str]:
-    """Return the recipe of a document that is typeset. It includes the TeX engine, but not the choice of other
-    documents."""
+    """Return the recipe of a document that is typeset."""
     return {**recipe, ONLY: "", ENGINE: engine}
 
 
@@ -38,14 +37,13 @@ def recipe_digest(recipe: Recipe) -> str:
 
 
 def edited_since(root: Path, time: int) -> bool:
-    """Return whether a module of derive, a template or a file of phrases was written since that time (in nanoseconds),
-    even if its content is the same."""
+    """Return whether a module of derive, a template or a file of phrases was written since that time (in
+    nanoseconds)."""
     below = [str(folder / "templates") for folder in _folders(root)]
     return any(_has_changed(top, time) for top in (FOLDER, *below) if os.path.isdir(top))
 
 
 def _has_changed(folder: str, time: int) -> bool:
-    """Return whether a file in the folder or in a subfolder was written since that time."""
     try:
         with os.scandir(folder) as entries:
             return any(
@@ -58,8 +56,7 @@ def _has_changed(folder: str, time: int) -> bool:
 
 
 def _folders(root: Path) -> list[Path]:
-    """Return the folders that may contain templates: the course, the package, and the checkout that contains the
-    package."""
+    """Return the folders that may contain templates."""
     return list(dict.fromkeys(each.resolve() for each in (root, Path(FOLDER), Path(FOLDER).parent)))
 
 

@@ -45,8 +45,7 @@ def course_at(root: Path, revision: str, set_id: str) -> Iterator[Path]:
 
 
 def _files(root: Path, revision: str, commit: str, folders: Sequence[str]) -> list[tuple[bytes, bytes]]:
-    """Return the object name and the path of each plain file; links are left out, because their targets can be
-    outside the revision."""
+    """Return the object name and the path of each plain file; links are left out."""
     found = _git(root, "ls-tree", "-r", "-z", commit, "--", *folders)
     if found.returncode:
         raise Misused(_unreadable(revision, found.stderr))
@@ -56,8 +55,7 @@ def _files(root: Path, revision: str, commit: str, folders: Sequence[str]) -> li
 
 
 def _contents(root: Path, revision: str, names: Sequence[bytes]) -> Iterator[bytes]:
-    """Yield the content of each object, in the order of `names`. Before each content, git prints a line that ends with
-    the size of the content."""
+    """Yield the content of each object, in the order of `names`. git prints the size of each content before it."""
     found = _git(root, "cat-file", "--batch", told=b"".join(name + b"\n" for name in names))
     said = BytesIO(found.stdout)
     for name in names:

@@ -117,7 +117,7 @@ def live_page(root: Path, heading: ProblemSet, name: str, main: str) -> str:
 
 
 def index_page(root: Path, heading: ProblemSet, problems: Sequence[Rendered]) -> str:
-    """Return the page of a set: its documents to print, and each statement with the first drawing in it."""
+    """Return the page of a set: its documents to print and its statements."""
     questions = numbered_in_a_row(each.card_html for each in problems)
     return _page(root, "index.html.j2", heading, _listed(problems), questions=questions)
 
@@ -130,7 +130,7 @@ def _page(root: Path, template: str, heading: ProblemSet, problems: Sequence[Lis
 
 
 def _standalone(problem: Rendered, heading: ProblemSet) -> Listed:
-    """Return a problem with its number in the set; the number is empty if the set does not list the problem."""
+    """Return a problem with its number in the set, if it has one."""
     return Listed(str(heading.numbers.get(problem.id.rpartition("/")[2], "")), problem)
 
 
@@ -165,15 +165,13 @@ def _facts(root: Path, heading: ProblemSet, problems: Sequence[Listed]) -> dict[
 
 
 def _rows(problems: Sequence[Listed], words: Phrases) -> list[tuple[str, dict[str, int]]]:
-    """Return the table of how the set was checked: a line for each problem and, if there are several, a line of
-    sums."""
+    """Return the table of how the set was checked, with a line for each problem."""
     rows = [(f"{words.labels['problem']} {listed.number}", listed.problem.counts) for listed in problems]
     sums = {name: sum(counts[name] for _, counts in rows) for name in COUNTED}
     return [*rows, (words.labels["report_page"]["all"], sums)] if len(rows) > 1 else rows
 
 
 def _total(problems: Sequence[Listed]) -> str:
-    """Return the sum of the points of all problems; empty if one problem has no points."""
     if not all(listed.problem.points for listed in problems):
         return ""
     total = sum((Fraction(listed.problem.points) for listed in problems), Fraction(0))

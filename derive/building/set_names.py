@@ -8,7 +8,7 @@ from pathlib import Path
 from derive.course.names import NAME
 from derive.errors import Complaint, Misused
 
-# Names that a set cannot have, because the Makefile uses them for other targets or folders.
+# names that a set cannot have, because the Makefile uses them
 TARGETS = frozenset(
     [
         "all",
@@ -35,8 +35,7 @@ def set_folder(root: Path, set_id: str) -> Path:
 
 
 def set_names(root: Path) -> list[str]:
-    """Return the sets below the root, without reading them; folders whose names are not valid for a set are left
-    out."""
+    """Return the sets below the root, without reading them."""
     folders = sorted(path.parent.name for path in (root / "problems").glob("*/set.yaml"))
     return [name for name in folders if not wrong_set_name(name)]
 

@@ -1,7 +1,6 @@
-"""The build of a set of problems: derive what changed, typeset documents whose text changed, leave the rest unchanged.
+"""The build of a set of problems: only changed problems are derived, and only changed documents are typeset.
 
-One crew of workers derives problems and typesets documents, so that one problem is typeset while another is derived. If
-a problem fails, its earlier outputs stay, the other problems are built, and the documents of the whole set stay
+If a problem fails, its earlier outputs stay, the other problems are built, and the documents of the whole set stay
 unchanged.
 """
 
@@ -62,8 +61,7 @@ class Superseded(Exception):
 
 @dataclass(frozen=True)
 class Edits:
-    """The functions through which a build detects edits of its set and reports finished PDFs. A build with `Edits`
-    builds edited problems first."""
+    """The functions through which a build detects edits of its set and reports finished PDFs."""
 
     edited: Callable[[], bool]  # whether there were edits since this build began
     wrote: Callable[[Path], None]  # called with the PDF of a problem as soon as the PDF has changed
@@ -80,8 +78,7 @@ class Ended:
 
 @dataclass
 class Report:
-    """The results of a build: the number of its problems and of those that it derived, the files that changed, the
-    errors, the warnings and the time."""
+    """The results of a build."""
 
     set_id: str
     problems: int = 0
@@ -173,7 +170,7 @@ class _Build:
         return class_is_older(self.root, self.set_id, self.engine)
 
     def _keep(self, saved: Callable[[], None]) -> None:
-        """Save data that only the next build uses; if saving fails, this build still succeeds."""
+        """Save data that only the next build uses; an error does not stop this build."""
         try:
             saved()
         except DeriveError as error:
@@ -230,11 +227,10 @@ class _Build:
                 self.cache.evict()
 
     def _kinds_of_each_problem(self) -> str:
-        """Return the names of the documents for which each problem prints extra fragments, joined by commas."""
+        """Return the kinds of documents for which each problem prints fragments, joined by commas."""
         return ",".join(sorted(kind for kind, _ in self.documents if kind in ON_A_PAGE))
 
     def _wanted(self) -> list[list[str]]:
-        """Return the documents that this build makes: all documents of the set, or the requested ones."""
         return [pair for pair in self.documents if not self.options.documents or pair[0] in self.options.documents]
 
     def _finish(self) -> None:
@@ -261,7 +257,7 @@ class _Build:
         return outcome.error is None
 
     def _pages(self, keys: Mapping[str, str]) -> None:
-        """Use the pages that an earlier build stored, and derive the problems of the other pages.
+        """Use the stored pages, and derive the problems of the other pages.
 
         keys   name of a problem -> key under which its page is stored
         """
@@ -294,7 +290,7 @@ class _Build:
         self.crew.start()
 
     def _prepare(self) -> None:
-        """Start a job in which TeX reads the common beginning of all documents, if no job has done this before."""
+        """Start, once, a job in which TeX reads the common beginning of all documents."""
         from derive.page.template import templates_of
 
         if self.prepares:
@@ -338,8 +334,8 @@ class _Build:
             self.result.complaints.append(Complaint("file-clash", message, help="give the drawing another name"))
 
     def _recipe(self) -> Recipe:
-        """Return the recipe of pages. If a module or a template was edited since the build began, `EDITED` replaces the
-        digest of the modules."""
+        """Return the recipe of pages. `EDITED` replaces the digest of modules that were edited since the build
+        began."""
         if edited_since(self.root, self.started):
             self.made_by[MODULES] = EDITED
         return self.made_by
@@ -348,8 +344,8 @@ class _Build:
         return file_digest(self.root / path)
 
     def _input_digest(self, path: str) -> str:
-        """Return the digest of a file. If the file was edited since the build began, return `EDITED`, so that the next
-        build reads the file again."""
+        """Return the digest of a file, or `EDITED` if it was edited since the build began, so that the next build reads
+        it again."""
         file = self.root / path
         is_edited = file.exists() and file.stat().st_ctime_ns > self.started  # a moved file may have an old mtime
         return EDITED if is_edited else self._digest(path)
@@ -386,7 +382,7 @@ class _Build:
             self._typeset(file, document, page, beside, rank, numbers if kind not in (SHEET, REPORT) else None)
 
     def _page(self, name: str, page: Callable[[], str]) -> dict[str, str]:
-        """Return the text of a page for a browser, by file name; if it cannot be made, add the error to the report."""
+        """Return the text of a page for a browser, by file name; an error is added to the report."""
         try:
             return {f"{name}.html": page()}
         except DeriveError as error:
@@ -425,7 +421,7 @@ class _Build:
         self._put(job, partial(self._was_typeset, pdf, source, texts))
 
     def _was_typeset(self, pdf: str, source: str, texts: dict[str, str], outcome: Outcome) -> None:
-        """Write the text and the source after their PDF, so that the files of one name always match."""
+        """Write the text and the source after their PDF, so that they match."""
         self.ended(Ended("failed" if outcome.error else "typeset", f"{self.set_id}/{pdf}", outcome.seconds))
         name = pdf.removesuffix(".pdf")
         if name in [file for _, file in self.documents] and outcome.error:
@@ -450,7 +446,7 @@ class _Build:
             self.edits.wrote(self.outputs / output)
 
     def _record(self, contents: Mapping[str, str | bytes]) -> bool:
-        """Write outputs, and return whether all were written; if not, add the error to the report."""
+        """Write outputs, and return whether all were written; an error is added to the report."""
         try:
             for name, content in contents.items():
                 if write(self.outputs / name, content):
@@ -462,8 +458,7 @@ class _Build:
         return True
 
     def _stamp(self) -> None:
-        """Record for `make` the outputs, the options and the input files outside the set's folder; set the time of
-        `.built` to the beginning of this build."""
+        """Record for `make` what this build read and wrote; set the time of `.built` to the beginning of this build."""
         outputs = [f"build/{self.set_id}/{name}" for name in self.manifest.all_outputs()]
         options = f"engine={chosen_name(self.options.engine)}/detail={self.options.detail or ''}"
         read = {path for inputs in self.manifest.inputs.values() for path in inputs}

@@ -72,7 +72,7 @@ def rendered(
     cache    the steps and drawings of earlier builds, which are used and extended
     chosen   the choices of a variant; a variant is not compared with the reference of the problem
 
-    `detail` and the parameters between `cache` and `chosen` are the fields of `Wanted`.
+    The other parameters are the fields of `Wanted`.
     """
     begun = time.time_ns()
     problem, faults = problem_and_faults(root, problem_id, chosen)
@@ -88,8 +88,8 @@ def rendered(
 
 
 def answer_key(root: Path, problem_id: str, cache: Cache = NO_CACHE, chosen: Chosen | None = None) -> Key:
-    """Return the answers of a problem, or of the variant with these choices, with their points, for the grader; raise
-    `DeriveError` if there are errors."""
+    """Return the answers of a problem or of a variant, with their points, for the grader; raise `DeriveError` if there
+    are errors."""
     from derive.grading.key import key_of  # it loads the reader of formulas
 
     begun = time.time_ns()
@@ -103,8 +103,7 @@ def answer_key(root: Path, problem_id: str, cache: Cache = NO_CACHE, chosen: Cho
 def _solved(problem: Problem, cache: Cache, begun: int, faults: Faults) -> tuple[Solved, tuple[Complaint, ...]]:
     """Return the steps, stored or derived now, and the disagreements with the reference.
 
-    Newly derived steps are stored for later builds, unless the problem has errors, a step disagrees with the reference,
-    or a file was edited after the time `begun`.
+    New steps are stored for later builds, unless there is an error or a file was edited after the time `begun`.
     """
     key = steps_key(problem)
     with suppress(KeyError):
@@ -152,8 +151,8 @@ def _check_characters(problem: Problem) -> None:
 def derived(
     problem: Problem, memory: Memory | None = None, faults: Faults | None = None
 ) -> tuple[Derivation, dict[str, Step], dict[str, Quantity], record.Run]:
-    """Return the derivation of all answers, the steps that evaluate answers numerically (by key), all returned results
-    and those on which they depend (by key), and the record of the run.
+    """Return the derivation, the steps that evaluate answers numerically, all results with their ancestors, and the
+    record of the run.
 
     faults   collects errors that do not affect any step; by default they are raised
     """
@@ -195,7 +194,7 @@ def derived(
 
 
 def _compared_before(step: Step, others: Iterable[Step]) -> bool:
-    """Return whether another answer has the same comparison of numbers; a page prints a comparison only once."""
+    """Return whether another answer has the same comparison of numbers, because a page prints it only once."""
     return step.rule == COMPARISON.name and step.chain in [other.chain for other in others]
 
 
@@ -217,7 +216,7 @@ def _check_answers(known: dict[str, Quantity], asked: list[dict[str, Word]]) -> 
 
 
 def _usual_unit(problem: Problem, kind: str | None, dimension: Dimension) -> tuple[str, Expr]:
-    """Return degrees for an angle if a given angle is in degrees; else the coherent SI unit."""
+    """Return the coherent SI unit, or degrees if a given angle is in degrees."""
     given = next((m for m in problem.measured if kind == "angle" and m.unit in IN_DEGREES), None)
     if given is not None:
         return given.unit, given.factor
@@ -234,8 +233,7 @@ def _value(
     amounts: Mapping[Symbol, Amount] | None = None,
     case: str = "",
 ) -> Quantity | None:
-    """Return the number of an answer, in the units and to the significant figures that the part asks for; None if the
-    answer has no number. Units that do not fit are reported and left out.
+    """Return the number of an answer as the part asks for it; None if the answer has no number.
 
     amounts, case   the numbers of one case of the part, and the label of the case; default: the numbers of the problem
     """
@@ -243,8 +241,7 @@ def _value(
     numbers = problem.amounts if amounts is None else amounts
     form = part.form_of(asked)
     if isinstance(answer.value, Relation) and not isinstance(answer.value.left, Symbol):
-        # This condition is not solved for a letter, so it has no number. An inequality may still have a unit, which is
-        # used if other given values make the inequality solvable for a letter.
+        # This condition is not solved for a letter, so it has no number.
         never = answer.value.operator == "=" and answer.coordinates
         if form.units and never and (asked in part.forms or len(part.answers) == 1):
             message = f"`{answer.key}` is an equation between quantities that vary, so it has no number with a unit"
@@ -261,8 +258,7 @@ def _value(
             units.append((unit, read.factor))
     first, *more = units or [_usual_unit(problem, kind, dimension)]
     figures = form.figures or problem.figures
-    # If all letters of a condition have numbers, the two sides of the condition are compared. If the part gives a unit
-    # for the answer, the bound is evaluated in this unit instead.
+    # The two sides of a condition are compared, unless the part gives a unit for the bound.
     compared = None if units else comparison_of(answer, numbers, key)
     if not numbers and not units and not form.figures and is_plain(answer):
         return None
@@ -274,8 +270,7 @@ def _value(
 def _kind_of(
     problem: Problem, answer: Quantity, dimensions: Mapping[Any, Dimension | None]
 ) -> tuple[str | None, Dimension]:
-    """Return the kind, if any, and the dimension of the evaluated quantity; for a relation such as R > a/2, this
-    quantity is R."""
+    """Return the kind, if any, and the dimension of an answer; for a relation such as R > a/2, those of R."""
     kind, symbol = answer.step.kind, answer.symbol
     if isinstance(answer.value, Relation):
         symbol = answer.value.left

@@ -8,7 +8,7 @@ reference. It also depends on these entries of the problem:
     the limiting cases, with their `why:` and its line in the file
     the quantities, ranges, levels, surfaces, curves and labels of plots
 
-It does not depend on any other prose, on the points of the parts or on templates.
+It does not depend on other prose or on templates.
 """
 
 from __future__ import annotations
@@ -32,8 +32,7 @@ from derive.steps.step import Step
 
 @dataclass(frozen=True)
 class Solved:
-    """A problem's steps, the steps that evaluate its answers numerically, the results of the comparison with its
-    reference, and its drawings."""
+    """The steps of a problem, the numbers of its answers, the comparison with its reference, and its drawings."""
 
     derivation: Derivation
     values: Mapping[str, Step]
@@ -41,7 +40,7 @@ class Solved:
     drawings: tuple[Recorded, ...] = ()
 
     def to_data(self) -> dict[str, Any]:
-        """Return JSON data; raise ValueError or RecursionError if JSON cannot represent the numbers or expressions."""
+        """Return JSON data; raise `ValueError` or `RecursionError` if this is not possible."""
         return {
             "derivation": to_json(self.derivation),
             "answers": list(self.values),
@@ -55,7 +54,7 @@ class Solved:
 
     @classmethod
     def from_data(cls, data: Any) -> Solved | None:
-        """Return the object that `to_data` encoded; None if the data have any other shape."""
+        """Return the object that `to_data` encoded, or None."""
         try:
             values = from_json(data["values"])
             told = tuple(

@@ -39,8 +39,7 @@ class Asked:
 
 @dataclass(frozen=True)
 class Staleness:
-    """The reasons why outputs would be made again, in words, and the commands that make the outputs; both are empty if
-    the outputs are up to date."""
+    """The reasons why outputs would be made again, in words, and the commands that make them."""
 
     of: str
     reasons: tuple[str, ...]
@@ -91,8 +90,7 @@ def asked_about(root: Path, what: str) -> tuple[str, tuple[str, ...]]:
 
 
 def _below_build(root: Path, what: str) -> tuple[str, str, str] | None:
-    """Return the set, "/" and the file of a path below build/; None for any other path. The path is relative to the
-    working folder or to the root."""
+    """Return the set, "/" and the file of a path below build/; None for any other path."""
     found = [Path(os.path.relpath(os.path.normpath(base / what), root / "build")) for base in (Path.cwd(), root)]
     below = [path.parts for path in found if ".." not in path.parts and len(path.parts) <= 2]
     of_a_set = [parts for parts in below if parts and parts[0] in set_names(root)]
@@ -117,7 +115,7 @@ def staleness(asked: Asked) -> Staleness:
 
 
 def _reasons(asked: Asked, manifest: Manifest, outputs: Sequence[str]) -> Iterator[str]:
-    """Yield the reasons: first the changed files, because users edit files, then the rarer reasons."""
+    """Yield the reasons, first the changed files."""
     read: Callable[[str], str] = cache(lambda path: file_digest(asked.root / path))
     now = recipe_of(asked.root, asked.detail, asked.evidence or manifest.evidence)
     documents = _documents(manifest, outputs)
@@ -151,14 +149,12 @@ def _not_made(asked: Asked, manifest: Manifest, name: str) -> str:
 
 
 def _is_unlisted(asked: Asked, manifest: Manifest, name: str) -> bool:
-    """Return whether the set does not list this problem; False if the set's file was edited, because the edited file
-    is not read."""
+    """Return whether the set is known not to list this problem."""
     edited = any(file_digest(asked.root / path) != before for path, before in manifest.set_inputs.items())
     return not edited and name not in [*manifest.problems, *manifest.document_files, *DOCUMENTS]
 
 
 def _documents(manifest: Manifest, outputs: Sequence[str]) -> list[str]:
-    """Return the problems and the documents of the set to which these outputs belong."""
     return list(dict.fromkeys(_document_of(manifest, name) for name in outputs))
 
 
@@ -234,7 +230,7 @@ def _fixes(asked: Asked, manifest: Manifest, outputs: Sequence[str]) -> Iterator
 
 
 def _built_by(asked: Asked, manifest: Manifest, outputs: Sequence[str]) -> str:
-    """Return the command that makes these outputs: a build of their problem or of their set."""
+    """Return the command that makes these outputs."""
     documents = _documents(manifest, outputs)
     kinds = [name for name in documents if name in DOCUMENTS and name not in manifest.document_files]
     only = ",".join(kinds) if kinds and manifest.pages else ""
@@ -246,7 +242,6 @@ def _built_by(asked: Asked, manifest: Manifest, outputs: Sequence[str]) -> str:
 
 
 def _named(asked: Asked, manifest: Manifest) -> str:
-    """Return the id of the problem if all outputs belong to one problem, else the name of the set."""
     documents = _documents(manifest, asked.outputs)
     (one,) = documents if len(documents) == 1 else ("",)
     of_set = one in (*manifest.document_files, *DOCUMENTS, INDEX)

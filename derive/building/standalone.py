@@ -16,8 +16,7 @@ from derive.render.rendered import Files, Rendered
 
 
 def typeset_standalone(outputs: Path, name: str, tex: str, files: Files, engine: str | None, limit: float) -> bytes:
-    """Return the PDF of a document; if TeX fails, the source and the log are stored in the folder `log` of the set's
-    outputs."""
+    """Return the PDF of a document."""
     with Scratch() as folder:
         target = Path(folder) / f"{name}.pdf"
         work = partial(typeset, tex, target, chosen_engine(engine), timeout=limit, log=outputs / "log", included=files)
@@ -26,8 +25,7 @@ def typeset_standalone(outputs: Path, name: str, tex: str, files: Files, engine:
 
 
 def reports(root: Path, solved: Mapping[str, Rendered], engine: str | None, limit: float) -> dict[str, bytes]:
-    """Return the report of each set, as path -> PDF; a report contains only the checked problems. If only one of
-    several problems of a set was checked, the path contains the name of this problem."""
+    """Return the report of each set, as path -> PDF; a report contains only the checked problems."""
     from derive.building.set_document import report_document
 
     found: dict[str, bytes] = {}

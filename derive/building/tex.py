@@ -1,9 +1,8 @@
 """From a TeX source to a PDF: the TeX engines that exist, the runs of an engine, and the meaning of its errors.
 
 The default engine is part of a Python wheel, so no TeX installation is needed; `--engine` or `DERIVE_ENGINE` selects
-another engine. Shell escape is off and files are opened only in the temporary folder and in the engine's own folders. A
-source marks its pieces with comment lines `%% derive: hw9/block part b`; the message of a TeX error names the last such
-mark above the error.
+another engine. Shell escape is off, and access to files is restricted. A source marks its pieces with comment lines
+such as `%% derive: hw9/block part b`, so that the message of a TeX error can name the piece.
 """
 
 from __future__ import annotations
@@ -129,10 +128,10 @@ def typeset(
     """Write the PDF of `tex` to `target`; return whether its content changed. On failure `target` is unchanged.
 
     timeout    the limit of the processor time of each run, in seconds
-    log        the folder for the source and the log of a failed run; default: `log` next to `target`
-    numbers    the store of the page numbers; if the stored numbers are still right, one run is enough
+    log        the folder for the source and the log of a failed run
+    numbers    the store of the page numbers
     included   the files that the source includes, such as its drawings
-    formats    the cache that stores the common beginning of documents as a format
+    formats    the cache that stores formats
     """
     kept = (log or target.parent / "log") / target.stem
     with Scratch() as name:
@@ -168,7 +167,7 @@ def typeset(
 
 
 def prepare(beginning: str, engine: Engine, formats: Cache) -> None:
-    """Dump the common beginning of documents as a format, before any document exists, if the engine can do this."""
+    """Dump the common beginning of documents as a format, if the engine can do this."""
     if engine.dumps:
         with Scratch() as name:
             place, environment = Path(name), _environment(engine)
@@ -176,8 +175,7 @@ def prepare(beginning: str, engine: Engine, formats: Cache) -> None:
 
 
 def _is_whole(content: bytes, log: Path) -> bool:
-    """Return whether the content begins and ends like a PDF, and has the length that the engine's log states, if
-    any."""
+    """Return whether the content is a complete PDF, as far as can be seen."""
     report = log.read_text(errors="replace").replace("\n", "") if log.is_file() else ""
     said = re.search(r"Output written on .{1,200}?\.pdf \((\d+) pages?, (\d+) bytes\)", report)
     written = said is None or (int(said[1]) > 0 and int(said[2]) == len(content))
@@ -185,11 +183,7 @@ def _is_whole(content: bytes, log: Path) -> bool:
 
 
 def _by_format(engine: Engine, source: Path, tex: str, timeout: float, formats: Cache, unnumbered: bool) -> str | None:
-    """Typeset with a format of the preamble, and restore the source. Return None; if typesetting fails, return the
-    engine's output or "no format".
-
-    If page numbers are needed but unknown, first make a run that only finds the page numbers.
-    """
+    """Typeset with a format of the preamble. Return None or, if this fails, the engine's output or "no format"."""
     failed = "no format"
     if not engine.dumps:
         return failed
@@ -207,7 +201,7 @@ def _by_format(engine: Engine, source: Path, tex: str, timeout: float, formats: 
 
 
 def _passes(engine: Engine, source: Path, timeout: float, *options: str, most: int = PASSES) -> str | None:
-    """Run the engine as often as its log requests, at most `most` times; if a run fails, return its output."""
+    """Run the engine as often as its log requests, at most `most` times; return the output of a failed run."""
     log = source.with_suffix(".log")
     for _ in range(most):
         try:
@@ -232,7 +226,7 @@ def _passes(engine: Engine, source: Path, timeout: float, *options: str, most: i
 
 
 def by_the_clock(seconds: float) -> float:
-    """Return the limit of a program's wall-clock time for a given limit of its processor time."""
+    """Return the limit of the wall-clock time for a limit of the processor time."""
     return seconds + BUSY
 
 
@@ -248,8 +242,7 @@ def _too_slow(engine: Engine, source: Path, seconds: float) -> BuildFailed:
 
 
 def _environment(engine: Engine) -> dict[str, str]:
-    """Return the environment of the engine. It sets long messages, a fixed date, and access only to the working folder
-    and the engine's own folders."""
+    """Return the environment of the engine. It sets long messages, a fixed date and restricted access to files."""
     kept = ("PATH", "HOME", "TMPDIR", "SYSTEMROOT")  # settings of another TeX would affect the wheel's TeX
     return {name: value for name, value in os.environ.items() if engine.name != WHEEL or name in kept} | {
         "openin_any": "p",
@@ -281,7 +274,7 @@ def _failure(tex: str, source: Path, output: str, engine: Engine, kept: Path) ->
 
 
 def _first_error(report: str, output: str, name: str) -> tuple[str, int | None, str]:
-    """Return the message, the number of the line of our source, and what TeX had read of that line when it stopped."""
+    """Return the message, the number of the line of our source, and what TeX had read of that line."""
     text = report if _ERROR.search(report) else output
     found = _ERROR.search(text)
     if not found:
@@ -302,7 +295,7 @@ def _mark(tex: str, number: int | None) -> str | None:
 
 
 def _place(tex: str, path: str, number: int, before: str) -> Place:
-    """Return the line of our source, cut to a readable width, with a caret under the last word that TeX read."""
+    """Return the line of our source, with a caret under the last word that TeX read."""
     lines = tex.splitlines()
     line = lines[number - 1] if number <= len(lines) else ""
     before = before.removeprefix("...").rstrip()

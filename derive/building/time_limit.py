@@ -1,8 +1,7 @@
 """The time limit of a worker, in seconds of processor time, so that no problem fails because the machine is busy.
 
-At the limit, `OutOfTime` is raised inside the work: the surrounding code records what the work was doing, and stores
-finished steps. Work that only waits uses no processor time, so it is stopped after the same number of wall-clock
-seconds. If the work catches `OutOfTime` or is in one long instruction, the system ends the process a little later.
+At the limit, `OutOfTime` is raised inside the work. Work that only waits is stopped after the same wall-clock time. If
+the work does not end, the system ends the process a little later.
 """
 
 from __future__ import annotations
@@ -20,14 +19,13 @@ __all__ = ["ended_by_limit", "limited"]
 
 GRACE = 2.0  # seconds of processor time in which `OutOfTime` can propagate out of the work
 IDLE = 0.02  # work that uses a smaller share of the processor than this counts as waiting
-PATIENCE = 10  # even on a busy machine, work is stopped after PATIENCE * (limit + 6 s) of wall-clock time
+PATIENCE = 10  # work is stopped after PATIENCE * (limit + 6 s) of wall-clock time
 _WATCHDOG = "Timeout ("  # `faulthandler` begins its output with this text
 
 
 @contextmanager
 def limited(seconds: float, trace: int) -> Iterator[None]:
-    """Limit the time of the work in the `with` block; if the system ends the process, write the lines that are
-    running to `trace`."""
+    """Limit the time of the work in the `with` block; the lines that are running may be written to `trace`."""
     used, told = time.process_time(), False
 
     def stop(*_: object, waited: bool = False) -> NoReturn:

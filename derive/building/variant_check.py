@@ -1,8 +1,7 @@
 """Many draws of the variants of a problem: how its answers are distributed, and which draws are degenerate.
 
-The derivation is made once for each structure. A structure is one choice of everything that varies, except the numbers
-of letters. The numbers of a draw are then substituted in the derived answers. A few draws are also derived from the
-beginning, and their printed numbers are compared with these values.
+The derivation is made once for each structure, which is one choice of everything that varies except numbers. The
+numbers of a draw are then substituted. A few draws are also derived from the beginning, for a comparison.
 """
 
 from __future__ import annotations
@@ -125,8 +124,7 @@ def _pairs(counted: Mapping[Any, int]) -> int:
 def _numbers_of(
     root: Path, problem_id: str, variations: Sequence[Variation], found: OfProblem
 ) -> dict[tuple[str, int], dict[Symbol, Any]]:
-    """Return the number of the letter for each choice of each variation, in the coherent SI unit; add the errors of the
-    choices to the result of the problem."""
+    """Return the number of the letter for each choice of each variation, in the coherent SI unit."""
     numbers: dict[tuple[str, int], dict[Symbol, Any]] = {}
     for variation in variations:
         for choice in range(len(variation.choices)):
@@ -151,8 +149,7 @@ class _Structure:
     assumed: Sequence[Any]
 
     def values(self, point: Mapping[Symbol, Any], draw: str, found: OfProblem) -> dict[str, float]:
-        """Return the value of each answer that has one; record as degenerate a draw in which an answer has no real
-        value or a condition of the derivation fails."""
+        """Return the values of the answers; record a degenerate draw."""
         with mp.workdps(30):
             at = Values(dict(point))
             for condition in self.assumed:
@@ -185,7 +182,7 @@ def _holds(condition: Relation, at: Values) -> bool:
 
 
 def _structure(root: Path, problem_id: str, given: Chosen, found: OfProblem) -> _Structure | None:
-    """Derive one structure; if this fails, its draws are degenerate, and the errors are reported."""
+    """Derive one structure, or report the errors."""
     try:
         problem = load_problem(root, problem_id, given or None)
         derivation, _, known, _ = derived(problem)
@@ -206,7 +203,7 @@ def _structure(root: Path, problem_id: str, given: Chosen, found: OfProblem) -> 
 
 
 def _has_number(quantity: Quantity, letters: set[Symbol]) -> bool:
-    """Whether an answer is a scalar whose letters have numbers, and not the beginning of a series."""
+    """Whether an answer is a scalar whose letters have numbers, and not a series for a period."""
     value = quantity.value
     if isinstance(value, MatrixBase | Relation) or quantity.fact(WholeSwing) is not None:
         return False
@@ -237,7 +234,7 @@ def _compare(
 
 
 def _printed(value: Any) -> Iterator[tuple[float, int]]:
-    """Yield a printed number in the coherent SI unit, with its number of significant figures."""
+    """Yield the printed number in the coherent SI unit, with its number of significant figures."""
 
     if isinstance(value, Amount) and isinstance(value.args[0], Rounded):
         yield float(value.args[0].args[0] * value.args[2]), int(value.args[0].args[1])

@@ -1,9 +1,7 @@
 """Builds of sets after each edit, in one process that loads its modules only once.
 
-The times and sizes of the files that authors write are compared many times a second. The comparison takes 1 % of the
-time of one processor, needs no package, and also detects edits on a network drive. It uses no thread, because forking a
-process with threads is not safe. An edit stops the build under way, but finished work is stored. So if you save several
-files together, only the last build is completed.
+The times and sizes of the files that authors write are compared many times a second, which also detects edits on a
+network drive. An edit stops the build under way, but finished work is stored.
 """
 
 from __future__ import annotations
@@ -50,8 +48,7 @@ class Shown:
 
 
 def watch(root: Path, asked: Mapping[str, tuple[str, ...]], options: Options, shown: Shown) -> None:
-    """Build these problems of these sets (all of a set if none is named), then again after each edit, until
-    interrupted."""
+    """Build these problems of these sets , then again after each edit, until interrupted."""
     chosen_engine(options.engine)  # raises errors about the engine before anything is built
     for set_id, names in asked.items():
         check_asked(root, set_id, names)
@@ -62,8 +59,7 @@ def watch(root: Path, asked: Mapping[str, tuple[str, ...]], options: Options, sh
 
 
 class _Watch:
-    """Builds the requested sets and waits for edits. It stores a digest of the modules that were loaded, and the states
-    of the files at the beginning of the last build."""
+    """Builds the requested sets and waits for edits."""
 
     def __init__(self, root: Path, asked: Mapping[str, tuple[str, ...]], options: Options, shown: Shown):
         self.root, self.asked, self.options, self.shown = root, asked, options, shown
@@ -105,13 +101,11 @@ class _Watch:
         return seen_in(self.folders) != self.files
 
     def _check_edited(self) -> None:
-        """Raise `Superseded` if a file has changed since the build began. The build may have read a file that was only
-        partly written, so the errors of the build are discarded."""
+        """Raise `Superseded` if a file has changed since the build began."""
         if self._edited():
             raise Superseded
 
     def wait(self) -> None:
-        """Wait until there is an edit."""
         looked = time.monotonic()
         while not self._edited():
             time.sleep(EVERY)
@@ -122,8 +116,7 @@ class _Watch:
 
 
 def seen_in(paths: Sequence[Path]) -> Seen:
-    """Return the time, size and identity of each file that authors write, for these files and for all files in these
-    folders; temporary files of editors are left out."""
+    """Return the time, size and identity of each file that authors write, among these files and in these folders."""
     found, waiting = dict[str, tuple[int, int, int]](), list[tuple[str, int]]()
     for path in paths:
         if path.is_file():

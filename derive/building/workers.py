@@ -2,9 +2,7 @@
 any time.
 
 The result or the error of a job is sent to the parent. A child leads a process group of its own, so that killing the
-child also kills the TeX that it runs. The child ends itself if the parent is gone. The parent has no threads, so
-forking is safe. The worker of a preview has the same limits, and the same errors if it returns no answer.
-`derive.building.time_limit` enforces the time limit.
+child also kills the TeX that it runs. The child ends itself if the parent is gone.
 """
 
 from __future__ import annotations
@@ -61,8 +59,7 @@ class Bug(Exception):
 
 @dataclass(frozen=True)
 class Job:
-    """A piece of work, with a name that the user knows. `file` is the file of the problem, and `shown_as` is the path
-    of this file in messages.
+    """A piece of work, with a name that the user knows. `shown_as` is the path of `file` in messages.
 
     Among waiting jobs, a job of the lowest `rank` begins first.
     """
@@ -76,8 +73,7 @@ class Job:
 
 
 def job_of(root: Path, problem_id: str, work: Callable[[], Any], limit: float = TIME_LIMIT) -> Job:
-    """Return a job for a problem; if its worker dies, the error names the problem's file. Problems with the longest
-    files begin first."""
+    """Return a job for a problem. Problems with the longest files begin first."""
     from derive.course.problem_set import found_path
 
     path = found_path(root, problem_id) or f"problems/{problem_id}.yaml"
@@ -101,7 +97,7 @@ class _Worker:
     job: Job
     child: ForkProcess
     pipe: Connection
-    trace: int  # a pipe; a worker that is stopped or dies writes the lines that it was running into this pipe
+    trace: int  # a pipe for the lines that a worker was running when it was stopped
     started: float = field(default_factory=time.monotonic)
 
     @property
@@ -110,8 +106,7 @@ class _Worker:
 
 
 class Crew:
-    """At most `size` workers at a time; leaving the `with` block kills running workers and removes their temporary
-    files."""
+    """At most `size` workers at a time; leaving the `with` block kills running workers."""
 
     def __init__(self, size: int, tick: Callable[[Mapping[str, float]], None] | None = None):
         """`tick` is called repeatedly with the names of the running jobs, each with the seconds that it has run."""
@@ -190,7 +185,7 @@ def _pipe() -> tuple[int, int]:
 
 @contextlib.contextmanager
 def _undisturbed() -> Iterator[None]:
-    """Delay signals during a fork: Python would lose a signal that arrives in its internal code around the fork."""
+    """Delay signals during a fork, because Python could lose them."""
     signals = (signal.SIGINT, signal.SIGTERM)
     before = signal.pthread_sigmask(signal.SIG_BLOCK, signals)
     try:
@@ -211,7 +206,6 @@ def memory_limit() -> int:
 
 
 def done(job: Job) -> Any:
-    """Return the value of one job, run in a worker."""
     with Crew(1) as crew:
         crew.put(job)
         outcome = next(crew.outcomes())
@@ -239,8 +233,8 @@ def _outcome(worker: _Worker) -> Outcome | None:
 
 
 def _stopped(job: Job, code: str, message: str, help_: str, trace: str, notes: Iterable[str] = ()) -> BuildFailed:
-    """Return the error about a worker without an answer. The place of the error is the running line of the script, else
-    the reference file if the worker used this file, else the problem's file."""
+    """Return the error about a worker without an answer. The place of the error is the running line of the script, the
+    reference file or the problem's file."""
     place = (_line_in(trace, job) or Place(job.shown_as, 1)) if job.file else None
     if place and place.path == job.shown_as and (reference := _reference_in(trace, job)):
         place, help_ = Place(reference, 1), f"check what this file states about {job.name}"
@@ -256,8 +250,7 @@ def _reference_in(trace: str, job: Job) -> str:
 
 
 def too_long(job: Job, trace: str, late: OutOfTime | None = None) -> BuildFailed:
-    """Return the error of a worker at its time limit. The error shows the running line, the work under way if it is
-    known, and the finished steps."""
+    """Return the error of a worker at its time limit, with what is known about its work."""
     late = late or OutOfTime()
     asked = f", most recently for `{late.answers[-1]}`" if late.answers else ""
     took = f"{job.name} took over {job.limit:g} s of processor time{asked}"
@@ -331,10 +324,10 @@ def _child(job: Job, pipe: Connection, lifeline: tuple[int, int], trace: int, li
     os.close(lifeline[1])
     confine(lifeline[0], trace, limit)
     tempfile.tempdir = scratch
-    # A worker is short-lived, so frequent garbage collection would cost more than it saves.
+    # A worker is short-lived, so it needs little garbage collection.
     gc.freeze()
     gc.set_threshold(100_000, 50, 50)
-    # Output of a script is shown to the user at the terminal; it is not part of the answer.
+    # The output of a script is for the user, not part of the answer.
     os.dup2(2, 1)
     sys.stdout = sys.stderr
     value, error = attempt(job, trace)
@@ -352,8 +345,7 @@ def _child(job: Job, pipe: Connection, lifeline: tuple[int, int], trace: int, li
 def attempt(job: Job, trace: int) -> tuple[Any, DeriveError | Bug | str | None]:
     """Do the work of a job within its time limit, and return its value or its error.
 
-    At the limit of memory or of nesting, the error is only the code of that limit. The caller makes the error message
-    from this code and from the lines written to `trace`.
+    At the limit of memory or of nesting, the error is only the code of that limit.
     """
     try:
         with limited(job.limit, trace):
@@ -375,12 +367,11 @@ def _bug(error: BaseException) -> Bug:
 
 
 def confine(lifeline: int, trace: int, limit: int) -> None:
-    """Make this process a worker: it ends with its parent, has a memory limit, and writes the lines that it was running
-    to `trace` if it crashes."""
+    """Make this process a worker: it ends with its parent, has a memory limit, and writes a trace if it crashes."""
     for signum in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(signum, signal.SIG_DFL)
     signal.pthread_sigmask(signal.SIG_SETMASK, ())
-    # On Linux, the system kills the process when the parent ends, even while the thread below cannot run.
+    # On Linux, the system kills the process when the parent ends.
     with contextlib.suppress(OSError, AttributeError):
         own = os.open(f"/proc/self/fd/{lifeline}", os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC)
         fcntl.fcntl(own, fcntl.F_SETSIG, signal.SIGKILL)
@@ -407,8 +398,7 @@ def _limit_reached(trace: int, error: MemoryError | RecursionError) -> str:
 
 
 def _trail(error: BaseException) -> str:
-    """Return the lines through which an error propagated, innermost first, as `faulthandler` does; if there are many
-    lines, return only the first and the last ones."""
+    """Return the lines through which an error propagated, innermost first, as `faulthandler` does."""
     trail, lines = error.__traceback__, []
     while trail:
         lines.append(f'  File "{trail.tb_frame.f_code.co_filename}", line {trail.tb_lineno} in x\n')

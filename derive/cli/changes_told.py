@@ -85,8 +85,6 @@ def _json(data: Any) -> str:
 
 
 class _Shown:
-    """The changes as lines for the terminal."""
-
     def __init__(self, coloured: bool):
         self.coloured = coloured
 
@@ -155,7 +153,6 @@ class _Shown:
                 yield from self._filled([w for run, *ends in _ended(change.words) for w in _marked(*run, *ends)])
 
     def _filled(self, words: Sequence[tuple[str, str]]) -> Iterable[str]:
-        """Fill lines with words up to the width; colour codes do not count."""
         indent, line, room = " " * 6, list[str](), WIDTH - 6
         for how, word in words:
             if columns(word) > room and line:

@@ -38,7 +38,6 @@ def _kept_from(path: Path, root: Path) -> str:
 
 
 def _is_ours(path: Path) -> bool:
-    """Return whether the first line of the file says that derive wrote the file."""
     with suppress(OSError), path.open("rb") as file:
         return WRITTEN.encode() in file.readline(200)
     return False

@@ -32,7 +32,6 @@ def read(parse: Callable[[], argparse.Namespace]) -> argparse.Namespace:
 
 
 def _unwritten(error: OSError) -> int:
-    """Report that standard output cannot be written, and return the exit code."""
     from pathlib import Path
 
     from derive.building.files import cannot_write

@@ -36,10 +36,7 @@ def in_colour() -> bool:
 
 
 def tell(text: str) -> None:
-    """Replace the line about the work under way; an empty text clears the line. Print nothing into a pipe.
-
-    If a list is too long for the line, only as many of its first items are shown as fit.
-    """
+    """Replace the line about the work under way; an empty text clears the line. Print nothing into a pipe."""
     if sys.stderr.isatty():
         width = shutil.get_terminal_size().columns - 1
         if len(text) > width and ", " in text[: width - 3]:

@@ -1,8 +1,7 @@
 """Values under construction: the data of each part of an expression, and the checks when parts are combined.
 
 Both readers, of plain expressions and of LaTeX, build their values here. The terms of a sum must have the same
-dimension, nothing is divided by zero, and a value that would be too large is rejected before it is computed. `size`
-bounds digits and degrees; `terms` bounds the number of terms after multiplying out.
+dimension, nothing is divided by zero, and a value that would be too large is rejected before it is computed.
 """
 
 from __future__ import annotations
@@ -90,7 +89,6 @@ class Arithmetic:
         return " ".join(self.text[term.start : term.end].split())
 
     def fits(self, left: Term, right: Term) -> bool:
-        """Whether two terms may be added."""
         return left.dimension == right.dimension
 
     def added(self, left: Term, right: Term, sign: str) -> Term:
@@ -119,7 +117,7 @@ class Arithmetic:
         return replace(term, expr=1 / term.expr, dimension=NUMBER / term.dimension)
 
     def raised(self, base: Term, exponent: Term) -> Term:
-        """Return a power. An exponent that is too large, as in `9**9**9`, is rejected before the power is computed."""
+        """Return a power. An exponent that is too large is rejected, as in `9**9**9`."""
         number = exponent.expr
         if not number.is_number and exponent.dimension == NUMBER:
             return self._raised_to_letters(base, exponent)

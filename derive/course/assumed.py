@@ -32,10 +32,10 @@ class Assumed:
 
 
 def read_assumed(node: Tree, constant: Mapping[str, Declared], moving: Iterable[str]) -> list[Assumed]:
-    """Return the relations of one entry; a chain gives one relation for each pair of neighbours.
+    """Return the relations of one entry; a chain gives several.
 
     constant   the letters that a relation may contain
-    moving     coordinates and rates; a relation may not contain them, because it would not hold at all times
+    moving     coordinates and rates, which a relation may not contain
     """
     if not isinstance(node, Scalar) or node.empty:
         rejected("wrong-type", "`assume` needs a list of relations between letters", node.place, EXAMPLE)
@@ -84,8 +84,8 @@ def narrowed(ranges: Mapping[Symbol, Range], assumed: Sequence[Assumed]) -> dict
 
 
 def _bound(relation: Relation) -> tuple[Symbol, Expr, bool, bool] | None:
-    """Return a letter, its numerical bound, whether this is an upper bound, and whether the letter may be equal to the
-    bound; None if the relation does not bound a letter by a number."""
+    """Return a letter, its numerical bound, whether this is an upper bound, and whether the letter may equal the bound;
+    None for any other relation."""
     (left, right), less = relation.sides, relation.operator[0] == "<"
     closed = relation.operator.endswith("=")
     if isinstance(left, Symbol) and right.is_number:

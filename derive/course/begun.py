@@ -1,7 +1,7 @@
 """The files of a new problem, copied from a pattern or from an existing problem.
 
-No work of the author is lost: an existing file is never overwritten, and the file of an existing set gains at
-most one entry in its list of problems.
+No work of the author is lost: no existing file is overwritten, except that the file of a set gains an entry in its list
+of problems.
 """
 
 from __future__ import annotations
@@ -29,8 +29,7 @@ def begun(
 ) -> dict[str, str]:
     """Return the texts of the files of a new problem, and of the file of its set, by their paths from the root.
 
-    `Misused` is raised if the name is not allowed, if a file of the new problem exists already, or if the pattern or
-    the problem `like` does not exist.
+    Raises `Misused` if the name is not allowed or taken, or if there is no such pattern or problem `like`.
 
     template      returns the file of a template; the folder `new` has the patterns
     schemas       the folder of the schemas for editors
@@ -73,8 +72,8 @@ def _pattern(template: Callable[[str], Path], like: str) -> tuple[str, str]:
 
 
 def _copied(root: Path, like: str) -> tuple[str, str]:
-    """Return the text of a problem's file and the text of its script, which is "" without a script. References to other
-    problems of the set become plain words."""
+    """Return the text of a problem's file and the text of its script, if it has one. References to other problems
+    become plain words."""
     file = root / path_of(root, like)
     text = re.sub(r"\A# yaml-language-server:.*\n", "", _read(file))
     heading = problem_set(root, like.partition("/")[0])
@@ -88,8 +87,7 @@ def _copied(root: Path, like: str) -> tuple[str, str]:
 
 
 def _with_problem(root: Path, path: str, set_id: str, name: str) -> str:
-    """Return the text of a set's file with one more problem; if the file does not exist, return the text of a new
-    file."""
+    """Return the text of a set's file with one more problem, or the text of a new file."""
     file = root / path
     if not file.is_file():
         return f"{NEW_SET.format(set_id)}  - {name}\n"

@@ -1,5 +1,4 @@
-"""The files of a new course: a set with one problem, the keys that all sets share, and the files with which a
-container, GitHub or GitLab builds the course."""
+"""The files of a new course."""
 
 from __future__ import annotations
 
@@ -29,7 +28,7 @@ FILES = {
 def begun_course(folder: Path, title: str, template: Callable[[str], Path]) -> dict[str, str]:
     """Return the texts of the files of a new course, by their paths in its folder.
 
-    `Misused` is raised if the folder is a course already, or has one of these files.
+    Raises `Misused` if the folder is a course already, or has one of these files.
 
     title     the name of the course
     template  returns the file of a template

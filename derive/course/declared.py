@@ -25,8 +25,7 @@ _RANGE = re.compile(r"\s*([\[(])([^,]+),([^,]+)([\])])\s*")
 def read_range(name: str, node: Scalar, kind: str, signed: bool = False) -> Range:
     """Read the range in which a letter lies: `(0, pi/2)`, `[0, 90 deg]`, `(0, infinity)`.
 
-    If `signed` is true, as for a coordinate, the letter may be negative even if letters of its kind are usually
-    positive.
+    If `signed` is true, as for a coordinate, the letter may be negative even if its kind is usually positive.
     """
     found = _RANGE.fullmatch(node.text)
     if not found:
@@ -82,10 +81,8 @@ def check_name(word: Word, faults: Faults) -> None:
 
 
 def range_of_sort(name: str, sort: SortOfLetter, faults: Faults) -> Range | None:
-    """Return the range that a declaration states: the range after the kind, or the positive numbers for `positive`.
-
-    The result is None if there is no range, or if `positive` is before a kind that is always positive.
-    """
+    """Return the range that a declaration states, if any: the range after the kind, or the positive numbers for
+    `positive`."""
     with faults:
         if sort.ends:
             return read_range(name, sort.ends, sort)

@@ -33,8 +33,8 @@ def read_defined(
 ) -> tuple[Defined, ...]:
     """Return the defined quantities in the order of the file.
 
-    letters  the declared letters; a formula may contain those that are not in `moving`
-    moving   the names of coordinates and of other functions of the time, which a formula must not contain
+    letters  the declared letters
+    moving   the names that a formula must not contain, because they change in time
     """
     found: dict[str, Defined] = {}
     ranges = {letter.symbol: letter.lies for letter in letters.values() if letter.lies}

@@ -5,12 +5,10 @@
     unary    ("-" | "+") unary | atom ("**" unary)?
     atom     number | number unit | name | function "(" sum ")" | "(" sum ")"
 
-A number may be followed by the unit of an angle, as in `sin(30 deg)`. A number with another unit is replaced by a
-letter if `letter_for` returns one; otherwise the number is rejected.
+A number may be followed by the unit of an angle, as in `sin(30 deg)`.
 
 The grammar reads every character; no text ever reaches Python or SymPy as code. The size of every value is bounded
-before the value is computed: `size` bounds digits and degrees, `terms` bounds the number of terms after multiplying
-out.
+before the value is computed.
 """
 
 from __future__ import annotations
@@ -86,16 +84,13 @@ def read_expression(
 ) -> tuple[Expr, Dimension]:
     """Return the value and dimension of an expression in the declared symbols; raise `Rejected` if it has an error.
 
-    letter_for   a function of a number with a unit and of a kind; returns a letter for the number, or None
+    letter_for   a function of a number with a unit and of a kind; it returns a letter for the number, or None
     """
     return _Parser(scalar, symbols, letter_for).whole()
 
 
 def names_in(scalar: Scalar) -> list[Word]:
-    """Return the names in an expression, each with its place, without parsing the expression.
-
-    Names of units are among them; `pi` and the names of functions are not.
-    """
+    """Return the names in an expression, including names of units, each with its place."""
     names = (m for m in _TOKEN.finditer(scalar.text) if m.lastgroup == "name" and m[0] not in RESERVED)
     return [scalar.piece(m.start(), m.end() - m.start()).word for m in names]
 
@@ -131,7 +126,6 @@ class _Parser(Arithmetic):
     # -- words ----------------------------------------------------------------------------------------------------
 
     def check_vocabulary(self) -> None:
-        """Report undeclared names together, up to the first character or call that has no meaning here."""
         faults = Faults()
         pairs = zip(self.tokens, self.tokens[1:], strict=False)
         measured = {unit.start for number, unit in pairs if self.is_measured(number, unit)}
@@ -150,7 +144,7 @@ class _Parser(Arithmetic):
         faults.stop()
 
     def is_measured(self, number: _Token, unit: _Token) -> bool:
-        """Return whether the first token is a number, and the second is a unit and not a declared letter: `30 deg`."""
+        """Return whether two tokens are a number and its unit, as in `30 deg`."""
         is_unit = unit.text not in self.symbols and unit.text.replace("°", "deg") in UNIT_NAMES
         return number.kind == "number" and unit.kind == "name" and is_unit
 
@@ -183,7 +177,7 @@ class _Parser(Arithmetic):
         return self.tokens[self.at]
 
     def taken(self, *texts: str) -> str | None:
-        """If one of these operators is at the current position, return it and step past it."""
+        """Step past one of these operators and return it, if it is at the current position."""
         if self.token.text not in texts:
             return None
         self.at += 1
@@ -247,7 +241,7 @@ class _Parser(Arithmetic):
         self.refuse("expression", f"something is missing {found}", token.start, token.end)
 
     def measured(self, number: _Token) -> Term:
-        """Read a number with its unit. An angle is exact; any other number is replaced by a letter or rejected."""
+        """Read a number with its unit."""
         start, end = number.start, self.token.end
         self.at += 1
         piece = self.scalar.piece(start, end - start)

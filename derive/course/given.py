@@ -1,8 +1,7 @@
 """Given values: each becomes a checked value of the kind that the script's `solve()` asks for.
 
-A kind is an annotation: `def solve(sides: Lengths, mass: Mass)`. For a type checker, `Mass` is a SymPy `Expr`. A number
-with a unit becomes a symbol with a stored number (`Measured`), so the derivation stays symbolic until its end. Zero
-and simple angles such as 45 deg stay numbers.
+A kind is an annotation: `def solve(sides: Lengths, mass: Mass)`. A number with a unit becomes a symbol with a stored
+number (`Measured`), so the derivation stays symbolic until its end. Zero and simple angles such as 45 deg stay numbers.
 """
 
 from __future__ import annotations
@@ -55,7 +54,7 @@ class Measured:
 
     @property
     def factor(self) -> Expr:
-        """The size of the unit in the SI; unlike `si / number`, it is also defined if the number is zero."""
+        """The size of the unit in SI units."""
         return read_unit(self.unit).factor if self.unit else Integer(1)
 
 
@@ -63,8 +62,7 @@ class Measured:
 class Given:
     """One key of `given:`: the argument for `solve()`, and the numbers of the letters in this argument.
 
-    If the value is the name of a direction, `word` is this name. For an angle that is used exactly, such as pi/4,
-    `written` is the original form, such as 45 deg.
+    `word` is the name of a direction. `written` is the original form of an angle that is used exactly, such as 45 deg.
     """
 
     name: str
@@ -76,15 +74,14 @@ class Given:
 
     @property
     def letters(self) -> list[Symbol]:
-        """The letters of the given value, in the order of the entries of the value."""
         value = self.value.components or () if isinstance(self.value, Direction) else self.value
         entries = value if isinstance(value, tuple) else (value,)
         return [s for entry in entries for s in sorted(entry.free_symbols, key=str) if isinstance(s, Symbol)]
 
 
 def symbol_of_kind(name: str, kind: str, lies: Range | None = None) -> Symbol:
-    """Return the symbol of a declared letter. The letter `t` of kind time is the time itself; any other letter of kind
-    time is a duration. A letter whose range begins below zero is not assumed to be positive, whatever its kind."""
+    """Return the symbol of a declared letter. The letter `t` of kind time is the time itself. A letter whose range
+    begins below zero is not assumed to be positive."""
     if name == TIME.name and kind == "time":
         return TIME
     is_positive = about_kind(kind).positive if lies is None else not lies.least.is_extended_negative
@@ -107,7 +104,7 @@ def read_givens(
 
     notes     for each name, a note that says where `solve()` asks for its value
     used      the names of symbols that already have a number
-    numbers   the SI numbers of these symbols; with these numbers, a value of a positive kind must be positive
+    numbers   the SI numbers of these symbols, for checks of signs
     """
     read: dict[str, tuple[Expr | Number, ...] | Direction] = {}
     for name, node in nodes.items():
@@ -236,8 +233,7 @@ def _value(scalar: Scalar, wanted: Wanted, symbols: Mapping[str, Declared]) -> E
 
 
 def _check_sign(value: Expr, scalar: Scalar, wanted: Wanted) -> None:
-    """Reject a value if its letters or their numbers show that its sign is wrong or an angle is out of range. `a - b`
-    is allowed, because it may be positive."""
+    """Reject a value if it is known that its sign is wrong, or that an angle is out of range."""
     if wanted.is_end_of_scale:
         return
     text = " ".join(scalar.text.split())
@@ -311,8 +307,8 @@ class NumbersAsLetters:
     def letter(self, scalar: Scalar, name: str, kind: str, of: int = 1) -> Expr | None:
         """Return the value that replaces a number with a unit: zero, an exact angle, a letter, or minus a letter.
 
-        The result is None if the text is an expression. `of` is the size of the group to which the number belongs, such
-        as 3 for the sides of a box.
+        The result is None if the text is an expression. `of` is the number of values that belong together, such as 3
+        for the sides of a box.
         """
         if is_more_than_unit(scalar.text, self.letters.symbols):
             return None
@@ -327,23 +323,20 @@ class NumbersAsLetters:
 
 
 def _asked_of_kind(kind: str, count: int) -> Asked:
-    """Return the annotation for one value of a kind, with the letters that are usual if `count` values of this kind
-    belong together."""
+    """Return the annotation for one value of a kind, with the usual letters for `count` such values."""
     known = [asked for asked in ANNOTATIONS.values() if asked.each == kind]
     usual = next((asked for asked in known if asked.count == count), next(iter(known), None))
     return Asked(kind, usual.letters if usual and usual.letters else (kind[0],))
 
 
 class _LettersForNumbers:
-    """Finds a letter for a number: an unused declared letter of its kind, else a new letter that is usual for the kind,
-    with an index if the usual letters are taken."""
+    """Finds letters for numbers: declared letters that are unused, or else new ones."""
 
     def __init__(self, symbols: Mapping[str, Declared], used: set[str]):
         self.symbols = dict(symbols)
         self.used = used
 
     def letter(self, kind: Asked, size: Expr, scalar: Scalar) -> Symbol:
-        """Return a letter for a size, after a check that the size lies in the range of this letter."""
         taken = {*self.used, TIME.name}
         declared = (d for d in self.symbols.values() if d.kind == kind.each and d.name not in taken)
         chosen = next(declared, None)
@@ -395,14 +388,13 @@ def _given(name: str, kind: Asked, value: tuple[Expr | Number, ...] | Direction,
 
 
 def _is_exact_angle(angle: Expr) -> bool:
-    """Return whether the angle is a nonzero multiple of 30 or 45 degrees, whose sine has at most one square root."""
+    """Return whether the angle is a nonzero multiple of 30 or 45 degrees."""
     parts = angle / pi
     return bool(parts.is_Rational and parts != 0 and (4 * parts).is_Integer | (6 * parts).is_Integer)
 
 
 def _common_measure(value: tuple[Expr | Number, ...]) -> Number | None:
-    """Return the smallest entry if all entries are positive numbers, each at most 12 times the smallest and an integer
-    multiple of it; else None."""
+    """Return the smallest entry if all entries are small integer multiples of it; else None."""
     numbers = [entry for entry in value if isinstance(entry, Number) and entry.number > 0]
     if len(numbers) < len(value):
         return None

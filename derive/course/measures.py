@@ -40,8 +40,8 @@ class Wanted:
     notes             additions to an error about the value, such as where `solve()` asks for it
     one_of_many       whether the value is an entry of a list
     bounds            the least and the greatest allowed angle, in degrees
-    numbers           the SI numbers of symbols, with which the sign of the value is checked
-    is_end_of_scale   whether the value is an end of a range of a plot, which may have any sign
+    numbers           the SI numbers of symbols, for a check of the sign
+    is_end_of_scale   whether the value is an end of the range of a plot, which may have any sign
     """
 
     name: str
@@ -105,7 +105,7 @@ def number_with_unit(scalar: Scalar, wanted: Wanted, symbols: Mapping[str, Decla
 
 
 def is_more_than_unit(text: str, symbols: Mapping[str, Declared]) -> bool:
-    """Return whether a number with its unit is only the beginning of an expression: `3 cm*sin(phi)`, `2 m + a`."""
+    """Return whether a number with its unit is only the beginning of an expression, as in `3 cm*sin(phi)`."""
     names = re.findall(r"(?<![\d.])[A-Za-z_][A-Za-z0-9_]*", text)[1:]  # the first name is the unit
     return any(name in RESERVED or name in symbols and name not in UNIT_NAMES for name in names)
 

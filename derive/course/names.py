@@ -1,7 +1,6 @@
-"""The names of sets and problems, and the names of the documents of a whole set. No problem can have the name of such a
-document.
+"""The names of sets and problems, and the names of the documents of a whole set.
 
-The document "solutions" is for students, "problems" has only the questions, and "report" is for the instructor.
+The document "solutions" is for students, "problems" has the questions, and "report" is for the instructor.
 """
 
 from __future__ import annotations
@@ -11,8 +10,7 @@ from enum import StrEnum
 
 NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,63}")
 SOLUTIONS, SHEET, REPORT = OF_EVERY_SET = ("solutions", "problems", "report")
-# Documents that are made only on request: the key has every line and the points of each step, the hints do not give
-# the answers, and the rubric has the points alone.
+# documents that are made only on request
 KEY, HINTS, RUBRIC = MORE = ("key", "hints", "rubric")
 DOCUMENTS = (*OF_EVERY_SET, *MORE)
 ON_A_PAGE = (SHEET, *MORE)  # each of these documents is also built as a single page for a browser
@@ -28,7 +26,7 @@ class Paper(StrEnum):
 
 
 class EvidenceShown(StrEnum):
-    """How much a solution shows about its verification; the report of its set always shows everything."""
+    """How much a solution shows about its verification."""
 
     NONE = "none"  # nothing
     END = "end"  # a note at the end of the solution, which counts the checks

@@ -1,5 +1,5 @@
 """The modules that a script imports from its own folder. They can be imported only while the script is imported or
-runs, and they are read again each time."""
+runs."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from pathlib import Path
 
 def own_modules(script: Path) -> tuple[Path, ...]:
     """Return the files of the modules in the script's folder that the script imports, directly or through other
-    modules. If the script imports a package, each Python file of the package is returned."""
+    modules."""
     found: set[Path] = set()
     waiting = [script]
     while waiting:
@@ -26,9 +26,8 @@ def own_modules(script: Path) -> tuple[Path, ...]:
 
 @contextmanager
 def importable(script: Path, modules: Collection[Path]) -> Iterator[None]:
-    """If there are modules, append the script's folder to the module search path, so that no module of a problem hides
-    an installed package. At the end, remove the folder from the path, and the modules that were imported meanwhile from
-    `sys.modules`."""
+    """Make the modules importable within a `with` block. The script's folder is last on the module search path, so that
+    no module of a problem hides an installed package."""
     if not modules:
         yield
         return
@@ -48,8 +47,8 @@ def importable(script: Path, modules: Collection[Path]) -> Iterator[None]:
 
 
 def _imported(file: Path) -> set[str]:
-    """Return the names of the top-level modules and packages that a file imports. The set is empty if the file is not
-    Python; this error is reported when the file is imported."""
+    """Return the names of the top-level modules and packages that a file imports. An error of syntax is reported when
+    the file is imported."""
     try:
         nodes = [*ast.walk(ast.parse(file.read_bytes()))]
     except (OSError, SyntaxError, ValueError, RecursionError, MemoryError):

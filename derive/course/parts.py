@@ -45,7 +45,6 @@ def _points(node: Tree, name: str, faults: Faults) -> Fraction | None:
 
 
 def _units(node: Tree, name: str, faults: Faults) -> tuple[Word, ...]:
-    """Read one unit, or a list of them: `rpm`, `[rad/s, rpm]`."""
     items = node.items if isinstance(node, Sequence) else (node,)
     if not items or any(not isinstance(item, Scalar) for item in items):
         wrong_type(faults, f"`{name}`", "a unit", node)
@@ -119,7 +118,7 @@ OBSERVATIONS_MEANING = (
 
 @dataclass(frozen=True)
 class AnswerForm(Record):
-    """The required form of a number, in one unit or in several; a key that is left out has its default value."""
+    """The required form of a number, in one unit or in several."""
 
     units: tuple[Word, ...] = key(
         "unit of the number, such as `degree` or `N m`, or a list of units",
@@ -145,7 +144,7 @@ def _forms(node: Tree, name: str, faults: Faults) -> dict[str | None, AnswerForm
 
 @dataclass(frozen=True)
 class Question(Record):
-    """One part of a problem. `forms` maps the key of an answer to its form, or `None` to one form for all answers."""
+    """One part of a problem. The key `None` of `forms` is for all answers."""
 
     ask: Prose = key(
         "the question, in prose; `<<cases>>` stands for the numbers in the cases of the part's plot",
@@ -226,8 +225,7 @@ _LISTED = list_of(Reader(_PART.schema, _part), "a list of parts")
 
 
 def _parts(node: Tree, name: str, faults: Faults) -> tuple[Question, ...] | None:
-    """Return the parts; reject a part that is followed by a part of lower detail, so that omitted parts are always
-    last."""
+    """Return the parts; reject a part after which a part of less detail follows, so that omitted parts are last."""
     parts = _LISTED.read(node, name, faults)
     for part, following in pairwise(parts or ()):
         if not following.detail.shows(part.detail):
@@ -242,8 +240,8 @@ PARTS = Reader(_LISTED.schema, _parts, _LISTED.absent)
 def points_in_all(
     stated: Fraction | None, place: Place | None, parts: List[Question], faults: Faults
 ) -> Fraction | None:
-    """Return the points of a problem: the stated points, checked against its parts, or else the sum over its parts;
-    None if no points are stated."""
+    """Return the points of a problem: the stated points, or else the sum over its parts; None if no points are
+    stated."""
     counted = [part.points for part in parts if part.points is not None]
     total = sum(counted, Fraction(0))
     if stated is None or not parts:

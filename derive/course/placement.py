@@ -29,13 +29,13 @@ ROMAN = ("i", "ii", "iii", "iv", "v", "vi", "vii", "viii", "ix", "x")
 
 
 def case_label(index: int) -> str:
-    """Return the label of a case, counted from 0: i, ii, ... x, then 11, 12, ... Parts have the labels a, b, c."""
+    """Return the label of a case, counted from 0: i, ii, ... x, then 11, 12, ..."""
     return ROMAN[index] if index < len(ROMAN) else str(index + 1)
 
 
 @dataclass(frozen=True)
 class Range:
-    """The two ends of the range of a plot: numbers whose kind is known only after the script has run."""
+    """The two ends of the range of a plot; their kind is known only after the script has run."""
 
     ends: tuple[Formula, ...]
 
@@ -52,17 +52,17 @@ class Placement:
     """The settings of one drawing; derive chooses the settings that are left out.
 
         view      the azimuth and the elevation of the direction from which a drawing in space is seen, in degrees
-        like      the name of the drawing whose contents this further drawing repeats
+        like      the name of the drawing whose contents this drawing repeats
         marks     the marks that the problem adds to the drawing
-        plot      one answer, whose curve the engine draws, or two answers or formulas, whose path the engine draws
-        curves    several answers, whose curves the engine draws in one plot
+        plot      the plotted answer, or the two answers or formulas of a path
+        curves    several answers that are plotted together
         labels    the names of the axes of a path, in place of its formulas
         surfaces  the names of the surfaces that are drawn with a path
         then      the value that curves keep after the range
-        up        the ends of the vertical axis of curves, outside of which they are not drawn
-        panels    whether curves are together in one panel or apart; None if derive decides
-    levels, over   for a phase portrait: the value on each curve, and the ranges of the two axes; `over` of a
-              bifurcation diagram: the range of its vertical axis
+        up        the ends of the vertical axis of curves
+        panels    whether curves are together in one panel or apart; None by default
+    levels, over   for a phase portrait: the value on each curve, and the ranges of the two axes; for a bifurcation
+                   diagram, `over` has the range of the vertical axis
         letters   the letters that formulas of a plot may contain, by name
     """
 
@@ -99,7 +99,7 @@ class Placement:
 
     @property
     def shows(self) -> tuple[str, ...]:
-        """Return the marks that name a thing of a body, such as its centre of mass."""
+        """Return the marks of a body, such as its centre of mass."""
         return tuple(str(mark.mark) for mark in self.marks if mark.mark in MARKS_OF_BODY)
 
     @property
@@ -109,7 +109,6 @@ class Placement:
 
     @property
     def is_diagram(self) -> bool:
-        """Whether the drawing is a bifurcation diagram: the equilibria against a parameter."""
         return self.plot == (EQUILIBRIA,)
 
     @property
@@ -121,8 +120,7 @@ class Placement:
 def placements(
     drawings: Table[Word, DrawingKeys], symbols: Table[str, Declared], parts: int, faults: Faults
 ) -> tuple[Placement, ...]:
-    """Read every entry of `drawings:`. The names of the drawings are not checked here, because the script defines
-    them when it runs."""
+    """Read every entry of `drawings:`. The names are checked after the script has run."""
     return tuple(
         Placement(
             key=name,
@@ -182,12 +180,10 @@ def _width(node: Tree | None, faults: Faults) -> float | None:
 def _values(
     written: Table[Word, Tree], symbols: Table[str, Declared], faults: Faults
 ) -> tuple[tuple[Symbol, Expr], ...]:
-    """Read the numbers or proportions for letters, in the order of the file. A proportion contains other letters: `h:
-    2*R`."""
+    """Read the numbers for letters, or their proportions such as `h: 2*R`."""
     found: list[tuple[Symbol, Expr]] = []
     for name, value in written.items():
-        # A coordinate of the script is not declared; whether the drawing contains this coordinate is known only after
-        # the script has run.
+        # A coordinate of the script is not declared.
         declared = symbols.get(name) or Declared(str(name), scalar(str(name)), "angle")
         with faults:
             expr = read_value(name, value, declared.kind, symbols)

@@ -1,7 +1,7 @@
 """A problem as checked values: its YAML, its script, and the match of `given:` to the signature of `solve()`.
 
 `load_problem` reports the errors of a file together. Names in prose and answer keys are checked later, where the steps
-are known; `Prose.place_of` and `Problem.place_of` give the places for their errors.
+are known.
 """
 
 from __future__ import annotations
@@ -49,10 +49,7 @@ DEFAULT_FIGURES = 4
 
 @dataclass(frozen=True)
 class Problem:
-    """The checked contents of a problem's file; paths are relative to the root.
-
-    The statements of a source document are parsed only when they are compared; until then `reference` holds their text.
-    """
+    """The checked contents of a problem's file; paths are relative to the root."""
 
     id: str
     path: str
@@ -96,13 +93,12 @@ class Problem:
 
     @property
     def asked(self) -> tuple[Word, ...]:
-        """The names of the steps that parts ask for, of the steps that limiting cases name, and of the answers whose
-        curves the engine draws; the equilibria of a bifurcation diagram and the formulas of a path are left out."""
+        """The names of the steps that parts, limiting cases and plots of curves ask for."""
         return _asked(self.parts, self.limits, self.drawings)
 
     @property
     def dimensions(self) -> dict[Symbol, Dimension]:
-        """The dimension of every letter of `symbols`: those that are declared, and those introduced for numbers."""
+        """The dimension of every letter of `symbols`."""
         return {declared.symbol: declared.dimension for declared in self.symbols.values()}
 
     @property
@@ -121,18 +117,17 @@ class Problem:
 
     @property
     def order(self) -> Order:
-        """The order of letters that follows from the assumed relations; it decides signs."""
+        """The order of letters that follows from the assumed relations."""
         return order_of(self.assumed, self.ranges)
 
     @property
     def letters(self) -> tuple[Declared, ...]:
-        """The letters that are declared, those that replace numbers, and those that a description introduces."""
+        """All letters of the problem."""
         return (*self.symbols.values(), *(self.described.letters.values() if self.described else ()))
 
     @property
     def amounts(self) -> dict[Symbol, Amount]:
-        """The number of each letter that has a number, in the coherent SI unit; an angle in degrees stays in
-        degrees."""
+        """The number of each letter that has a number, in the coherent SI unit or in degrees."""
         return self._in_the_si(self.measured)
 
     def _in_the_si(self, numbers: Iterable[Measured]) -> dict[Symbol, Amount]:
@@ -145,10 +140,7 @@ class Problem:
         }
 
     def cases_of(self, part: Question) -> dict[str, dict[Symbol, Amount]]:
-        """Return the numbers of each case of a part, by the label of the case.
-
-        A case states only the numbers that differ from the numbers of the first case.
-        """
+        """Return the numbers of each case of a part, by the label of the case."""
         cases = next((placement.cases for placement in self.drawings if placement.key == part.cases), ())
         numbers = (self._in_the_si((*self.measured, *cases[0], *case)) for case in cases)
         return {case_label(i): amounts for i, amounts in enumerate(numbers)}
@@ -160,8 +152,7 @@ class Problem:
         return [pair for numbers in (self.amounts, *cases) for pair in numbers.items()]
 
     def keys_in_cases(self, part: Question, answers: Iterable[str]) -> list[str]:
-        """Return the keys under which the numbers of these answers are stored: case by case, one key for each
-        answer."""
+        """Return the keys of the numbers of these answers in each case."""
         return [f"{answer}_in_case_{case}" for case in self.cases_of(part) for answer in answers]
 
     @property
@@ -173,7 +164,7 @@ class Problem:
         return (self.title, self.statement, *(part.ask for part in self.parts), *around, *wording, *captions)
 
     def place_of(self, *keys: str) -> Place:
-        """Return the place where a key was written: `place_of("show", "spin")`, `place_of("given")`."""
+        """Return the place of a key: `place_of("show", "spin")`, `place_of("given")`."""
         return self.places[".".join(keys)]
 
 
@@ -185,8 +176,8 @@ def load_problem(root: Path, problem_id: str, chosen: Chosen | None = None) -> P
 
 
 def problem_and_faults(root: Path, problem_id: str, chosen: Chosen | None = None) -> tuple[Problem, Faults]:
-    """Return the problem, and the errors in its `drawings:`, which do not affect any step. If there are other errors,
-    raise them together with the errors in `drawings:`.
+    """Return the problem, and the errors in its `drawings:`, which do not affect any step. Raise `Rejected` if there
+    are other errors.
 
     chosen   the choices of a variant; by default the values of the file itself
     """
@@ -247,7 +238,7 @@ def _asked(parts: Iterable[Question], limits: Iterable[LimitKeys], drawings: Ite
     answers = [answer for part in parts for answer in part.answers]
     limited = [name for each in limits for name in (each.of, each.step, each.known) if name]
     first: dict[str, Word] = {}
-    # A diagram also shows equilibria that no part asks for, such as the mirror image of another one.
+    # A diagram also shows equilibria that no part asks for.
     plotted: list[Word] = [each.plot[0] for each in drawings if len(each.plot) == 1 and not each.is_diagram]
     plotted += [name for drawing in drawings for name in drawing.curves]
     for name in (*answers, *limited, *plotted):  # the step of a limit may also be an answer of a part
@@ -272,7 +263,6 @@ def _by_method(pinned: Pinned, written: ProblemKeys, script: Script | StockScrip
 
 
 def _check_cases(parts: tuple[Question, ...], drawings: tuple[Placement, ...], faults: Faults) -> None:
-    """Check that a part with `cases:` names a plot that has cases."""
     known = [placement.key for placement in drawings if placement.cases]
     for cases in (part.cases for part in parts if part.cases):
         if cases not in known:
@@ -281,9 +271,7 @@ def _check_cases(parts: tuple[Question, ...], drawings: tuple[Placement, ...], f
 
 
 def _check_plots(drawings: tuple[Placement, ...], script: Script | StockScript | None, faults: Faults) -> None:
-    """Check that a drawing with `plot` or `curves` has only one of these keys and belongs to a script of the engine.
-    Unless it is a phase portrait, it needs `against` and `range`. A drawing without `plot` and `curves` must not have
-    `against`."""
+    """Check that the keys of each plot fit together."""
     for drawing in drawings:
         _check_panels(drawing, faults)
         _check_marks_of_body(drawing, script, faults)
@@ -313,7 +301,6 @@ def _check_plots(drawings: tuple[Placement, ...], script: Script | StockScript |
 
 
 def _check_marks_of_body(drawing: Placement, script: Script | StockScript | None, faults: Faults) -> None:
-    """Check that marks such as a centre of mass belong to the drawing of a body."""
     known = script.stock.shows if isinstance(script, StockScript) else ()
     for mark in drawing.marks:
         if mark.mark not in MARKS_OF_BODY:
@@ -328,8 +315,7 @@ def _check_marks_of_body(drawing: Placement, script: Script | StockScript | None
 
 
 def _check_panels(drawing: Placement, faults: Faults) -> None:
-    """Check that a drawing with `panels` has several curves, that one with `labels` or `surfaces` is a path, that one
-    with `up` is not, and that one with `then` has curves against the time."""
+    """Check the keys of a drawing that are only for some plots."""
     if drawing.panels and max(len(drawing.cases), len(drawing.curves)) < 2:
         message = f"`panels` has no effect on `{drawing.key}`, which has only one curve"
         faults.error("unused-key", message, drawing.place, help="leave it out, or add `cases`")
@@ -346,7 +332,7 @@ def _check_panels(drawing: Placement, faults: Faults) -> None:
 
 
 def _check_portrait(drawing: Placement, faults: Faults) -> None:
-    """Check that a phase portrait has one answer, `levels` and two ranges, but no `panels`, `against` or `range`."""
+    """Check that a phase portrait has the keys that it needs, and no others."""
     extra = drawing.against or (drawing.range.ends[0] if drawing.range else None)
     if drawing.panels:
         message = f"`panels` has no effect on the phase portrait `{drawing.key}`: each case has its own panel"
@@ -362,8 +348,7 @@ def _check_portrait(drawing: Placement, faults: Faults) -> None:
 
 
 def run_solve(problem: Problem, record: Run | None = None) -> object:
-    """Return what the script's `solve()` returns for the given values; its steps and assumptions are added to the
-    record."""
+    """Return what the script's `solve()` returns; its steps and assumptions are added to the record."""
     with solving(problem, record or Run()):
         if isinstance(problem.script, StockScript):
             answers = problem.script.stock.answers(problem.described)
@@ -375,8 +360,7 @@ def run_solve(problem: Problem, record: Run | None = None) -> object:
 
 @contextmanager
 def solving(problem: Problem, record: Run) -> Iterator[None]:
-    """Add the steps of a `with` block to `record`; before them, add the problem's numbers, places of givens, letters,
-    assumptions and defined quantities."""
+    """Add the steps of a `with` block to `record`, after the letters, numbers and assumptions of the problem."""
     record.numbers = {letter: explicit(amount) for letter, amount in problem.amounts.items()}
     written = {given.name: problem.places.get(f"given.{given.name}") for given in problem.givens}
     record.places = {name: place for name, place in written.items() if place}
@@ -396,15 +380,12 @@ def solving(problem: Problem, record: Run) -> Iterator[None]:
 
 @contextmanager
 def deriving(problem: Problem, record: Run) -> Iterator[None]:
-    """Add the steps of a `with` block to `record`; inside the block, the ranges and the order of the letters are
-    known."""
+    """Add the steps of a `with` block to `record`; the ranges and the order of the letters are known in the block."""
     with recorded(record), within(problem.ranges), in_order(problem.order):
         yield
 
 
 def _letters_of(problem: Problem) -> set[str]:
-    """Return the names of all letters: those in the givens, those that a description introduces, the defined ones, and
-    those with numbers."""
     own = problem.described.letters if problem.described else {}
     given = {letter.name for each in problem.givens for letter in each.letters}
     named = {each.name for each in problem.defined}
@@ -412,7 +393,7 @@ def _letters_of(problem: Problem) -> set[str]:
 
 
 def _assume_range(declared: Declared) -> None:
-    """Assume the range that is declared for a letter; a bound that follows from the letter's kind is left out."""
+    """Assume the range that is declared for a letter."""
     if declared.lies is None:
         return
     least, greatest = declared.lies.least, declared.lies.greatest
@@ -424,8 +405,8 @@ def _assume_range(declared: Declared) -> None:
 
 
 def _script(root: Path, path: str, name: Word | None, faults: Faults) -> tuple[str, Script | StockScript | None]:
-    """Return the path and the script: a file in the problem's folder or in another one, or one of the engine's scripts,
-    which has the path "". After an error, the script is None."""
+    """Return the path and the script, which may be one of the engine's, with the path "". After an error, the script is
+    None."""
     if name is None:
         return "", None
     if name in stock_names():
@@ -452,7 +433,7 @@ def _script(root: Path, path: str, name: Word | None, faults: Faults) -> tuple[s
 
 @dataclass(frozen=True)
 class Pinned:
-    """The input of `solve()`: the letters, the given values or the description, and the numerical values of letters."""
+    """The input of `solve()`."""
 
     symbols: dict[str, Declared]
     givens: tuple[Given, ...]
@@ -468,7 +449,7 @@ def pinned_by(
     script: Script | StockScript | None,
     faults: Faults,
 ) -> Pinned:
-    """Read three keys of a file: `symbols:`, `values:` and `given:`; the script determines the names in `given:`."""
+    """Read the keys `symbols:`, `values:` and `given:` of a file."""
     symbols = declared_letters(kinds, faults)
     moving: dict[str, str] = {}
     if isinstance(script, StockScript):
@@ -508,8 +489,7 @@ OF_ONE_VALUE = ("undeclared-symbol", "wrong-kind", "wrong-type", "not-positive",
 
 
 def _are_superfluous_keys(faults: Faults, given: Mapping) -> bool:
-    """Whether each error is an unknown key that resembles no known key and is inside an entry, such as a particle. Then
-    no value is missing because of these errors, so errors in the values of the known keys are reported too."""
+    """Whether the only errors are superfluous keys of entries, so that errors in the other keys can be reported too."""
     at_top = {name.place for name, _ in given.pairs}
     return all(
         each.code == "unknown-key" and (each.help or "").startswith(THE_KEYS_ARE) and each.place not in at_top
@@ -528,7 +508,7 @@ def _errors_of_values(reading: Callable[[Faults], object]) -> Faults:
 def _described_by(
     script: StockScript, given: Mapping, symbols: dict[str, Declared], values: tuple[Measured, ...], faults: Faults
 ) -> Pinned:
-    """Read a description; every declared letter becomes a given, so that prose may mention the letter."""
+    """Read a description; every declared letter becomes a given, so that prose may mention it."""
     own = Faults()
     written = read_record(script.stock.keys, given, "`given`", own)
     if own:
@@ -547,7 +527,7 @@ def _described_by(
 
 
 def _check_names(given: Table[Word, Tree], asked: Table[str, Parameter], place: Place, faults: Faults) -> None:
-    """Check that the names of the givens are the parameters of `solve()`; a mistyped name is one error, not two."""
+    """Check that the names of the givens are the parameters of `solve()`."""
     missing = [name for name, parameter in asked.items() if parameter.required and name not in given]
     for word in given:
         if word not in asked:

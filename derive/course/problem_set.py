@@ -13,13 +13,13 @@ from derive.course.schema import TEXT, Reader, Record, key, keys_of, list_of, on
 from derive.course.yaml_tree import Mapping, Scalar, Sequence, Tree, Word, read_yaml, shape_of
 from derive.errors import Complaint, DeriveError, Faults, Misused, Rejected, did_you_mean, nearest
 
-COURSE = "course.yaml"  # the file in the folder of a course with the keys that all its sets share
+COURSE = "course.yaml"  # the file with the keys that all sets of a course share
 LARGEST_LOGO = 2_000_000  # bytes
 PNG = b"\x89PNG\r\n\x1a\n"  # the first bytes of a PNG file
 _NOT_PROBLEMS = ("set", "reference")
 
 
-# The documents of a set that does not list its documents, each with the name of its files.
+# the default documents of a set, each with the name of its files
 THOSE_OF_EVERY_SET = tuple((kind, kind) for kind in OF_EVERY_SET)
 
 
@@ -68,7 +68,7 @@ DOCUMENTS_SCHEMA = {
 
 
 def _documents(node: Tree, name: str, faults: Faults) -> dict[Word, Word] | None:
-    """Read `[solutions, hints]`, or `{solutions: hw9-solutions}`: each document with the name of its files."""
+    """Read `[solutions, hints]`, or `{solutions: hw9-solutions}` with names of files."""
     pairs: list[tuple[Tree, Tree]] = []
     if isinstance(node, Mapping) and node.pairs:
         pairs = [(kind, file) for kind, file in node.pairs]
@@ -92,7 +92,7 @@ def _documents(node: Tree, name: str, faults: Faults) -> dict[Word, Word] | None
 
 @dataclass(frozen=True)
 class CourseKeys(Record):
-    """The keys of `course.yaml`, which all sets of the course share; a set may have any of them in its own file."""
+    """The keys of `course.yaml`, which all sets of the course share."""
 
     course: Word | None = key("the course", TEXT)
     institution: Word | None = key("the university, the department or the school", TEXT)
@@ -120,14 +120,12 @@ class SetKeys(CourseKeys):
 
 
 def problem_ids(root: Path) -> list[str]:
-    """Return the ids, such as `hw9/block`, of all problem files below the root, including files in the folder of a
-    topic of a set."""
+    """Return the ids, such as `hw9/block`, of all problem files below the root."""
     return sorted(problem_paths(root))
 
 
 def ids_in_order(root: Path) -> list[str]:
-    """Return the ids of all problems set by set, in the order in which each set lists its problems. In each set,
-    unlisted problems come last."""
+    """Return the ids of all problems, in each set in the order of its list; unlisted problems come last."""
     listed: list[str] = []
     for set_id in set_ids(root):
         with suppress(DeriveError):
@@ -146,7 +144,7 @@ def problem_paths(root: Path) -> dict[str, str]:
 
 
 def found_path(root: Path, problem_id: str) -> str | None:
-    """Return the file of one problem, if it exists; the files of other sets are not searched."""
+    """Return the file of one problem, if it exists."""
     set_id, _, name = problem_id.partition("/")
     if not (NAME.fullmatch(set_id) and NAME.fullmatch(name)) or name in _NOT_PROBLEMS:
         return None
@@ -176,8 +174,7 @@ def path_of(root: Path, problem_id: str) -> str:
 
 
 def _meant(problem_id: str, known: list[str]) -> str:
-    """Return a help line with the most similar id. If no whole id is similar, only the names after the `/` are
-    compared. If no name is similar either, the help line mentions `derive list`."""
+    """Return a help line with the most similar id, if there is one."""
     by_name = {full.partition("/")[2]: full for full in reversed(known)}
     close = nearest(problem_id, known) or by_name.get(nearest(problem_id.rpartition("/")[2], by_name) or "")
     return f"did you mean `{close}`?" if close else "`derive list` shows the problems"
@@ -238,7 +235,7 @@ def problem_set(root: Path, set_id: str) -> ProblemSet:
 
 
 def _logo(root: Path, path: Word, faults: Faults) -> bytes | None:
-    """Return the content of a logo; report an error if it is not a PNG file of the course, or too large."""
+    """Return the content of a logo, which must be a small PNG file of the course."""
     file = root / path
     help_line = "name a PNG file in the folder of the course, such as `logo.png`"
     if not file.resolve().is_relative_to(root.resolve()) or not file.is_file():
@@ -261,7 +258,6 @@ def _course(root: Path, faults: Faults) -> CourseKeys:
 
 
 def _clashes(documents: dict[Word, Word], problems: List[str], faults: Faults) -> None:
-    """Check that no document has the name of another document, of a problem, or of the set's page for a browser."""
     for n, file in enumerate(documents.values()):
         others = [*list(documents.values())[:n], *problems, INDEX]
         if file in others:

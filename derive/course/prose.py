@@ -22,9 +22,7 @@ from derive.errors import Complaint, Faults, Place
 EQUATION, PROBLEM, FIGURE = "eq", "problem", "figure"
 LONGEST_IN_PROSE = 400
 
-# A dollar sign next to a digit may be the sign of a price. It opens a formula in two cases: it is followed by a letter,
-# `\`, `(` or `{`; or it is followed by a digit, and the closing `$` has neither a blank before it nor a digit after it.
-# "2$a$" has a formula, "5$ each" has none.
+# A dollar sign next to a digit may be the sign of a price: "2$a$" has a formula, "5$ each" has none.
 _PIECE = re.compile(
     r"(?P<dollar>\\\$)"
     r"|(?P<formula>\$(?:(?<!\d\$)(?=[^\d$])|(?=[A-Za-z\\({]))[^$]*\$|\$(?=\d)[^$]*[^$\s]\$(?!\d))"
@@ -68,10 +66,10 @@ class TexFormula:
 
 @dataclass(frozen=True)
 class Prose:
-    """Text with mentions and formulas; `pieces` is the whole text in order, so that no other code needs to parse it.
+    """Text with mentions and formulas; `pieces` is the whole text in order.
 
     `part(index, width)` returns the `width` characters that begin at `index` in the text, with their place in the file.
-    `gap` is an empty line between paragraphs: one line break in folded text, two in literal text (`|`).
+    `gap` is the break between paragraphs, which differs between folded and literal text.
     """
 
     text: str
@@ -95,7 +93,6 @@ class Prose:
 
     @cached_property
     def paragraphs(self) -> tuple[tuple[str | Mention | TexFormula, ...], ...]:
-        """The pieces of each paragraph."""
         found: list[list[str | Mention | TexFormula]] = [[]]
         for piece in self.pieces:
             first, *others = re.split(f"{self.gap}\\s*", piece.rstrip("\n")) if isinstance(piece, str) else [piece]
@@ -133,7 +130,7 @@ class Prose:
 
 
 def read_prose(node: Tree, what: str, faults: Faults) -> Prose | None:
-    """Return the prose of a node, or None if the node is not text. Errors in its mentions and formulas are reported."""
+    """Return the prose of a node, or None if the node is not text."""
     if not isinstance(node, Scalar):
         faults.error("wrong-type", f"`{what}` must be text, but it is {shape_of(node)}", node.place)
         return None
@@ -154,7 +151,7 @@ def read_prose(node: Tree, what: str, faults: Faults) -> Prose | None:
 
 
 def _check_formula(formula: TexFormula, style: str, faults: Faults) -> None:
-    """Report an error that is visible without parsing the formula; its letters are known only when the page is made."""
+    """Report an error that is visible without parsing the formula."""
     inner = formula.scalar
     if inner.empty:
         faults.error("formula-in-prose", "there is no formula between these dollar signs", inner.place, help=_DOLLAR)
@@ -190,8 +187,7 @@ def _some_prose(node: Tree, what: str, faults: Faults) -> Prose | None:
 
 
 def latex_in(prose: Prose) -> Complaint | None:
-    """Return a warning about the first LaTeX outside of dollar signs, which is printed unchanged; None without such
-    LaTeX."""
+    """Return a warning about the first LaTeX outside of dollar signs, if there is any."""
     found = [*_LATEX.finditer(_PIECE.sub(_blanked, prose.text))]
     if not found:
         return None
@@ -208,9 +204,7 @@ def latex_in(prose: Prose) -> Complaint | None:
 
 
 def _blanked(match: re.Match[str]) -> str:
-    """Replace a match before the search for LaTeX: a formula or a dollar sign by blanks, and a mention by letters,
-    because `<<x>>^2` contains LaTeX.
-    """
+    """Replace a formula or a dollar sign by blanks, and a mention by letters, because `<<x>>^2` contains LaTeX."""
     return (" " if match["formula"] or match["dollar"] else "x") * len(match[0])
 
 

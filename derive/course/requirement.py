@@ -1,5 +1,4 @@
-"""Conditions that the givens of a script must satisfy, for example that a disc mounted on a rod does not lie beyond the
-end of the rod."""
+"""Conditions that the givens of a script must satisfy."""
 
 from __future__ import annotations
 
@@ -16,7 +15,7 @@ _MARKS = {"==": "=", "!=": "!=", "<": "<", ">": ">", "<=": "<=", ">=": ">="}
 
 
 def require(condition: Boolean | bool, given: str, must: str) -> None:
-    """Reject a given value if its letters or their numbers show that a condition fails.
+    """Reject a given value if a condition is known to fail.
 
     If it is unknown whether the condition holds, the condition is assumed, and the page states this assumption.
 

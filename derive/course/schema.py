@@ -2,8 +2,8 @@
 
     figures: int | None = key("significant figures of the number", FIGURES)
 
-Each key has a reader. The JSON schema of the reader shows editors what the key allows; the function of the reader turns
-the contents of the key into a checked value.
+The JSON schema of a reader shows editors what the key allows; its function turns the contents of the key into a checked
+value.
 """
 
 from __future__ import annotations
@@ -75,7 +75,7 @@ def keys_of(record: type[Record]) -> dict[str, Key]:
 
 
 def read_record(record: type[R], node: Mapping, what: str, faults: Faults) -> R:
-    """Read every key of a mapping; an error in one key does not hide the errors in other keys."""
+    """Read every key of a mapping."""
     keys = keys_of(record)
     check_keys(node, keys, what, faults)
     read: dict[str, Any] = {}
@@ -88,7 +88,7 @@ def read_record(record: type[R], node: Mapping, what: str, faults: Faults) -> R:
 
 
 def check_keys(node: Mapping, keys: Table[str, Key], what: str, faults: Faults) -> None:
-    """Report unknown and missing keys of a mapping; a mistyped key is one error, not two."""
+    """Report unknown and missing keys of a mapping."""
     missing = [name for name, wanted in keys.items() if wanted.required and node.get(name) is None]
     renamed = {known.formerly: name for name, known in keys.items()}
     for name, _ in node.pairs:
@@ -104,7 +104,6 @@ def check_keys(node: Mapping, keys: Table[str, Key], what: str, faults: Faults) 
 
 
 def wrong_type(faults: Faults, what: str, wanted: str, node: Tree, help: str | None = None) -> None:
-    """Report that a node does not have the shape that its key requires."""
     if isinstance(node, Scalar) and node.empty or isinstance(node, Sequence) and not node.items:
         faults.error("missing-value", f"{what} must be {wanted}, but it is empty", node.place, help=help)
     else:
@@ -151,7 +150,7 @@ FIGURES = Reader({"type": "integer", "minimum": 1, "maximum": MAX_FIGURES}, _fig
 
 
 def as_written(schema: dict[str, Any], wanted: str) -> Reader[Tree]:
-    """Return a reader that checks only the shape of a node and returns the node; later code parses its contents."""
+    """Return a reader that checks the shape of a node and returns the node."""
 
     def read(node: Tree, name: str, faults: Faults) -> Tree | None:
         odd = _misfit(node, schema)
@@ -164,8 +163,7 @@ def as_written(schema: dict[str, Any], wanted: str) -> Reader[Tree]:
 
 
 def _misfit(node: Tree, schema: dict[str, Any]) -> Tree | None:
-    """Return the first node that is empty or whose shape (list, mapping or text) is not allowed; None if there is no
-    such node. The words of a text are not checked here."""
+    """Return the first node that is empty or has a wrong shape (list, mapping or text); None if there is none."""
     odd = [_misfit_in_one(node, each) for each in schema.get("anyOf", [schema])]
     return None if None in odd else next((within for within in odd if within is not node), node)
 
@@ -202,8 +200,8 @@ def one_of(words: tuple[str, ...]) -> Reader[str]:
 
 
 def mapping_of(values: Reader[T], wanted: str = "") -> Reader[dict[Word, T]]:
-    """Return the reader of a mapping with arbitrary names. The mapping may be left empty, unless `wanted` states what
-    the mapping must be."""
+    """Return the reader of a mapping with arbitrary names. It may be left empty, unless `wanted` says what it must
+    be."""
 
     def read(node: Tree, name: str, faults: Faults) -> dict[Word, T]:
         if isinstance(node, Mapping):
@@ -218,8 +216,7 @@ def mapping_of(values: Reader[T], wanted: str = "") -> Reader[dict[Word, T]]:
 
 
 def mapping_node(values: dict[str, Any]) -> Reader[Mapping]:
-    """Return a reader that returns the node of a mapping; later code reads its values. The mapping may be left
-    empty."""
+    """Return a reader that returns the node of a mapping, which may be left empty."""
 
     def read(node: Tree, name: str, faults: Faults) -> Mapping | None:
         if not isinstance(node, Mapping) and not (isinstance(node, Scalar) and node.left_empty):
@@ -245,8 +242,8 @@ def list_of(items: Reader[T], wanted: str, each: str = "", length: int | None = 
 
 
 def record_of(record: type[R], what: str, wanted: str, called: str = "") -> Reader[R]:
-    """Return the reader of a mapping with the keys of a record. If a value is not a mapping, the error calls it
-    `called`, in which `{}` stands for its name."""
+    """Return the reader of a mapping with the keys of a record. `called` is its name in errors, in which `{}` stands
+    for its key."""
 
     def read(node: Tree, name: str, faults: Faults) -> R | None:
         if isinstance(node, Mapping):

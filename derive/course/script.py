@@ -1,7 +1,7 @@
 """The script of a problem: imported as Python, with its failures reported at lines of the script.
 
 A script is trusted code, but its errors must not look like errors in derive. The report of an error has no traceback;
-it shows the innermost line that belongs to the script. This module also reads which kinds of values `solve()` asks for.
+it shows the innermost line that belongs to the script.
 """
 
 from __future__ import annotations
@@ -77,8 +77,7 @@ def imported_script(file: Path, shown_as: str, name: str) -> Script:
 
 
 def run(script: Script, values: Mapping[str, Any]) -> object:
-    """Return what `solve()` returns; text that the script prints goes to standard error, and does not mix with the
-    output."""
+    """Return what `solve()` returns; text that the script prints goes to standard error."""
     try:
         with redirect_stdout(sys.stderr), importable(script.file, script.modules):
             return script.solve(**values)
@@ -91,8 +90,7 @@ def run(script: Script, values: Mapping[str, Any]) -> object:
 
 
 def _placed(error: DeriveError, file: Path, source: Source) -> DeriveError:
-    """Add a place to an error of a verb (a function of derive that the script calls): the line of the script with the
-    call. The verb itself does not know this line."""
+    """Add a place to an error of a verb: the line of the script with the call."""
     place = _innermost(error, file, source)
     if place is None:
         return error
@@ -172,7 +170,7 @@ def _start(node: ast.expr | ast.stmt | ast.arg) -> tuple[int, int]:
 
 
 def _innermost(error: BaseException, file: Path, source: Source) -> Place | None:
-    """Return the last line of the script that ran before the error propagated out of the script."""
+    """Return the last line of the script that ran before the error."""
     frames = [frame for frame in traceback.extract_tb(error.__traceback__) if frame.filename == str(file)]
     if not frames:
         return None

@@ -1,8 +1,6 @@
 """Scripts of the engine: a key such as `solve: system` names a script, and `given:` describes the input of the script.
 
-Each script of the engine is a module of `derive/stock`. Its `STOCK` has the keys that are allowed under `given:`, the
-function that reads their values in the declared symbols, and the class that derives the answers. The module is loaded
-by its name.
+Each script of the engine is a module of `derive/stock` with an object `STOCK`.
 """
 
 from __future__ import annotations
@@ -40,7 +38,7 @@ class Methods:
     """The methods with which the equations of motion are derived, as a problem and its parts state them.
 
     whole     the method of the problem; None for the default
-    of_names  the name of an answer -> the method of the first part that asks for this answer and states a method
+    of_names  the name of an answer -> the method of the part that asks for it
     """
 
     whole: Word | None = None
@@ -59,12 +57,12 @@ class Methods:
 class Described:
     """The description of a system, body or rotation in a problem.
 
-    letters   the symbols that the description introduces itself, such as coordinates and their rates
-    chosen    the symbols that replace the numbers of the description; `measured` are these numbers
+    letters   the symbols that the description introduces, such as coordinates
+    chosen    the symbols that replace numbers; `measured` are these numbers
     told      given values other than symbols, which prose can mention by their keys
-    several   the names of the bodies if there are several; the name of each answer then begins with the name of a body
-    results   quantities computed from answers; each has a name, and the names of the answers that it uses
-    without   a mapping from keys to the names of the answers that do not depend on the key
+    several   the names of the bodies if there are several
+    results   quantities computed from answers
+    without   keys, each with the names of the answers that do not depend on it
     assumed   relations between symbols that are assumed to hold
     methods   the methods with which the equations of motion are derived
     """
@@ -90,14 +88,13 @@ class Answering(Protocol):
     """The answers of a description."""
 
     def solve(self, asked: Sequence[Word], drawings: Sequence[Placement]) -> Mapping[str, object]:
-        """Return the answers by the names that parts ask for, and draw the requested plots; one name may mean several
-        steps."""
+        """Return the answers by the names that parts ask for, and draw the requested plots."""
 
     def mark(self, drawings: Sequence[Placement]) -> None:
         """Add the marks of the problem to the drawings."""
 
     def every(self) -> dict[str, Any]:
-        """Return the steps of every name that can be derived, and the error of every result that cannot be derived."""
+        """Return the steps of every name that can be derived, and the errors of results."""
 
 
 @dataclass(frozen=True)
@@ -105,9 +102,9 @@ class Stock:
     """A script of the engine.
 
     keys      the keys allowed under `given:`
-    read      returns the description in the declared symbols; collects an error for each value that cannot be read
+    read      returns the description in the declared symbols; collects errors
     answers   the class that derives the answers of a description
-    shows     the marks of a drawing that name a thing of the described object
+    shows     the marks that name a thing of the drawn object
     """
 
     keys: type[Record]
@@ -136,11 +133,8 @@ def stock_script(name: str) -> Stock:
 
 @contextmanager
 def told_at(place: Place | None, places: Mapping[str, Place] = NOWHERE) -> Iterator[None]:
-    """Add places in the file to the errors of a verb: the key of the wrong argument, or else `place`. Rewrite the help
-    lines for a YAML file.
-
-    Verbs (the functions of `derive.mechanics`) do not depend on files, so their errors have no places.
-    """
+    """Add to the errors of a verb the place of the wrong argument in the file, or else `place`. Rewrite the help lines
+    for a YAML file."""
     try:
         yield
     except DeriveError as error:
@@ -156,18 +150,14 @@ def in_keys(help_line: str | None) -> str | None:
 
 
 class InLetters:
-    """Reads the values of a description as expressions in its symbols; the symbol `t` is always the time.
-
-    Each reading method returns a value or raises an error.
-    """
+    """Reads the values of a description as expressions in its symbols; the symbol `t` is always the time."""
 
     def __init__(self, letters: Mapping[str, Declared]):
         self.letters = {TIME.name: Declared(TIME.name, TIME, "time"), **letters}
         self.numbers = NumbersAsLetters(self.letters)
 
     def also(self, letters: Mapping[str, Declared]) -> InLetters:
-        """Return a reader that knows these symbols in addition to the symbols of this reader. This reader and the new
-        one replace equal numbers by the same symbol."""
+        """Return a reader that also knows these symbols; both replace equal numbers by the same symbol."""
         found = InLetters({**self.letters, **letters})
         found.numbers = self.numbers
         return found
@@ -190,8 +180,7 @@ class InLetters:
     ) -> Expr:
         """Read a constant expression of a kind; with `in_time`, it may be a function of the time.
 
-        If quantities of this kind are positive, an expression that is known not to be positive is rejected; zero is
-        allowed with `or_zero`.
+        If quantities of this kind are positive, an expression that is known not to be positive is rejected.
         """
         found = self.constant(node, name, kind, of, in_time)
         if (
@@ -204,8 +193,7 @@ class InLetters:
         return found
 
     def constant(self, node: Tree, name: str, kind: str, of: int = 1, in_time: bool = False) -> Expr:
-        """Read an expression of a kind. Coordinates and rates are rejected; functions of the time are allowed only with
-        `in_time`."""
+        """Read an expression of a kind. Functions of the time are allowed only with `in_time`."""
         found = self.of_kind(node, name, kind, of)
         coordinates = (letter for letter in self.letters if f"{letter}_dot" in self.letters)
         moving = {TIME.name, *(f"{q}{order}" for q in coordinates for order in ("", *RATES[1:]))}
@@ -223,7 +211,7 @@ class InLetters:
     def of_kind(self, node: Tree, name: str, kind: str, of: int = 1) -> Expr:
         """Read a number, or an expression with the dimension of a kind. Zero may have any dimension.
 
-        of   the number of values that belong together; the symbol of each number depends on `of`
+        of   the number of values that belong together
         """
         wanted, is_a = dimension_of_kind(kind), kind_with_article(kind)
         if isinstance(node, Scalar) and (letter := self.numbers.letter(node, name, kind, of)) is not None:
@@ -257,7 +245,7 @@ def each(readings: Iterable[Callable[[], T]]) -> list[T]:
 
 
 def attempted(faults: Faults, reading: Callable[..., T], *of: Any) -> T | None:
-    """Return the result of a reading; after an error, add the error to `faults` and return None."""
+    """Return the result of a reading, or None after an error, which is added to `faults`."""
     with faults:
         return reading(*of)
     return None

@@ -21,7 +21,7 @@ class Transcript(Basic):
 
     @property
     def tex(self) -> str:
-        """The LaTeX, which has only the commands that may be quoted (`derive.course.latex.quoting`)."""
+        """The LaTeX, which has only known commands (`derive.course.latex.quoting`)."""
         return str(self.args[0].name)
 
     @property

@@ -16,7 +16,7 @@ from derive.course.yaml_tree import Mapping, Scalar, Sequence, Tree, Word
 from derive.errors import Complaint
 
 GRAVITY, ACCELERATION = "gravity", "acceleration"
-# Keys under `given`; a coordinate that only these keys mention counts as unused.
+# keys under `given`; a coordinate that only these keys mention counts as unused
 OF_STATES = ("at", "results", "conserved", "coordinates", "functions")
 NOUNS = {"coordinates": "coordinate", "functions": "function"}  # key under `given` -> what an entry is
 _NAME = re.compile(r"(?<![\w.])[A-Za-z_]\w*", re.ASCII)
@@ -47,8 +47,7 @@ def unused_in(
 
 
 def needed_for(asked: Collection[str], made: Table[Word, Collection[Word]]) -> set[str]:
-    """Return the names that are asked for, and the names of the results and answers from which they are computed;
-    `both_x_1` may be a component of `both`."""
+    """Return the names that are asked for, and the names of the results and answers from which they are computed."""
     found, waiting = set[str](), [str(name) for name in asked]
     while waiting:
         name = waiting.pop()
@@ -62,9 +61,8 @@ def needed_for(asked: Collection[str], made: Table[Word, Collection[Word]]) -> s
 
 
 def _letters(written: ProblemKeys, behind: Collection[str], exact: Collection[str]) -> Iterator[Complaint]:
-    """Warn of declared letters that are not used in the givens, the `reference:`, the limits, the drawings or formulas
-    in prose, and that do not replace a number. A letter whose kind is in `exact` causes no warning: an exact number of
-    this kind, such as 45 deg, may be in its place."""
+    """Warn of declared letters that nothing uses. A letter whose kind is in `exact` causes no warning, because an exact
+    number of this kind, such as 45 deg, may be in its place."""
     compared = {name for limit in written.limits for node in _of_limit(limit) for name in _NAME.findall(node)}
     drawn = {name for each in written.drawings.values() for name in _drawn(each)}
     used = {*_names(written.given), *_names(written.reference), *compared, *drawn, *behind, TIME.name}
@@ -78,8 +76,6 @@ def _letters(written: ProblemKeys, behind: Collection[str], exact: Collection[st
 
 
 def _drawn(drawing: DrawingKeys) -> Iterator[str]:
-    """Yield the letters that a drawing uses: those with values, those of its marks, and those in the formulas of a
-    plot."""
     yield from drawing.values
     for mark in drawing.marks:
         for node in (mark.at, mark.start, mark.end, mark.along):
@@ -92,8 +88,6 @@ def _drawn(drawing: DrawingKeys) -> Iterator[str]:
 
 
 def _texts(written: ProblemKeys) -> Iterator[Prose]:
-    """Yield the prose in whose formulas a letter counts as used: the questions, the statement, the strategy, the note,
-    and the sentences under `wording`."""
     yield from (part.ask for part in written.parts)
     yield from (prose for prose in (written.statement, written.strategy, written.note) if prose)
     yield from (prose for outcomes in written.wording.values() for prose in outcomes.values())
@@ -106,7 +100,6 @@ def _lacks_gravity(given: Mapping | None, sort: SortOfLetter) -> bool:
 
 
 def _drawings(written: ProblemKeys) -> Iterator[Complaint]:
-    """Warn of a caption or a width of a drawing that is not shown."""
     for name, each in written.drawings.items():
         hidden = isinstance(each.at, Scalar) and each.at.text == HIDDEN
         for key in (key for key in ("caption", "width") if hidden and key in each.values_at):
@@ -171,7 +164,6 @@ def _keys(described: Described, needed: Collection[str]) -> Iterator[Complaint]:
 
 
 def _names(node: Tree | None) -> Iterator[str]:
-    """Yield every name in the texts of a node; the keys of mappings are left out."""
     if isinstance(node, Scalar):
         yield from _NAME.findall(node.text)
     elif isinstance(node, Sequence):

@@ -5,9 +5,8 @@
       theta: [30 deg, 45 deg, 60 deg]
       axis: [diagonal, x, y]                 a given value of another kind, so the derivation differs
 
-A choice replaces the value in the file before anything is read, so a variant is a problem like any other. The choice
-of a student depends on the seed, the set, the problem, the student and the name only, so a new problem in a set, or
-another variation in a problem, changes no other choice.
+A choice replaces the value in the file before anything is read, so a variant is a problem like any other. The choice of
+a student does not depend on other problems or variations.
 """
 
 from __future__ import annotations
@@ -85,7 +84,6 @@ def _plain(number: Decimal) -> str:
 
 
 def _scalar(text: str, written: Scalar) -> Scalar:
-    """Return a value of a range; an error in it is reported at the range."""
     value = Scalar(text, "", written.start, written.end, written.source)
     value.__dict__["_spans"] = [(written.start, written.end)] * len(text)
     return value

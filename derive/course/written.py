@@ -57,8 +57,8 @@ _NUMBERS = "a mapping such as `{R: 20 cm, a: 5 cm}`"
 class SortOfLetter(str):
     """The kind of a letter; `ends` is the text after `in`: the range of the letter.
 
-    `positive` is true if the word `positive` is before the kind; the letter then stands for a positive number. If
-    `known` is false, the kind is not valid, and the error has been reported.
+    `positive` is true if the word `positive` is before the kind. If `known` is false, the kind is not valid, and the
+    error has been reported.
     """
 
     ends: Scalar | None = None
@@ -67,7 +67,7 @@ class SortOfLetter(str):
 
 
 def sort_of_letter(node: Tree, name: str, faults: Faults, kinds: Iterable[str] = tuple(KINDS)) -> SortOfLetter:
-    """Read a kind; for an unknown kind, report an error and return the first of `kinds` with `known` set to false."""
+    """Read a kind; for an unknown kind, report an error and return a kind with `known` set to false."""
     text, _, ends = node.text.partition(" in ") if isinstance(node, Scalar) else ("", "", "")
     positive, _, rest = text.strip().partition(" ")
     kind = rest.strip() if positive == POSITIVE else text.strip()
@@ -84,7 +84,7 @@ def sort_of_letter(node: Tree, name: str, faults: Faults, kinds: Iterable[str] =
 
 
 def schema_of_sorts(kinds: Iterable[str]) -> dict[str, Any]:
-    """Return the JSON schema of what may be declared for a letter: a kind, a positive kind, or either with a range."""
+    """Return the JSON schema of what may be declared for a letter."""
     plain = list(kinds)
     pattern = rf"^({POSITIVE} )?({'|'.join(plain)}) in [\[(].+,.+[\])]$"
     return {
@@ -145,8 +145,7 @@ def _plotted(node: Tree, name: str, faults: Faults) -> tuple[Formula, ...] | Non
 _PATH = "such as `potential_energy`, or `[path_x, path_z]` for a path"
 _PAIR = {"type": "array", "items": SCALAR.schema, "minItems": 2, "maxItems": 2}
 PANELS = (TOGETHER, APART)
-# Directions from which a drawing in space is seen, in degrees: azimuth, from x towards y, and elevation above the xy
-# plane.
+# directions from which a drawing in space is seen: azimuth and elevation in degrees
 VIEWS = {"front": (0.0, 0.0), "side": (-90.0, 0.0), "top": (-90.0, 90.0)}
 STEEPEST, ROUND = 90.0, 360.0  # the greatest elevation and azimuth
 ENDS = list_of(FORMULA, "the two ends of a range, such as `[-60 deg, 60 deg]`", length=2)
@@ -154,7 +153,7 @@ PLOTTED = Reader({"anyOf": [TEXT.schema, _PAIR]}, _plotted)
 
 
 def _degrees(most: float) -> Reader[float]:
-    """Return the reader of an angle in degrees, with or without the unit, from `-most` to `most`."""
+    """Return the reader of an angle in degrees from `-most` to `most`."""
 
     def read(node: Tree, name: str, faults: Faults) -> float | None:
         number = _DEGREES.fullmatch(node.text.strip()) if isinstance(node, Scalar) else None
@@ -254,7 +253,7 @@ class MarkKeys(Record):
 
     @property
     def written(self) -> tuple[str, ...]:
-        """Return all that the file says about the mark, as texts without places."""
+        """Return what the file says about the mark, as texts without places."""
         named = (self.mark, self.label, self.side, self.size, self.against, self.between)
         return *map(str, named), *map(as_text, (self.at, self.start, self.end, self.along))
 
@@ -372,7 +371,7 @@ class LimitKeys(Record):
 
 
 def _limit(node: Tree, name: str, faults: Faults) -> LimitKeys | None:
-    """Read an entry of `limits:`, which must specify its limit in exactly one way."""
+    """Read an entry of `limits:`, which must specify its limit in one way."""
     found = _LIMIT.read(node, name, faults)
     if found is None:
         return None
@@ -389,7 +388,7 @@ def _limit(node: Tree, name: str, faults: Faults) -> LimitKeys | None:
 
 
 def _way(*keys: str) -> dict[str, Any]:
-    """Return the schema of a limit with these keys and without the keys of the other forms of a limit."""
+    """Return the schema of a limit with these keys."""
     others = {"of", "letter", "where", "step"} - {*keys}
     return {"required": list(keys), "not": {"anyOf": [{"required": [key]} for key in sorted(others)]}}
 

@@ -1,8 +1,7 @@
 """YAML with places: every node has its place in the file, and several errors of a file are reported together.
 
-YAML is read as data: no anchors, no tags, no merge keys, one document. The pure Python parser is used on purpose,
-because its messages name the wrong character; `_syntax_complaint` rewords these messages. If hundreds of files
-are only listed, libyaml reads them in a tenth of the time; a file that libyaml rejects is read again in Python.
+YAML is read as data: no anchors, no tags, no merge keys, one document. The pure Python parser is used because its
+messages name the wrong character. To list many files, libyaml is used, which is faster.
 """
 
 from __future__ import annotations
@@ -29,8 +28,7 @@ LONG_LINE = 160
 _LEFT_OUT = "... "
 NOTHING = ("~", "null", "Null", "NULL")  # the words that editors read as null
 
-# A character that is not allowed: one that cannot be printed, a line separator that editors do not count, or a mark
-# that reorders text on the screen.
+# characters that are not allowed, such as marks that reorder text on the screen
 _ODD = re.compile(
     "[^\t\n\r\x20-\x7e\xa0-\u2027\u202f-\u2065\u206a-\ud7ff\ue000-\ufefe\uff00-\ufffd\U00010000-\U0010ffff]"
 )
@@ -61,8 +59,7 @@ class Source:
         return self.text[self._starts[number - 1] : self._ends[number - 1]]
 
     def place(self, index: int, width: int = 1) -> Place:
-        """Return the place of `width` characters from `index`, but not beyond the end of the line; a long line is
-        shortened."""
+        """Return the place of `width` characters from `index`; a long line is shortened."""
         number = bisect_right(self._starts, index)
         start = self._starts[number - 1]
         length = len(self.line(number))
@@ -114,12 +111,11 @@ class Scalar:
 
     @property
     def empty(self) -> bool:
-        """Whether the text is empty or blank."""
         return not self.text.strip()
 
     @property
     def left_empty(self) -> bool:
-        """Whether nothing follows the `:` or `-`. An unquoted `null` or `~` also counts as nothing; `""` is text."""
+        """Whether nothing follows the `:` or `-`; `""` is text."""
         return self.style == "" and self.empty
 
     @property
@@ -146,7 +142,7 @@ class Scalar:
         return part
 
     def place_within(self, offset: int, width: int = 1) -> Place:
-        """Return the place of `text[offset:offset + width]`, however the scalar was quoted or folded."""
+        """Return the place of `text[offset:offset + width]` in the file."""
         if not self.text:
             return self.source.place(self.start)
         if offset >= len(self.text):
@@ -175,14 +171,14 @@ class Scalar:
 
 
 def _next_visible(raw: str, at: int, style: str) -> int:
-    """Return the index past line ends and indentation, and past the `\\` that joins lines in double quotes."""
+    """Return the index of the next visible character."""
     gap = _JOINED_LINES if style == '"' else _SPACE
     found = gap.match(raw, at)
     return found.end() if found else at
 
 
 def _raw_width(raw: str, at: int, style: str, char: str) -> int:
-    """Return how many characters of the file represent this one character of text."""
+    """Return how many characters of the file represent this character of text."""
     here = raw[at : at + 2]
     if style == '"' and here.startswith("\\"):
         return 2 + {"x": 2, "u": 4, "U": 8}.get(here[1:], 0)
@@ -192,8 +188,7 @@ def _raw_width(raw: str, at: int, style: str, char: str) -> int:
 
 
 class Formula(Word):
-    """An expression in a file, kept as text until its letters are known; two expressions with the same text are
-    equal."""
+    """An expression in a file, kept as text until its letters are known."""
 
     scalar: Scalar
 
@@ -292,14 +287,13 @@ def read_yaml(path: Path, shown_as: str, quickly: bool = False) -> Tree:
 
 @lru_cache(maxsize=64)  # each problem of a set reads the same reference
 def yaml_tree(source: Source) -> Tree:
-    """Return the tree of a YAML text, or raise one `Rejected` with the errors in its syntax. The parser stops at the
-    first error that it finds itself."""
+    """Return the tree of a YAML text, or raise one `Rejected` with the errors in its syntax."""
     faults = Faults()
     for odd in islice(_ODD.finditer(source.text), 5):
         faults.error("control-character", f"the character U+{ord(odd[0]):04X} is not text", source.place(odd.start()))
     tabs = list(_TAB_INDENT.finditer(source.text))
     if tabs:
-        # One error for the file: an editor that writes tabs writes them on every line.
+        # One error for the file, because an editor that writes tabs writes them on every line.
         place = source.place(tabs[0].start() + tabs[0][0].index("\t"))
         notes = (f"{len(tabs)} lines are indented by tabs",) if tabs[1:] else ()
         faults.error("tab", "a tab indents this line", place, notes=notes, help="indent with spaces")
@@ -327,7 +321,7 @@ class _Reader:
                     root = _nothing_is_empty(self.node(event, 1))
         except yaml.MarkedYAMLError as error:
             complaint = _syntax_complaint(error, self.source)
-            # An alias or a tag that was refused leaves the rest of its line unreadable: that is one error, not two.
+            # An alias or a tag that was refused may leave the rest of its line unreadable.
             if complaint.place is None or complaint.place.line not in self.odd_lines:
                 self.faults.add(complaint)
         if root is None or (isinstance(root, Scalar) and root.left_empty):
@@ -387,7 +381,7 @@ class _Reader:
         return Mapping(tuple(pairs.values()), self.source.place(opening.start_mark.index))
 
     def refuse_cleverness(self, event: Any) -> None:
-        """Reject aliases, anchors and tags: problem files do not need them, and often something else was meant."""
+        """Reject aliases, anchors and tags, because often something else was meant."""
         if isinstance(event, yaml.AliasEvent):
             help_line = "quote an expression that begins with `*`"
             self.refuse("alias", f"`*{event.anchor}` is a YAML alias", event, len(str(event.anchor)) + 1, help_line)
@@ -405,8 +399,7 @@ def _nothing_is_empty(node: Tree) -> Tree:
 
 
 def _cut_off(before: Tree, key: Scalar, value: Tree) -> Scalar | None:
-    """Return the whole value if a comma inside a bracket has split it, so that the end of the value looks like the next
-    key; else None."""
+    """Return the whole value if a comma inside a bracket has split it; else None."""
     if not (isinstance(before, Scalar) and before.style == key.style == "" and isinstance(value, Scalar)):
         return None
     source, start = key.source, before.start
@@ -420,7 +413,7 @@ def _needs_quotes(name: str, value: Scalar) -> Complaint:
 
 
 def _syntax_complaint(error: yaml.MarkedYAMLError, source: Source) -> Complaint:
-    """Return the parser's error, reworded for an author who does not know the grammar of YAML."""
+    """Return the parser's error in plain words."""
     context, problem = str(error.context or ""), str(error.problem or "this is not YAML")
     mark = error.problem_mark or error.context_mark
     index = min(mark.index, len(source.text)) if mark else 0

@@ -1,7 +1,4 @@
-"""The alternative of each open node that the facts of the document select, and the evidence for it.
-
-Where the facts do not decide, every alternative stays: `readings` yields the likeliest first.
-"""
+"""The alternative of each open node that the facts of the document select, and the evidence for it."""
 
 from __future__ import annotations
 
@@ -62,7 +59,7 @@ def _has_open(value: Any) -> bool:
 
 
 def _combined(values: list[Any], facts: Facts) -> Iterator[tuple[list[Any], tuple[Choice, ...]]]:
-    """Yield the combinations of readings of several values; the first ones differ in one place only."""
+    """Yield the combinations of readings of several values."""
     if not values:
         yield [], ()
         return

@@ -163,7 +163,6 @@ def _bare(node: Node) -> Node:
 
 
 def _preferred(node: Node) -> Iterable[Node]:
-    """Yield the nodes of a side; of an open node, those of one alternative: the first one, or a product."""
     yield node
     kids = node.alternatives[:1] if isinstance(node, Open) else node.kids
     if isinstance(node, Open) and node.kind == "apply":  # the product has the letter and the argument, but no call

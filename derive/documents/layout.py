@@ -291,7 +291,6 @@ class _Reading:
         return found
 
     def sentence(self, outer: Span, display: bool) -> str:
-        """Return the words of the sentence that contains a formula, without its formulas."""
         before = self.text[max(0, outer.start - 600) : outer.start]
         before = re.split(r"[.!?]\s+(?=[A-Z$\\])|\n[ \t]*\n(?=\S)|\$\$\s*(?=[A-Z])", before.rstrip() + " ")[-1]
         if not before.strip() or len(before.strip()) < 3:
@@ -550,7 +549,6 @@ def _outside_brackets(tokens: Sequence[Token]) -> list[Token]:
 
 
 def _environment(tokens: Sequence[Token], at: int) -> tuple[str, int]:
-    r"""Return the name after `\begin` or `\end`, and the position after its brace."""
     name, after = argument_at(tokens, at)
     return "".join(each.text for each in name), after
 
@@ -658,7 +656,6 @@ def statements_of(cells: list[list[Token]], row: Row, before: Statement | None) 
 
 
 def _main(statements: list[Statement]) -> Statement | None:
-    """Return the last statement that is not an aside: `where k = ...`."""
     main, aside = None, False
     for each in statements:
         aside = each.link in ("where", "if", "since") or (aside and each.link in ("and", "list"))

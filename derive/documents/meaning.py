@@ -844,7 +844,6 @@ def _indices(node: Sum) -> list[Letter]:
 
 
 def _carries(letter: Letter, index: Symbol) -> bool:
-    """Whether a letter has an index in its subscript or in its superscript."""
     return index.name in letter.sub or index.name in letter.label
 
 

@@ -96,7 +96,6 @@ class _Reader:
         return self.tokens[at] if at < len(self.tokens) else None
 
     def needed(self) -> Token:
-        """Return the next token; raise `Unreadable` if there is none."""
         if self.at >= len(self.tokens):
             raise Unreadable("something is missing here", self.tokens[-1].span if self.tokens else Span(0, 0))
         return self.tokens[self.at]
@@ -148,7 +147,6 @@ class _Reader:
         return value
 
     def inside(self, tokens: list[Token], span: Span) -> Node:
-        """Return the node for the tokens inside an argument or a bracket."""
         if not tokens:
             raise Unreadable("something is missing here", span)
         reader = _Reader(tokens, self.depth + 1)
@@ -258,7 +256,6 @@ class _Reader:
         return _product(factors)
 
     def ends(self) -> bool:
-        """Whether no further factor can begin at the next token."""
         token = self.peek()
         if token is None:
             return True
@@ -286,7 +283,6 @@ class _Reader:
         return EvalBar(inner.span, inner, lower, upper)
 
     def scripts(self) -> tuple[Node | None, Node | None]:
-        """Return the subscript and the superscript that follow, as nodes."""
         lower = upper = None
         while (token := self.peek()) is not None and token.kind is Kind.SCRIPT:
             self.at += 1
@@ -486,7 +482,6 @@ class _Reader:
         return letter and (upright or self.in_integral or after.kind is Kind.COMMAND or after.text != "d")
 
     def has_two_groups(self, ahead: int = 0) -> bool:
-        """Whether two arguments in braces follow: the second one is the variable of a derivative."""
         at = self.at + ahead
         if at >= len(self.tokens) or self.tokens[at].kind is not Kind.OPEN:
             return False
@@ -790,7 +785,6 @@ class _Reader:
         raise Unreadable(f"`\\{name}` is not known", token.span)
 
     def difference(self, token: Token) -> Node:
-        r"""Read `\Delta y` as one letter; `\Delta` before a script, a bracket or a sign is a separate letter."""
         after = self.peek()
         if after is not None and (after.kind is Kind.LETTER or (after.kind is Kind.COMMAND and after.text in GREEK)):
             self.at += 1
@@ -1065,7 +1059,6 @@ class _Reader:
         return Open(span, "extent", tuple(alternatives))
 
     def run_of_argument(self) -> list[Node]:
-        """Return the factors that can belong to the argument of a function without brackets."""
         run: list[Node] = []
         while not self.ends():
             token = self.peek()
@@ -1384,7 +1377,6 @@ class _Reader:
 
 
 def _without_empty_braces(tokens: list[Token]) -> list[Token]:
-    """Leave out `{}` that only separates, as in `x_1{}^2`."""
     found: list[Token] = []
     for token in tokens:
         empty = token.kind is Kind.CLOSE and bool(found) and found[-1].kind is Kind.OPEN
@@ -1396,7 +1388,6 @@ def _without_empty_braces(tokens: list[Token]) -> list[Token]:
 
 
 def _is_number(node: Node) -> bool:
-    """Whether a node is a number or a fraction of numbers."""
     if isinstance(node, Frac):
         return isinstance(node.top, Num) and isinstance(node.bottom, Num)
     return isinstance(node, Num)
@@ -1413,7 +1404,6 @@ def _is_product_with_bracket(node: Node) -> bool:
 
 
 def _equals_sign(tokens: Sequence[Token]) -> int | None:
-    """Return the position of the first equals sign outside braces."""
     depth = 0
     for at, token in enumerate(tokens):
         depth += (token.kind is Kind.OPEN) - (token.kind is Kind.CLOSE)
@@ -1445,7 +1435,6 @@ def _split(tokens: Sequence[Token], separates: Callable[[Token], bool]) -> list[
 
 
 def _head_of(tokens: Sequence[Token]) -> str | None:
-    """Return `d` or `partial` if the tokens begin with the head of a derivative."""
     if not tokens:
         return None
     if tokens[0].kind is Kind.LETTER and tokens[0].text == "d":

@@ -2,8 +2,8 @@
 
 With `stack`, a part whose answers are formulas becomes a question of the plugin STACK, which decides with Maxima
 whether the student's formula is equal. A part whose answers all have numbers becomes a numerical question or, with
-several answers, a cloze question; the tolerance is half a unit of the last printed figure. Any other part
-becomes an essay. The general feedback of each question is the worked solution.
+several answers, a cloze question. Any other part becomes an essay. The general feedback of each question is the worked
+solution.
 
 Source of the formats: Moodle documentation, "Moodle XML format"; STACK documentation, "Authoring".
 """
@@ -86,7 +86,6 @@ def _gaps(answers: Sequence[Answer]) -> str:
 
 
 def _inputs(answers: Sequence[Answer]) -> str:
-    """Return a line with a field of STACK for each answer."""
     return "\n".join(
         f"<p>{formula_html(answer.symbol or answer.key)} = [[input:ans{number}]] [[validation:ans{number}]]</p>"
         for number, answer in enumerate(answers, 1)

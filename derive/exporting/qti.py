@@ -77,7 +77,6 @@ def _item(name: str, question: Question, part: Part) -> tuple[str, list[str]]:
 
 
 def _closed(html: str) -> str:
-    """Close the tags of images, as XML requires."""
     return re.sub(r"(<img [^>]*[^/])>", r"\1/>", html)
 
 

@@ -51,7 +51,6 @@ def word_document(title: str, questions: Sequence[Question], solutions: bool = T
 
 
 def _picture(drawing: str) -> str:
-    """Return the name of the picture of a drawing."""
     return drawing.removesuffix(".svg") + ".png"
 
 

@@ -1,7 +1,7 @@
 """The verdict on a formula: equal, equal under a convention that is stated, or what is wrong with it.
 
-The tests go from the strictest to the most generous: equal; equal with the definitions of the problem; equal under a
-convention; the opposite sign; another quantity of the problem; another dimension; a factor; a term; special values.
+The first of these tests that succeeds gives the verdict: equal; equal with the definitions of the problem; equal under
+a convention; the opposite sign; another quantity of the problem; another dimension; a factor; a term; special values.
 """
 
 from __future__ import annotations
@@ -137,7 +137,6 @@ class _Comparison:
         return value
 
     def decimals(self, value: Expr, right: Expr) -> Verdict | None:
-        """Equal within the rounding of the decimals."""
         inexact = self.read.decimals
         if not inexact or any(_figures(each, digits) < FEWEST_FIGURES for each, digits in inexact):
             return None
@@ -191,7 +190,7 @@ class _Comparison:
         return None
 
     def is_free(self, chosen: tuple[Symbol, ...]) -> bool:
-        """Whether only the sense of an angle relative to a coordinate that is not an angle matters for the motion."""
+        """Whether the Lagrangian changes with the sign of an angle, but not if another sign changes with it."""
         if len(chosen) != 1 or self.key.kinds.get(chosen[0]) != "angle":
             return False
         lagrangian = next((each.value for each in self.key.steps if "lagrangian" in each.key), None)
@@ -339,7 +338,6 @@ class _Comparison:
     # Several values
 
     def of_two_signs(self, value: Expr, right: Expr) -> Verdict:
-        """Compare the two values of a formula with plus or minus."""
         given = [
             value.xreplace({PLUS_MINUS: Integer(s)}) for s in ((1, -1) if PLUS_MINUS in value.free_symbols else (1,))
         ]
@@ -467,7 +465,6 @@ def _without_dots(symbol: Symbol) -> Symbol:
 
 
 def _turning(chosen: tuple[Symbol, ...]) -> dict[Symbol, Expr]:
-    """Return coordinates and their rates, each with its negative."""
     return {one: -other for one, other in _with_rates({q: q for q in chosen}).items()}
 
 

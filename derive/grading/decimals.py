@@ -1,7 +1,6 @@
 """The verdict on a number: its value, its unit and its significant figures are judged separately.
 
-A decimal is right if the exact value rounds to it. A whole number may
-have been rounded too, if it ends with zeros or has a unit.
+A decimal may be rounded. Zeros at the end of a whole number may come from rounding, too.
 """
 
 from __future__ import annotations

@@ -47,7 +47,7 @@ class Graded:
 
 
 def grade(answer: str, part: Part, key: Key, seconds: float = SECONDS) -> Graded:
-    """Grade an answer, and return a verdict within the time limit for every input."""
+    """Grade an answer; a verdict also says that an answer is not readable or takes too long."""
     most = sum((target.whole for target in part.targets), Fraction(0))
     try:
         with limited(seconds), within(key.ranges), in_order(key.order):
@@ -205,7 +205,6 @@ class _Grading:
         return [signed(1), signed(-1)]
 
     def entries_of(self, statement: _Statement) -> list[_Statement]:
-        """Return each entry of a list in brackets as a separate statement."""
         if not statement.is_single or not statement.last or not isinstance(statement.last[0].value, MatrixBase):
             return []
         read = statement.last[0]
@@ -490,7 +489,6 @@ class _Grading:
         return None
 
     def with_direction(self, found: Verdict, statement: _Statement, target: Target) -> Verdict:
-        """Compare also the direction of a condition with a number, such as `S > 449.6 rpm`."""
         if not target.is_relation or not found.is_right or target.value.operator == "=":
             return found
         mark, goal = statement.relations[-1] if statement.relations else "", target.value.operator

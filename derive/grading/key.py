@@ -306,7 +306,6 @@ class _Making:
 
 
 def _explicit(value: Any) -> Any:
-    """Return a value without unevaluated nodes; or the value itself if this fails."""
     try:
         return explicit(value)
     except FAULTS:

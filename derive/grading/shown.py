@@ -91,7 +91,6 @@ class _Shown:
         return rf"\frac{{{self.bare(node.top)}}}{{{self.bare(node.bottom)}}}"
 
     def bare(self, node: Node) -> str:
-        """Return a node without the brackets around it, inside of a fraction or a root."""
         while isinstance(node, Group):
             node = node.inner
         return self.of(node)

@@ -119,7 +119,6 @@ def swaps(ratio: Expr) -> bool:
 
 
 def _grouped(value: Expr, expanded: tuple[Expr, ...]) -> list[Expr]:
-    """Return the terms of a sum as it is written, and its expanded terms, without repetition."""
     return list(dict.fromkeys((*Add.make_args(value), *expanded)))[:MOST_TERMS]
 
 

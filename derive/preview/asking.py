@@ -1,6 +1,6 @@
 """The worker of a preview, as the server controls it: the server asks, waits, ends a slow worker and starts a new one.
 
-The worker has the limits of a build's workers. If it returns no answer, the errors are the same as in a build.
+The worker has the limits of a build's workers.
 """
 
 from __future__ import annotations
@@ -77,7 +77,6 @@ class _Worker:
             os.write(self._asks, json.dumps({"number": self._asked, **question}).encode() + b"\n")
 
     def answer(self, seconds: float) -> bytes | None:
-        """Return the next line from the process; None if no line comes in time, b"" if the process has ended."""
         if select.select([self._answers], [], [], seconds)[0]:
             more = os.read(self._answers, 1 << 16)
             if not more:
@@ -98,7 +97,7 @@ class _Worker:
         return said if isinstance(said, dict) and said.get("number") == self._asked else None
 
     def ended(self) -> int:
-        """Return the exit code of a process that writes nothing more."""
+        """Return the exit code of the process."""
         with suppress(subprocess.TimeoutExpired):
             self._process.wait(1)
         return self._process.returncode or 0
@@ -108,7 +107,6 @@ class _Worker:
             return self._process.poll() is None
 
     def kill(self) -> None:
-        """Kill the process and the programs that it has started."""
         with self._guard, suppress(OSError):
             os.killpg(self._process.pid, signal.SIGKILL)
 
@@ -138,7 +136,7 @@ def _pipes(number: int) -> list[tuple[int, int]]:
 
 @dataclass
 class Warm:
-    """A worker whose process is started at the first question or earlier, but never after the end of the preview."""
+    """A worker whose process is started when it is first needed, but never after the end of the preview."""
 
     root: Path
     limit: float

@@ -1,7 +1,6 @@
 """The process that derives the pages of a preview: it keeps running, and answers one question after another.
 
-The process remembers everything that it has loaded and laid out, so that an edit of words needs little work. You can
-kill the process at any instant, because it writes only into the cache of the builds.
+The process keeps what it has loaded, so that an edit of words needs little work.
 
     python -P -m derive.preview.worker ROOT MEMORY QUESTIONS ANSWERS TRACE LIFELINE
 
@@ -50,10 +49,7 @@ def _settle(root: Path) -> None:
 
 
 def answer(root: Path, question: dict[str, Any], trace: int = 2) -> dict[str, Any]:
-    """Return the page of a problem, or its errors, as plain data; the limits are the same as in a build's worker.
-
-    Work that exceeds the time limit may stop anywhere, so the server then ends this process.
-    """
+    """Return the page of a problem, or its errors, as plain data."""
     problem = question["problem"]
     work = partial(main_part, root, problem, question["detail"])
     main, error = attempt(job_of(root, problem, work, question["limit"]), trace)

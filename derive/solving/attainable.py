@@ -20,8 +20,8 @@ LITTLE = Rational(1, 10**12)
 
 
 def within_one(value: Expr) -> tuple[Relation | None, bool]:
-    """The condition for -1 < v < 1, and whether v is never in this interval. The condition is None if it is already
-    known whether v is in the interval."""
+    """The condition for -1 < v < 1, and whether v is known to violate it. The condition is None if its truth is
+    known."""
     sign = sign_for_all(value)
     room = tidied(1 - value) if sign == 1 else tidied(1 + value) if sign == -1 else tidied(1 - value**2)
     known = sign_for_all(room)
@@ -31,7 +31,7 @@ def within_one(value: Expr) -> tuple[Relation | None, bool]:
 
 
 def reached(unknown: Expr, value: Expr) -> tuple[Relation | None, bool]:
-    """The condition under which an unknown can have the value, and whether the unknown can never have this value.
+    """The condition under which an unknown can have the value, and whether this is known to be impossible.
 
     A sine or cosine is between -1 and 1, and the value of a symbol is in the range of this symbol.
     """
@@ -51,7 +51,7 @@ def is_out_of_range(unknown: Expr, value: Expr) -> bool:
 def lies_within(letter: Symbol, value: Expr, exists: Relation | None) -> bool | None:
     """Whether a value is in the range of a symbol, tested with numbers that satisfy the condition `exists`.
 
-    The result is None if the numbers disagree, or if no numbers can be tested; it is True for a symbol without a range.
+    None if the numbers disagree or cannot be tested. A symbol without a range may have any value.
     """
     known, seen = range_of(letter), set()
     if known is None:

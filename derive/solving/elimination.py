@@ -25,11 +25,11 @@ LONGEST = 20  # greatest length of an unknown that is written in terms of earlie
 
 @dataclass(frozen=True)
 class Isolated:
-    """The equations that give an unknown once the earlier unknowns are known.
+    """The equations that give an unknown after the earlier unknowns are found.
 
-    equations   the indices of these equations, and of the equations that make other unknowns in them zero
-    eliminated  the other unknowns of these equations that are not known before this unknown
-    earlier     unknowns in these equations that are found before this unknown
+    equations   the indices of these equations, and of those that make other unknowns in them zero
+    eliminated  the other unknowns of these equations that are not found earlier
+    earlier     the unknowns of these equations that are found earlier
     value       the unknown in terms of the earlier unknowns, if one equation gives it and this form is short
     """
 
@@ -40,14 +40,13 @@ class Isolated:
 
 
 def isolated_in_order(residuals: Sequence[Expr], unknowns: Sequence[Symbol]) -> dict[Symbol, Isolated]:
-    """Return each unknown that a few of the equations give, with these equations, in the order in which the unknowns
-    are found.
+    """Return the equations for each unknown, in the order in which the unknowns are found.
 
     residuals   the equations, linear in the unknowns: residual = 0
     unknowns    the unknowns, in the order in which they should be found
 
-    An unknown is left out if no such set of equations gives it without a division by a value that might vanish.
-    An unknown whose value is zero is also left out.
+    Unknowns that are zero are left out, and so are unknowns that a few equations do not give without a division by a
+    value that might vanish.
     """
     slopes = [{u: c for u in unknowns if (c := tidied(derivative(row, u))) != 0} for row in residuals]
     found: dict[Symbol, Isolated] = {}
@@ -75,7 +74,7 @@ def isolated_in_order(residuals: Sequence[Expr], unknowns: Sequence[Symbol]) -> 
 
 @dataclass(frozen=True)
 class Substitution:
-    """One equation, solved for an unknown that is then substituted into the other equations.
+    """One equation, solved for an unknown that is then eliminated from the others.
 
     equation   the index of the equation
     unknown    the unknown that is eliminated
@@ -91,7 +90,8 @@ def substitutions(residuals: Sequence[Expr], eliminated: Sequence[Symbol]) -> tu
     """Return the substitutions, in order, after which one equation contains none of the eliminated unknowns.
 
     residuals   the equations, one more than the eliminated unknowns
-    Return nothing if a substitution would be long, would divide by a value that might vanish, or is not needed.
+
+    Return nothing if no short substitutions are found.
     """
     rows, left = dict(enumerate(residuals)), list(eliminated)
     found: list[Substitution] = []
@@ -118,11 +118,8 @@ def substitutions(residuals: Sequence[Expr], eliminated: Sequence[Symbol]) -> tu
 def _fewest(
     slopes: Sequence[dict[Symbol, Expr]], known: set[Symbol], unknowns: Sequence[Symbol], residuals: Sequence[Expr]
 ) -> tuple[int, ...]:
-    """Return the smallest set of at most `MOST` coupled equations that determine as many new unknowns; an empty set
-    if no such set exists.
-
-    The sets are tried in order: equations with the most preferred unknown come first, and among these the shortest.
-    """
+    """Return the smallest set of coupled equations that determine as many new unknowns; an empty set if none is
+    found."""
     first = {i: [unknowns.index(u) for u in row if u not in known] for i, row in enumerate(slopes)}
     left = sorted((i for i in first if first[i]), key=lambda i: (min(first[i]), length(residuals[i])))
     for count in range(1, min(len(left), MOST) + 1):
@@ -134,13 +131,11 @@ def _fewest(
 
 
 def _are_coupled(slopes: Sequence[dict[Symbol, Expr]], several: Sequence[int], new: Sequence[Symbol]) -> bool:
-    """Whether each new unknown is in at least two of the equations, so that it can be eliminated; True for one
-    equation."""
+    """Whether each new unknown is in at least two of the equations; True for one equation."""
     return len(several) == 1 or all(len([i for i in several if u in slopes[i]]) > 1 for u in new)
 
 
 def _is_regular(slopes: Sequence[dict[Symbol, Expr]], several: Sequence[int], new: Sequence[Symbol]) -> bool:
-    """Whether the determinant of the equations has the same sign for all values of the symbols, so that it does not
-    vanish."""
+    """Whether the determinant of the equations is known not to vanish."""
     matrix = ImmutableDenseMatrix([[slopes[i].get(u, ZERO) for u in new] for i in several])
     return sign_for_all(tidied(matrix.det(method="berkowitz"))) in (1, -1)

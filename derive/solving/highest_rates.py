@@ -15,8 +15,7 @@ HIGHEST = 2  # highest order of a rate that equations of motion determine
 
 
 def highest_rates(equations: Sequence[Quantity], moving: Sequence[Symbol]) -> dict[Symbol, Expr]:
-    """Solve the equations of motion, which are linear in their highest rates, for these rates. Reject equations that do
-    not determine these rates."""
+    """Solve equations of motion for their highest rates. Reject equations that do not determine these rates."""
     residuals = [_equation(equation).residual.expand() for equation in equations]
     unknown = [highest for q in moving if (highest := _highest(q, residuals)) is not None]
     matrix = Matrix([[diff(residual, a) for a in unknown] for residual in residuals])

@@ -51,7 +51,7 @@ def entry_by_entry(change: Callable[[Expr], Expr], value: Any) -> Any:
 
 
 def beginnings(of: Quantity, value: Any, x: Symbol, place: Expr, order: int | None) -> list[Series]:
-    """The terms of each entry's series; without an order, only terms with the lowest power that occurs in any entry."""
+    """The terms of each entry's series; without an order, only the terms of lowest power."""
     is_one = not isinstance(value, MatrixBase)
     each = [expansion_of(of, entry, x, place, order, is_one) for entry in entries_of(value)]
     if order is None:
@@ -63,10 +63,9 @@ def beginnings(of: Quantity, value: Any, x: Symbol, place: Expr, order: int | No
 
 
 def expansion_of(of: Quantity, value: Expr, x: Symbol, place: Expr, order: int | None, is_one: bool = True) -> Series:
-    """The terms up to an order, by default the leading term only; an error if no expansion in powers exists.
+    """The terms up to an order, by default the leading term only. Rejects a value without an expansion in powers.
 
-    is_one   whether the value is a single number, whose first term must be within the order; an entry of a vector may
-             have no term within the order
+    is_one   whether the value is a single number; an entry of a vector may have no term within the order
     """
     try:
         return expanded(value, x, place, None if order is None else Rational(order))
@@ -101,7 +100,7 @@ def _of_squares_drawn(value: Expr) -> Expr:
 
 
 def terms_by_arithmetic(value: Any, series: Sequence[Series], x: Symbol, place: Expr, power: Rational) -> Any | None:
-    """The terms of the series, computed by arithmetic without derivatives; None if this arithmetic does not suffice."""
+    """The terms of the series, computed by arithmetic without derivatives; None if they are not found."""
     first = min((n for each in series for n in each), default=Rational(0))
     if not first.is_Integer or not power.is_Integer:
         return None
@@ -132,8 +131,8 @@ def rest_vanishes(value: Any, found: Any, x: Symbol, place: Expr, power: Rationa
     """Compare the remainder at two distances: the remainder divided by the last power kept must shrink.
 
     The next power may be fractional, as in a + b x^(1/4), so the quotient may shrink less than the distance. Both sides
-    of the value `place` are tested, because |m - M| has different leading terms on the two sides of m = M. At the end
-    of a range only one side is tested.
+    of the value `place` are tested where both are possible, because |m - M| has different leading terms on the two
+    sides of m = M.
     """
     for before, after in zip(entries_of(value), entries_of(found), strict=True):
         for side in _sides(x, place):
@@ -144,7 +143,6 @@ def rest_vanishes(value: Any, found: Any, x: Symbol, place: Expr, power: Rationa
 
 
 def _sides(x: Symbol, place: Expr) -> tuple[int, ...]:
-    """The sides of the value `place` on which the symbol may be: 1 for larger values, -1 for smaller values."""
     known = range_of(x)
     if place in (oo, -oo):
         return (1,)
@@ -174,11 +172,8 @@ def _rest_of_entry(value: Expr, found: Expr, x: Symbol, place: Expr, power: Rati
 def _shrinks(
     value: Expr, found: Expr, x: Symbol, place: Expr, power: Rational, side: int, point: Any, distances: Any
 ) -> bool | None:
-    """Whether the remainder, divided by the power of the small quantity, is sufficiently smaller at the closer
-    distance.
-
-    The result is None if the remainder has no value.
-    """
+    """Whether the remainder, divided by the power of the small quantity, is smaller at the closer distance; None if the
+    remainder has no value."""
     sizes = []
     for near in distances:
         there = {**point, x: _at(place, near, point, side)}

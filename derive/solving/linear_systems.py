@@ -1,13 +1,13 @@
 """Linear systems M q_ddot + (G + C) q_dot + K q = 0: the characteristic equation, its roots, and the mode shapes.
 
 The matrix G is antisymmetric and describes forces that do no work; the matrix C is symmetric and describes drag. A
-motion a e^(s t) with a column a of amplitudes is possible if det(M s^2 + (G + C) s + K) = 0. The form of this
-determinant depends on the class of the system:
+motion a e^(s t) with a column a of amplitudes is possible if det(M s^2 + (G + C) s + K) = 0. There are three classes of
+systems:
 
-conservative   without G and C: a polynomial in lambda = omega^2, where s = i omega; all columns a can be real
-gyroscopic     without C: a polynomial in omega^2. Often it is the product of a polynomial in omega and the mirror image
-               of this polynomial, one for each sense of rotation. The roots then have simpler formulas
-damped         a polynomial in s, which is solved if each of its factors is linear or quadratic
+conservative   without G and C: a polynomial in lambda = omega^2, where s = i omega; the columns a are real
+gyroscopic     without C: a polynomial in omega^2. It may be the product of a polynomial in omega and its mirror image,
+               one for each sense of rotation. The roots then have simpler formulas
+damped         a polynomial in s; its factors must be linear or quadratic
 """
 
 from __future__ import annotations
@@ -69,8 +69,7 @@ LAMBDA, OMEGA, S = (
     Dummy("omega", positive=True),
     Dummy("s", real=True),
 )  # the symbol of the root in each of the three classes
-# conservative systems: greatest number of coordinates; for more than three coordinates, also the greatest product of
-# the number of coordinates and the number of symbols
+# conservative systems: greatest number of coordinates, and of coordinates times symbols
 LARGEST, LETTERS = 12, 40
 LARGEST_WITH_RATES = 4  # greatest number of coordinates of any other system
 FINEST = 60  # for a uniform chain, the angles (a/b) (pi/2) are tried with whole numbers b below this number
@@ -83,7 +82,7 @@ class Factor:
     coefficients   from the highest power down; the first coefficient is positive if its sign is known
     times          the power of the factor in the determinant
     even           whether only even powers of omega occur; the coefficients then belong to a polynomial in omega^2
-    mirrored       whether the factor also represents its mirror image, in which -omega replaces omega
+    mirrored       whether the factor also represents its mirror image, in which omega is replaced by -omega
     """
 
     coefficients: tuple[Expr, ...]
@@ -112,8 +111,7 @@ class Factor:
 
     @cached_property
     def needs(self) -> tuple[Expr, ...]:
-        """Expressions that must be positive, so that all roots omega are real and distinct. Unless the factor is
-        `mirrored`, the roots are then also nonzero."""
+        """Expressions that must be positive, so that the roots omega are real and distinct."""
         if self.is_free:
             return ()
         a, b, *rest = self.coefficients
@@ -136,11 +134,10 @@ class CharacteristicRoot:
 
     value     for a conservative system, lambda = omega^2; for a gyroscopic system, the frequency or the rate of growth.
               For a damped system, the rate of decay: b/2a for a quadratic factor and b/a for a linear factor
-    sign      1 if the motion oscillates, 0 if it is free, -1 if it grows; None if this is unknown. For a quadratic
-              factor of a damped system, -1 if the motion is overdamped. For a rate of decay b/a, the sign of this rate
+    sign      1 if the motion oscillates, 0 if it is free, -1 if it grows; None if this is unknown. For a damped system,
+              -1 if the motion is overdamped; for a rate of decay b/a, its sign
     columns   the mode shapes of a conservative system, orthogonal with respect to M; empty if the root has no formula
-    turn      for a gyroscopic system, 1 if the frequency is a root of the factor, -1 if minus the frequency is a root;
-              0 if this is unknown
+    turn      1 if the frequency is a root of the factor, -1 if minus the frequency is one; 0 if this is unknown
     """
 
     value: Expr
@@ -189,7 +186,6 @@ class LinearSystem:
         return is_zero((self.turning + self.turning.T).applyfunc(tidied))
 
     def at(self, s: Expr) -> MatrixBase:
-        """The matrix that multiplies the amplitudes a of a motion a e^(s t)."""
         return ImmutableDenseMatrix(self.mass * s**2 + self.turning * s + self.stiffness)
 
     def sign(self, value: Expr) -> int | None:
@@ -198,7 +194,7 @@ class LinearSystem:
 
     @cached_property
     def is_minimum(self) -> bool:
-        """Whether the potential energy has a minimum and the kinetic energy is never negative. Then no motion grows."""
+        """Whether the potential energy is known to have a minimum, so that no motion grows."""
         return is_positive_definite(self.stiffness, self.sign) and sign_of_form(self.mass, self.sign) in (0, 1)
 
     def written(self, letter: Symbol) -> Expr:
@@ -216,7 +212,7 @@ class LinearSystem:
 
     @cached_property
     def roots(self) -> tuple[CharacteristicRoot, ...]:
-        """The roots in ascending order for typical values of the symbols; roots without a formula come last."""
+        """The roots in ascending order for typical values of the symbols."""
         return tuple(sorted((root for each in self.factors for root in self._roots_of(each)), key=in_order))
 
     def _roots_of(self, factor: Factor) -> list[CharacteristicRoot]:
@@ -224,8 +220,8 @@ class LinearSystem:
 
     @staticmethod
     def _factored(determinant: Expr, root: Symbol, degree: int) -> list[tuple[Poly, int]]:
-        """The irreducible factors of the determinant, a polynomial of the given degree, each with its power. Rejects a
-        determinant that is not such a polynomial."""
+        """The irreducible factors of the determinant, each with its power. Rejects a determinant that is not a
+        polynomial of this degree."""
         try:
             found = Poly(determinant, root).factor_list()[1]
         except PolynomialError:
@@ -255,9 +251,8 @@ def _check_size(size: int, fits: bool, what: str, help: str | None = None) -> No
 class Conservative(LinearSystem):
     """The matrix K - lambda M with symmetric K and M.
 
-    Common factors are taken out of the matrices first, so that mostly numbers are left. The entries of a mode shape,
-    which is a column of the null space, are polynomials in lambda, modulo the irreducible factor of which lambda is a
-    root. So the code decides exactly whether a pivot vanishes.
+    The entries of a mode shape are polynomials in lambda modulo the irreducible factor of which lambda is a root, so it
+    is decided exactly whether a pivot vanishes.
 
     name   the name of the numbered roots of a factor without root formulas; by default such a factor is rejected
     """
@@ -277,7 +272,7 @@ class Conservative(LinearSystem):
 
     @cached_property
     def factors(self) -> tuple[Factor, ...]:
-        """The irreducible factors of the determinant as a polynomial in lambda/scale."""
+        """The irreducible factors of the determinant, polynomials in lambda/scale."""
         stiffness, mass = self._reduced
         size = stiffness.shape[0]
         fits = size <= 3 or size <= LARGEST and size * len((stiffness + mass).free_symbols) <= LETTERS
@@ -308,7 +303,7 @@ class Conservative(LinearSystem):
         return [CharacteristicRoot(OrderedRoot(coefficients, n + 1, name), 1, factor) for n, name in enumerate(names)]
 
     def _are_positive(self, coefficients: Sequence[Expr]) -> bool:
-        """Whether all roots of the polynomial with these coefficients are positive.
+        """Whether all roots of the polynomial are known to be positive.
 
         The roots are real if M is positive definite. By Descartes' rule, no real root is negative or zero if the signs
         of the coefficients alternate.
@@ -332,9 +327,9 @@ class Conservative(LinearSystem):
 
 
 def _by_powers(value: Expr, letter: Symbol) -> Expr:
-    """Collect a polynomial by powers of the symbol, with factored coefficients, if this is shorter.
+    """Collect a polynomial by powers of the symbol if this is shorter.
 
-    The highest power has no minus sign: if necessary, the whole polynomial changes its sign.
+    The sign of the polynomial may change.
     """
     polynomial = value.as_poly(letter)
     if polynomial is None:
@@ -345,8 +340,7 @@ def _by_powers(value: Expr, letter: Symbol) -> Expr:
 
 
 def _values_of(factor: Factor) -> list[Expr] | None:
-    """The roots of a linear or quadratic polynomial, or of the polynomial of a uniform chain; None for any other
-    polynomial."""
+    """The roots of a linear or quadratic factor, or of the factor of a uniform chain; else None."""
     if factor.degree > 2:
         return _of_chain(Poly(factor.at(LAMBDA), LAMBDA))
     a, b, *rest = factor.coefficients
@@ -357,17 +351,17 @@ def _values_of(factor: Factor) -> list[Expr] | None:
 
 
 def _discriminant(a: Expr, b: Expr, c: Expr) -> Expr:
-    """b^2 - 4 a c, tidied or with its two terms factored, whichever is shorter."""
+    """b^2 - 4 a c in its shorter form."""
     common = gcd(b**2, a * c)
     apart = factor(common) * (factor(b**2 / common) - 4 * factor(a * c / common))
     return min((tidied(b**2 - 4 * a * c), apart), key=length)
 
 
 def _of_chain(part: Poly) -> list[Expr] | None:
-    """The roots if all of them have the form 4 sin^2(a pi/2b); otherwise None.
+    """The roots 4 sin^2(a pi/2b) of a uniform chain; None for any other polynomial.
 
-    Such a polynomial divides T_b(1 - lambda/2) -+ 1, where T_b is a Chebyshev polynomial. The recursion
-    T_(b + 1) = 2 x T_b - T_(b - 1) is computed modulo the polynomial, so all powers stay below its degree.
+    Such a polynomial divides T_b(1 - lambda/2) -+ 1, where T_b is a Chebyshev polynomial. The recursion T_(b + 1) = 2 x
+    T_b - T_(b - 1) is computed modulo the polynomial.
     """
     if not part.get_domain().is_ZZ and not part.get_domain().is_QQ:
         return None
@@ -387,10 +381,7 @@ def _of_chain(part: Poly) -> list[Expr] | None:
 
 
 def _entry_at(entry: Expr, value: Expr) -> Expr:
-    """Substitute the value of lambda into an entry.
-
-    For a chain, where lambda = 4 sin^2 u, the result contains cosines of multiple angles instead of powers.
-    """
+    """Substitute the value of lambda into an entry."""
     roots = [p for p in value.atoms(Pow) if p.exp == Rational(1, 2) and p.has(Symbol)]
     if len(roots) == 1 and (split := value.as_poly(roots[0])) is not None and split.degree() == 1:
         before, plain = split.all_coeffs()
@@ -404,7 +395,7 @@ def _entry_at(entry: Expr, value: Expr) -> Expr:
 
 
 def _null_columns(matrix: MatrixBase, part: Poly) -> list[MatrixBase]:
-    """A basis of the null space of the matrix, if lambda is a root of the irreducible polynomial `part`."""
+    """A basis of the null space of the matrix, where lambda is a root of the irreducible polynomial `part`."""
     size, root = matrix.shape[0], part.gen
 
     def reduced(entry: Expr) -> Poly:
@@ -475,7 +466,7 @@ class Gyroscopic(LinearSystem):
 
     @cached_property
     def factors(self) -> tuple[Factor, ...]:
-        """The irreducible factors of the determinant, polynomials in omega^2 or pairs of mirror images in omega."""
+        """The factors of the determinant, polynomials in omega^2 or pairs of mirror images in omega."""
         size = self.mass.shape[0]
         _check_size(size, size <= LARGEST_WITH_RATES, "with forces linear in the rates")
         whole = Poly(determinant_of(self.at(S)), S)
@@ -498,7 +489,6 @@ class Gyroscopic(LinearSystem):
 
     @staticmethod
     def _forwards(part: Poly) -> Poly:
-        """Return the polynomial, or its mirror image if the sum of the roots is known to be negative."""
         a, b = part.all_coeffs()[:2]
         return Poly(part.as_expr().subs(OMEGA, -OMEGA), OMEGA) if sign_for_all(tidied(b / a)) == 1 else part
 
@@ -552,9 +542,9 @@ class Gyroscopic(LinearSystem):
         return [CharacteristicRoot(root_of(-square if sign == -1 else square), sign, factor) for square, sign in both]
 
     def _sign_of_square(self, square: Expr, factor: Factor) -> int | None:
-        """The sign of one root of a z^2 + b z + c, where z = omega^2. None if the sign is unknown.
+        """The sign of one root of a z^2 + b z + c, where z = omega^2; None if it is unknown.
 
-        Both roots are positive if all `needs` are positive; exactly one root is positive if a c < 0.
+        Both roots are positive if all `needs` are positive; one root is positive if a c < 0.
         """
         signs = [self.sign(need) for need in factor.needs]
         if all(sign == 1 for sign in signs):
@@ -564,11 +554,11 @@ class Gyroscopic(LinearSystem):
         return -1 if signs == [-1] else None
 
     def column(self, root: CharacteristicRoot) -> tuple[Expr, ...] | None:
-        """The amplitudes in terms of the root OMEGA; the first nonzero amplitude is 1. If the formula of the root
-        contains no radical, it replaces OMEGA.
+        """The amplitudes in terms of the root OMEGA, or of its formula if this is rational; the first nonzero amplitude
+        is 1.
 
-        The result is None if the root is repeated or zero, if its `turn` is unknown, or if an amplitude is neither real
-        nor imaginary. For a growing motion OMEGA is the rate kappa, with omega = -i kappa: e^(i omega t) = e^(kappa t).
+        The result is None if the root is repeated or zero, or if no simple form is found. For a growing motion OMEGA is
+        the rate kappa, with omega = -i kappa: e^(i omega t) = e^(kappa t).
         """
         if root.times > 1 or root.sign == 0 or not root.turn:
             return None
@@ -591,7 +581,7 @@ class Gyroscopic(LinearSystem):
 
 
 def _remainder(entry: Expr, modulus: Poly) -> Expr:
-    """Reduce the real and imaginary parts of a polynomial in the root modulo the polynomial `modulus` of this root."""
+    """Reduce the real and imaginary parts of a polynomial in OMEGA modulo the polynomial `modulus`."""
     parts = [Poly(part.expand(), OMEGA) for part in entry.expand().as_real_imag()]
     field, _ = construct_domain([c for each in (modulus, *parts) for c in each.all_coeffs()], field=True)
     over = Poly(modulus.as_expr(), OMEGA, domain=field)
@@ -617,8 +607,8 @@ class Damped(LinearSystem):
 
     @cached_property
     def factors(self) -> tuple[Factor, ...]:
-        """The factors of the determinant, each linear or quadratic in s; the factor s comes first. Rejects a
-        determinant with any other factor."""
+        """The factors of the determinant, each linear or quadratic in s. Rejects a determinant with any other
+        factor."""
         size = self.mass.shape[0]
         _check_size(size, size <= LARGEST_WITH_RATES, "with drag")
         found = [Factor.of(*each) for each in self._factored(determinant_of(self.at(S)), S, 2 * size)]
@@ -647,9 +637,9 @@ class Damped(LinearSystem):
         return spread(c / a) - spread(b**2 / (4 * a**2))
 
     def column(self, root: CharacteristicRoot) -> MatrixBase | None:
-        """The amplitudes, if they are the same for both exponents of the factor; such amplitudes are real.
+        """The amplitudes, if they do not depend on the exponent.
 
-        The result is None if the amplitudes depend on the exponent, or if there is not exactly one column.
+        The result is None if they do, or if there is not exactly one column.
         """
         columns = _null_columns(self.at(S), Poly(root.factor.at(S), S)) if root.times == 1 else []
         return None if len(columns) != 1 or columns[0].has(S) else ImmutableDenseMatrix(columns[0].applyfunc(tidied))
@@ -659,11 +649,9 @@ class Damped(LinearSystem):
 
 
 def _with_root(plain: Expr, before: Expr, root: Expr, by_terms: bool = False) -> Expr:
-    """Write u + v sqrt(D), given u as `plain` and v as `before`, in its shortest form.
+    """Write u + v sqrt(D) in its shortest form, with u = `plain` and v = `before`.
 
-    The forms are a tidied sum, and one fraction with factored numerators.
-
-    by_terms   whether u +- sqrt(v^2 D) is a third form
+    by_terms   whether u +- sqrt(v^2 D) is also tried
     """
     below = lcm(*(fraction(together(part))[1] for part in (plain, before)))
     apart = (factor(plain * below) + factor(before * below) * root) / factor(below)
@@ -683,18 +671,13 @@ def size_of(value: Expr) -> float:
 
 
 def _is_power_of_one_sum(value: Expr) -> bool:
-    """Whether exactly one factor of the product is a power with an exponent that is not an integer. The base of this
-    power must be a sum, and its exponent above 1 or below -1, as in m A^2/(l^2 + m c A)^(3/2)."""
+    """Whether the only root in the product is a power of a sum, such as m A^2/(l^2 + m c A)^(3/2)."""
     halves = [p for p in Mul.make_args(value) if not p.as_base_exp()[1].is_Integer]
     return len(halves) == 1 and halves[0].base.is_Add and abs(halves[0].exp) > 1
 
 
 def root_of(square: Expr) -> Expr:
-    """Return the square root with one root sign, as in sqrt(k/m).
-
-    If the root simplifies to a rational expression or to one power of a sum, or if the square contains a sine, return
-    the simplified root.
-    """
+    """Return the square root, if possible with one root sign, as in sqrt(k/m)."""
     drawn = tidied(sqrt(square))
     if drawn == 0 or square.has(sin) or not is_irrational(drawn):
         return drawn

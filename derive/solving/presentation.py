@@ -43,8 +43,7 @@ SHORT = 40  # greatest length of a value whose products of sines and cosines are
 def presented(value: Expr, *, in_sums: bool = True) -> Expr:
     """The value in textbook form: factored, or as separate terms, whichever is shorter.
 
-    in_sums     whether products of sines and cosines may become sums; False for a value with a root, so that squares
-                under the root stay visible
+    in_sums     whether products of sines and cosines may become sums
     """
     value = explicit(value)
     tidy = tidied(value)
@@ -64,19 +63,16 @@ def presented(value: Expr, *, in_sums: bool = True) -> Expr:
 
 
 def without_positive(value: Expr, *, in_equation: bool = False) -> Expr:
-    """Drop the factors that are positive for all values of the symbols: the sign of the value stays the same.
+    """Drop the factors that are known to be positive, so that the sign of the value stays the same.
 
-    in_equation     whether to drop negative numbers as well; this may change the sign of the value, but not its zeros
+    in_equation     whether to drop numbers as well; the zeros stay the same, but the sign of the value may change
     """
     factors = (f for f in Mul.make_args(value) if not (in_equation and f.is_Rational and f.is_nonzero))
     return Mul(*(f for f in factors if sign_for_all(f) != 1))
 
 
 def without_sine_below(value: Expr) -> Expr:
-    """Remove sines from the denominator: (1 - cos a)/(1 + cos a), not (1 - cos a)^2/sin^2 a.
-
-    An odd power in the denominator leaves one sine in the numerator: sin a/(1 + cos a), not (1 - cos a)/sin a.
-    """
+    """Remove sines from the denominator: (1 - cos a)/(1 + cos a), not (1 - cos a)^2/sin^2 a."""
     above, below = factored(value).as_numer_denom()
     for sine in sorted(below.atoms(sin), key=str):
         c, mark = cos(sine.args[0]), Dummy("c", real=True)
@@ -95,13 +91,11 @@ def _is_power_of(sine: Expr, e: Expr) -> bool:
 
 
 def _by_cosine(c: Expr, power: Expr) -> Expr:
-    """Write a power of a sine with 1 - c^2 in place of each squared sine; an odd power keeps one factor sine."""
     return (1 - c**2) ** (power.exp // 2) * power.base ** (power.exp % 2)
 
 
 def _turns_under_root(value: Expr) -> bool:
-    """Whether the value has a root that contains sines or cosines. Products of sines and cosines then do not become
-    sums, so that squares can be taken out of the root."""
+    """Whether the value has a root of sines or cosines; squares under this root should stay visible."""
     roots = (power for power in value.atoms(Pow) if not power.exp.is_Integer)
     return any(root.base.has(sin, cos) for root in roots)
 
@@ -111,8 +105,8 @@ LONGEST_SQUARED = 120  # greatest number of operations of a quadratic form in wh
 
 
 def by_letters(value: Expr, letters: Sequence[Symbol]) -> Expr:
-    """Write a polynomial of first or second degree in the symbols in the shortest of several forms: completed squares,
-    products or one fraction. Any other expression has its tidy form."""
+    """Write a polynomial of first or second degree in the symbols in a short form, such as completed squares. Any other
+    expression has its tidy form."""
     value = explicit(value)
     present = [p for p in letters if value.has(p)]
     if not present:
@@ -136,8 +130,7 @@ def by_letters(value: Expr, letters: Sequence[Symbol]) -> Expr:
 
 
 def by_one_square(value: Expr) -> Expr:
-    """Write m_1 + m_2 sin^2 a, not m_1 + m_2 - m_2 cos^2 a; no sum in a denominator begins with a minus sign. A value
-    without sines and cosines is returned unchanged."""
+    """Write m_1 + m_2 sin^2 a, not m_1 + m_2 - m_2 cos^2 a, if this is shorter."""
     if not value.has(sin, cos):
         return value
     if value.is_Add:
@@ -172,7 +165,7 @@ def _is_taken_off(term: Expr) -> bool:
 
 
 def _written(terms: Sequence[tuple[Expr, Expr]]) -> Expr:
-    """A quadratic form as products, as one fraction, or with squares completed, whichever is shortest."""
+    """A quadratic form, with squares completed if this is shorter."""
     mixed = {p for monomial, _ in terms if monomial.is_Mul for p in monomial.free_symbols}
     if not mixed:
         return _added(terms)
@@ -184,7 +177,7 @@ def _written(terms: Sequence[tuple[Expr, Expr]]) -> Expr:
 
 
 def _squares(terms: Iterable[tuple[Expr, Expr]], order: Sequence[Symbol]) -> Expr:
-    """Complete the squares, a (p + b q/a)^2 + ..., one symbol after the other; no bracket has a denominator."""
+    """Complete the squares, a (p + b q/a)^2 + ..., one symbol after the other."""
     squares: list[Expr] = []
     rest = {_letters_in(monomial): c for monomial, c in terms}
     for p in order:
@@ -202,7 +195,7 @@ def _squares(terms: Iterable[tuple[Expr, Expr]], order: Sequence[Symbol]) -> Exp
 
 
 def _letters_in(monomial: Expr) -> tuple[Symbol, ...]:
-    """The symbols of a monomial, each repeated as often as its power says: (p, p) for p^2, (p, q) for p q."""
+    """The symbols of a monomial, repeated by their powers: (p, p) for p^2, (p, q) for p q."""
     powers = sorted(monomial.as_powers_dict().items(), key=str) if monomial != 1 else []
     return tuple(sorted((p for p, n in powers for _ in range(int(n))), key=str))
 
@@ -217,8 +210,8 @@ def _added(terms: Iterable[tuple[Expr, Expr]]) -> Expr:
 
 
 def as_one_root(value: Expr) -> Expr:
-    """Write sqrt(k/m - b^2/(2 m^2)), not sqrt(2) sqrt(2 k m - b^2)/(2 m). A value is returned unchanged unless
-    it is the product of an irrational number, other factors of known sign, and roots of sums."""
+    """Write sqrt(k/m - b^2/(2 m^2)), not sqrt(2) sqrt(2 k m - b^2)/(2 m). A value of another form is returned
+    unchanged."""
     factors = Mul.make_args(value)
     outside = Mul(*(f for f in factors if not (f.is_Pow and f.base.is_Add)))
     sign, square = sign_for_all(outside), (value**2).expand()
@@ -229,8 +222,7 @@ def as_one_root(value: Expr) -> Expr:
 def roots_together(value: Expr) -> Expr:
     """Write p c/sqrt(p^2 + m^2 c^2), not p/(m sqrt(1 + p^2/(m^2 c^2))).
 
-    The terms under each root are combined into one fraction, and positive factors are taken out of the root, unless
-    this makes the expression longer.
+    The terms under each root are combined into one fraction, unless this makes the expression longer.
     """
 
     def in_one(base: Expr, exponent: Expr) -> Expr:

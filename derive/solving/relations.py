@@ -28,7 +28,7 @@ class Isolated(NamedTuple):
 
 
 def mark_between(mark: str, sign: int | None) -> str | None:
-    """Turn the operator between a (x^n - v) and zero into the operator between x^n and v, given the sign of a.
+    """Turn the operator between a (x^n - v) and zero into the operator between x^n and v; `sign` is the sign of a.
 
     The result is None if an inequality would be divided by a factor of unknown sign.
     """
@@ -36,7 +36,7 @@ def mark_between(mark: str, sign: int | None) -> str | None:
 
 
 def isolated(expr: Expr, letter: Symbol) -> Isolated | None:
-    """The expression as a (x^n - v); None if its numerator is not of the form c x^n + d with constants c and d."""
+    """The expression as a (x^n - v); None if it does not have this form."""
     above, below = expr.as_numer_denom()
     polynomial = above.as_poly(letter)
     terms = polynomial.terms() if polynomial is not None else []
@@ -48,10 +48,7 @@ def isolated(expr: Expr, letter: Symbol) -> Isolated | None:
 
 
 def solved_for_letter(expr: Expr, letter: Symbol) -> Expr | None:
-    """The value of a symbol at which the expression vanishes; None if this value is zero or is not found.
-
-    The value is found if the symbol occurs to the first power only or, for a positive symbol, to the second power only.
-    """
+    """The value of a symbol at which the expression vanishes; None if it is zero or is not found."""
     found = isolated(expr, letter)
     if found is None or found.value == 0 or found.power > (2 if letter.is_positive else 1):
         return None
@@ -60,11 +57,9 @@ def solved_for_letter(expr: Expr, letter: Symbol) -> Expr | None:
 
 
 def positive(value: Expr, letter: Symbol | None = None) -> Relation:
-    """The condition v > 0 without positive factors, solved for `letter` or for the only symbol with a square, if
-    possible.
+    """The condition v > 0 without positive factors, solved for a symbol if possible.
 
-    If the condition is not solved, a difference of two terms becomes a relation between the terms, as in M g > k l.
-    Any other v is compared with zero.
+    Otherwise, a difference of two terms becomes a relation between the terms, as in M g > k l.
     """
     above, below = tidied(value).as_numer_denom()
     core = expand(without_positive(above) * without_positive(below))  # a/b has the same sign as a b
@@ -79,7 +74,7 @@ def positive(value: Expr, letter: Symbol | None = None) -> Relation:
 
 
 def _without_sums_of_known_sign(core: Expr) -> Expr:
-    """Divide by the factors that are sums of known sign, such as (g R + v^2); a negative factor changes the sign."""
+    """Divide by the absolute values of the factors that are sums of known sign, such as g R + v^2."""
     if length(core) > LONGEST_PRODUCT or not core.is_polynomial():
         return core
     number, factors = factor_list(core)
@@ -109,7 +104,7 @@ def _solved(core: Expr, letter: Symbol) -> Relation | None:
 
 
 def border_of(condition: Relation) -> Relation | None:
-    """The equation `symbol = value` at the boundary of the condition; None if no symbol can be isolated."""
+    """The equation `symbol = value` at the boundary of the condition; None if no symbol is isolated."""
     left, right = condition.sides
     if isinstance(left, Symbol):
         return Relation(left, "=", right)
@@ -134,7 +129,7 @@ def solved_in_letters(of: Quantity, value: Expr, mark: str, letter: Any) -> Rela
 
 
 def conditions_told(**conditions: Relation | None) -> dict[str, tuple[Relation, Relation]]:
-    """Return, by role, the conditions that a sentence states, each with its tidied form; None is left out."""
+    """Return the conditions that a sentence states by their roles, each with its tidied form."""
     return {
         role: (each, Relation(tidied(each.left), each.operator, tidied(each.right)))
         for role, each in conditions.items()
@@ -152,8 +147,7 @@ def solved_for_unknown(of: Quantity, difference: Expr, mark: str, unknown: Expr)
     """The relation between a difference and zero, solved for an unknown u. Rejects a difference that cannot be solved
     for u.
 
-    If the difference contains u only as u^2, the relation is solved for u^2. If neither u nor the value of u^2 can be
-    negative, the square root of both sides is then taken.
+    If the difference contains u only as u^2, the relation is solved for u^2 or, if it is safe to take the root, for u.
     """
     u = mark_for(unknown)
     written, beside = without_factors_beside(with_unknown(difference, unknown, u), unknown, u)
@@ -186,7 +180,7 @@ def _without_sign(value: Expr) -> Expr | None:
 
 
 def divided_out(difference: Expr, alone: Expr, solved: Expr) -> tuple[Expr, ...]:
-    """The absolute value of the factor difference/(alone - solved); an empty tuple if the sign of this factor is
+    """The absolute value of the factor difference/(alone - solved), as a tuple; empty if the sign of the factor is
     unknown."""
     slope = tidied(difference.diff(alone)) if alone.is_Symbol else alone
     factor = slope if slope != 0 and not slope.has(alone) else tidied(difference / (alone - solved))

@@ -47,8 +47,7 @@ class RootOf(Fact):
         """The sign of the root where the root is real; None if the sign is unknown.
 
         For a quadratic factor Vieta's formulas apply: if the product c/a of the roots is positive, both roots have the
-        sign of their sum -b/a. If b = 0, a root is real only if a and c have opposite signs, so one of these signs
-        suffices.
+        sign of their sum -b/a. If b = 0, real roots require that a and c have opposite signs.
         """
         if len(self.coefficients) == 2:
             return sign_of(self.value)
@@ -94,10 +93,7 @@ def _drawn(a: Expr, b: Expr, discriminant: Expr, sign: int) -> Expr:
 
 
 def _common_root(b: Expr, discriminant: Expr) -> Expr:
-    """A product k of positive factors such that b/k and D/k^2 have no new denominators; D is the discriminant.
-
-    The numerical factor of k is 1 if the common numerical factor of b^2 and D is not the square of a rational number.
-    """
+    """A common factor k of b and of the square root of the discriminant D, such that b/k and D/k^2 stay polynomials."""
     try:
         content, factors = factor_list(gcd(b**2, discriminant))
     except PolynomialError:

@@ -2,8 +2,8 @@
 cosine.
 
 An unknown is an expression of one symbol, such as theta_dot^2 or cos(theta). A substitution replaces the unknown
-wherever it occurs. If an equation also contains the symbol outside the unknown, except in factors that can be split
-off, it cannot be solved for this unknown.
+wherever it occurs. An equation that also contains the symbol outside the unknown usually cannot be solved for this
+unknown.
 """
 
 from __future__ import annotations
@@ -45,16 +45,16 @@ INVERSE = {cos: acos, sin: asin, tan: atan}
 
 @dataclass(frozen=True)
 class ValueOf(Fact):
-    """A fact that a root of an equation carries: the unknown of this equation. The root can therefore replace the
-    unknown, even if the root has a different symbol."""
+    """The unknown of the equation of a root, so that the root can replace it even if the root has a different
+    symbol."""
 
     missing = "is not a root of an equation"
     unknown: Expr
 
 
 def unknown_of(verb: str, given: Any) -> Expr:
-    """The symbol of a given coordinate or quantity; any other unknown, such as cos(theta), is returned unchanged.
-    Rejects an argument that is not an unknown."""
+    """The unknown that an argument of a verb means: a symbol, or an expression such as cos(theta). Rejects any other
+    argument."""
     found = getattr(given, "symbol", given)
     if isinstance(found, Symbol) or _letter_within(found) is not None:
         return found
@@ -63,7 +63,6 @@ def unknown_of(verb: str, given: Any) -> Expr:
 
 
 def _letter_within(unknown: Any) -> Symbol | None:
-    """The symbol in a power such as theta_dot^2 or in a function such as cos(theta); None for any other expression."""
     if isinstance(unknown, Pow) and isinstance(unknown.base, Symbol) and unknown.exp.is_Integer and unknown.exp > 0:
         return unknown.base
     if isinstance(unknown, Function) and unknown.func in INVERSE and isinstance(unknown.args[0], Symbol):
@@ -80,8 +79,7 @@ def letter_of(unknown: Expr) -> Symbol:
 
 
 def meaning(unknown: Expr, value: Expr) -> dict[Symbol, Expr]:
-    """Return a mapping from the symbol in the unknown to the value of this symbol: for cos(theta) = 2/3, theta is
-    acos(2/3)."""
+    """Return the value of the symbol in the unknown: for cos(theta) = 2/3, theta is acos(2/3)."""
     if isinstance(unknown, Symbol):
         return {unknown: value}
     letter = letter_of(unknown)
@@ -91,8 +89,7 @@ def meaning(unknown: Expr, value: Expr) -> dict[Symbol, Expr]:
 
 
 def with_unknown(expr: Expr, unknown: Expr, value: Expr) -> Expr:
-    """Substitute a value for the unknown. The value of theta_dot^2 is also substituted in theta_dot^4, and the value of
-    cos(theta) in the even powers of sin(theta)."""
+    """Substitute a value for the unknown: for theta_dot^2 also in theta_dot^4, for cos(theta) also in sin(theta)^2."""
     if isinstance(unknown, Symbol):
         return expr.xreplace({unknown: value})
     if isinstance(unknown, Pow):
@@ -125,8 +122,7 @@ def is_number(quantity: Quantity) -> bool:
 
 
 def residual_of(verb: str, equation: Quantity, or_value: bool = False) -> Expr:
-    """The left side of an equation minus its right side; with `or_value`, a plain value is returned unchanged. Rejects
-    any other value that is not an equation."""
+    """The left side of an equation minus its right side; with `or_value`, also a plain value. Rejects anything else."""
     value = equation.value
     if or_value and is_number(equation):
         return explicit(value)
@@ -146,7 +142,6 @@ def residual_of(verb: str, equation: Quantity, or_value: bool = False) -> Expr:
 
 
 def mark_for(unknown: Expr) -> Dummy:
-    """A dummy symbol that replaces the unknown; it is positive if the unknown is positive, otherwise real."""
     return Dummy("u", positive=True) if unknown.is_positive else Dummy("u", real=True)
 
 
@@ -155,8 +150,8 @@ def polynomial_in(
 ) -> tuple[Expr, list[Dummy]]:
     """Return the residual of an equation with a dummy symbol in place of each unknown, and the list of dummy symbols.
 
-    Factors that contain the symbol of an unknown but not the unknown itself are dropped. If `or_value` is false, the
-    page assumes that those dropped factors that might vanish do not vanish.
+    Factors that contain the symbol of an unknown but not the unknown itself are dropped. For an equation, the page
+    assumes that they do not vanish.
     """
     left = residual_of(verb, equation, or_value)
     marks = [mark_for(unknown) for unknown in unknowns]
@@ -172,11 +167,7 @@ def polynomial_in(
 
 
 def factors_elsewhere(value: Expr, unknown: Expr) -> list[Expr]:
-    """The factors of the numerator that may vanish and that contain the symbol of the unknown but not the unknown
-    itself.
-
-    If the unknown is cos(theta), the only such factor of sin(theta)(a cos(theta) - b) is sin(theta).
-    """
+    """The factors that may vanish and that contain the symbol of the unknown but not the unknown itself."""
     mark = mark_for(unknown)
     _, beside = without_factors_beside(with_unknown(value, unknown, mark), unknown, mark)
     above = (f.as_base_exp() for f in beside if not never_vanishes_within(f))
@@ -184,8 +175,7 @@ def factors_elsewhere(value: Expr, unknown: Expr) -> list[Expr]:
 
 
 def without_factors_beside(left: Expr, unknown: Expr, mark: Dummy) -> tuple[Expr, list[Expr]]:
-    """Split off the factors that contain the symbol of the unknown but not the unknown itself. If the remaining product
-    does not contain the unknown either, nothing is split off.
+    """Split off the factors that contain the symbol of the unknown but not the unknown itself.
 
     If the unknown is cos(theta), sin(theta)(a cos(theta) - b) is split into a cos(theta) - b and the factor sin(theta).
     """
@@ -199,8 +189,7 @@ def without_factors_beside(left: Expr, unknown: Expr, mark: Dummy) -> tuple[Expr
 
 
 def kind_of_unknown(unknown: Expr, known: Mapping[Symbol, str]) -> str | None:
-    """The kind of an unknown that is a symbol in `known` or a rate of such a symbol; None for any other unknown, or if
-    the rate has no kind."""
+    """The kind of an unknown that is a symbol in `known` or a rate of such a symbol; None if there is no such kind."""
     if not isinstance(unknown, Symbol):
         return None
     if unknown in known:

@@ -1,8 +1,6 @@
 """All real zeros of a force in closed form: each factor is solved, or the whole force is rejected.
 
-A product vanishes only if one of its factors vanishes. A factor may be a polynomial in q, in cos q or in sin q, the sum
-a cos q + b sin q, a sum of two powers of q, or a square root minus a constant. Each factor is solved completely, so all
-zeros are found.
+A product vanishes only if one of its factors vanishes. Each factor is solved completely, so all zeros are found.
 """
 
 from __future__ import annotations
@@ -50,7 +48,7 @@ ZERO, ONE = Integer(0), Integer(1)
 
 
 class Unsolved(Exception):
-    """Reports a factor whose zeros this module cannot find in closed form."""
+    """This module does not find the zeros of a factor in closed form."""
 
     def __init__(self, factor: Expr):
         self.factor = factor
@@ -69,8 +67,8 @@ class Zero:
 
 
 def zeros_of(force: Expr, q: Symbol) -> list[Zero]:
-    """All real zeros; for an angle only zeros with -pi < q <= pi, for a positive coordinate only positive zeros. Raises
-    `Unsolved` if a factor cannot be solved."""
+    """All real zeros; for an angle within one turn, for a positive coordinate only positive zeros. Raises `Unsolved` if
+    a factor cannot be solved."""
     found: dict[Expr, Zero] = {}
     for factor in factors_of(force, q):
         for zero in _of_factor(factor, q):
@@ -79,10 +77,9 @@ def zeros_of(force: Expr, q: Symbol) -> list[Zero]:
 
 
 def zeros_nearby(value: Expr, x: Symbol) -> list[Zero]:
-    """All real zeros of a function; if the function is periodic, only the zeros within about three half periods of a
-    chosen zero.
+    """All real zeros of a function; if it is periodic, only some of them.
 
-    If not all zeros are found, products of sines and cosines are written as sums and the search is repeated.
+    Raises `Unsolved` if they are not found.
     """
     numerator = value.as_numer_denom()[0]
     for form in (numerator, tidied(TR8(numerator.expand()))):
@@ -95,8 +92,7 @@ def zeros_nearby(value: Expr, x: Symbol) -> list[Zero]:
 
 
 def _of_wave(function: Expr, x: Symbol) -> list[Zero]:
-    """Seven zeros of sin(k x + c) or cos(k x + c): the one at which k x + c is 0, or pi/2 for the cosine, and three on
-    each side of it. For any other function the list is empty."""
+    """Seven successive zeros of sin(k x + c) or cos(k x + c). For any other function the list is empty."""
     slope = function.args[0].diff(x) if isinstance(function, sin | cos) else x
     if slope.has(x):
         return []
@@ -105,15 +101,13 @@ def _of_wave(function: Expr, x: Symbol) -> list[Zero]:
 
 
 def _turned(factor: Expr, x: Symbol) -> list[Zero]:
-    """The zeros of a factor by `zeros_of`; if the factor has a sine or cosine and repeats after a full turn, also the
-    zeros one turn before and after."""
+    """The zeros of a factor; if the factor repeats after a full turn, also the zeros one turn before and after."""
     turns = (0, -1, 1) if factor.has(sin, cos) and factor.subs(x, x + 2 * pi) == factor else (0,)
     return [Zero(zero.value + 2 * n * pi, zero.exists) for zero in zeros_of(factor, x) for n in turns]
 
 
 def _order(zero: Zero) -> tuple[bool, int, str]:
-    """Sort key: zeros without a condition come before zeros with a condition. In each group the order is: 0, pi, values
-    without a minus sign in front, other values."""
+    """Return a sort key: zeros without a condition come first."""
     value = zero.value
     rank = 0 if value == 0 else 1 if value == pi else 2 if not value.could_extract_minus_sign() else 3
     return zero.exists is not None, rank, str(value)
@@ -133,10 +127,7 @@ def factors_of(force: Expr, q: Symbol) -> Iterator[Expr]:
 
 
 def _in_sine_and_cosine(value: Expr, q: Symbol) -> Expr:
-    """Write the value in sin u and cos u, where u is q or a fraction of q.
-
-    Replace sin^2 by 1 - cos^2 if the result then has more factors.
-    """
+    """Write the value in sin u and cos u, where u is q or a fraction of q, in the form with more factors."""
     angles = {f.args[0] for f in value.atoms(sin, cos) if f.has(q)}
     if not angles:
         return expand(value)
@@ -185,7 +176,7 @@ def _of_factor(factor: Expr, q: Symbol) -> list[Zero]:
 
 
 def _is_one_turn(value: Expr, parts: int) -> bool:
-    """Whether -pi < value <= pi; also true if `parts` = 1 or if the value contains symbols."""
+    """Whether the value is not known to be outside one turn."""
     return parts == 1 or not value.is_number or bool(-pi < value and value <= pi)
 
 
@@ -251,8 +242,7 @@ def _roots(factor: Expr, x: Expr) -> list[tuple[Zero, int | None]]:
 
 
 def _of_lengths(factor: Expr, q: Symbol) -> list[Zero]:
-    """The zeros of a polynomial in q, of sqrt(P(q)) minus a constant, or of a sum of two powers of q whose exponents
-    contain symbols."""
+    """The zeros of a polynomial in q, of a root minus a constant, or of a sum of two powers of q."""
     if q.is_positive and any(p.exp.free_symbols for p in factor.atoms(Pow) if p.base == q):
         return [Zero(value) for value in _of_two_powers(factor, q)]
     roots = [p for p in factor.atoms(Pow) if p.exp.is_Rational and not p.exp.is_Integer and p.has(q)]
@@ -270,7 +260,7 @@ def _of_lengths(factor: Expr, q: Symbol) -> list[Zero]:
 
 
 def _of_two_powers(factor: Expr, q: Symbol) -> list[Expr]:
-    """The positive root of A q^a + B q^b, where q^(a - b) = -B/A; the exponents contain symbols and are never equal."""
+    """The positive root of A q^a + B q^b, where q^(a - b) = -B/A."""
     terms: dict[Expr, Expr] = {}
     for term in Add.make_args(expand(factor)):
         outside, inside = term.as_independent(q, as_Add=False)
@@ -292,7 +282,7 @@ def _of_two_powers(factor: Expr, q: Symbol) -> list[Expr]:
 
 
 def _exponent(product: Expr, q: Symbol) -> Expr:
-    """The exponent of q in a product of powers of q: a + b for q^a q^b, zero for 1; q itself for any other product."""
+    """The exponent of q in a product of powers of q: a + b for q^a q^b; q itself for any other product."""
     parts = [f.as_base_exp() for f in Mul.make_args(product) if f != 1]
     return Add(*(power for _, power in parts)) if all(base == q for base, _ in parts) else q
 
@@ -308,8 +298,7 @@ def _of_power(n: int, value: Expr, factor: Expr) -> list[Expr]:
 
 
 def _of_root(factor: Expr, roots: list[Expr], q: Symbol) -> list[Zero]:
-    """The zeros of A sqrt(P) + B with constants A and B and P = a q^2 + c: the solutions of P = (B/A)^2, if -B/A is not
-    negative."""
+    """The zeros of A sqrt(P) + B, where P = a q^2 + c: the solutions of P = (B/A)^2, if -B/A is not negative."""
     root = roots[0]
     linear = factor.as_poly(root)
     if len(roots) > 1 or root.exp != Rational(1, 2) or linear is None or linear.degree() != 1:
@@ -336,11 +325,10 @@ def _of_root(factor: Expr, roots: list[Expr], q: Symbol) -> list[Zero]:
 
 
 def _allowed(zero: Zero, sign: int | None, q: Symbol) -> list[Zero]:
-    """Return a zero, whose sign is given, if the coordinate can have this value; otherwise return nothing.
+    """Return a zero with this sign if the coordinate can have this value; otherwise return nothing.
 
-    A positive coordinate can have a positive value only. If the sign is unknown, the zero gets the condition that its
-    value is positive, and `Unsolved` is raised if the zero already has a condition. A value such as l^2 needs no
-    condition: its letters are assumed not to vanish.
+    If the sign is unknown, a zero of a positive coordinate gets the condition that its value is positive. A value such
+    as l^2 needs no condition: its letters are assumed not to vanish.
     """
     if not q.is_positive:
         return [zero]

@@ -1,7 +1,4 @@
-"""The lines of a step: the values of the names in them, and the evidence that each line follows from the one before.
-
-This module also compares each second route and check with the result, by the same function `equal`.
-"""
+"""The lines of a step: the values of the names in them, and the evidence that each line follows from the one before."""
 
 from __future__ import annotations
 
@@ -23,10 +20,7 @@ BY_MOTION = "by the equations of motion"  # end of a claim that is true only for
 
 
 def without_repeats(forms: Sequence[Form], symbol: Any) -> list[Form]:
-    """Merge each form with the form before it if both have the same expression; the merged form gets the lower level.
-
-    Also leave out a form that is only the symbol of the step, unless there is no other form. Rounded forms are kept.
-    """
+    """Merge successive forms with the same expression, and leave out the symbol of the step itself."""
     kept: list[Form] = []
     for form in [form for form in forms if form.expr != symbol] or forms[-1:]:
         if kept and kept[-1].expr == form.expr and form.because != "rounded":
@@ -38,8 +32,7 @@ def without_repeats(forms: Sequence[Form], symbol: Any) -> list[Form]:
 
 
 def bindings_of(quantities: Sequence[Quantity]) -> dict[Any, Any]:
-    """Return the values of these quantities by their symbols, and the components of each vector by the names of the
-    components."""
+    """Return the values of these quantities, and the components of vectors, by their symbols."""
     values: dict[Any, Any] = {}
     for quantity in quantities:
         if quantity.symbol is None:
@@ -55,8 +48,7 @@ def bindings_of(quantities: Sequence[Quantity]) -> dict[Any, Any]:
 
 
 def left_side_evidence(key: str, symbol: Any, first: Form, bindings: Mapping[Any, Any]) -> list[Evidence]:
-    """Check that the left side equals the first line. Nothing is checked if the left side is only a name, or if the
-    first line is a relation."""
+    """Check that the left side equals the first line, if it is an expression."""
     is_name = symbol is None or isinstance(symbol, Symbol | MatrixSymbol | MatrixBase)
     if is_name or isinstance(first.expr, Relation):
         return []
@@ -119,9 +111,8 @@ def line_evidence(
 
 
 def _check_sign(key: str, i: int, before: Form, form: Form) -> None:
-    """Check a line that contains no expansion but follows a line with one. If an equals sign joins the two lines, the
-    new line must equal the line before it with the exact expression in place of each expansion. If the new line is a
-    limit, it must not contain the symbol that goes to its limit."""
+    """Check a line without expansions that follows a line with expansions: an equals sign is allowed only if the lines
+    are exactly equal, and a limit must not contain the symbol that goes to its limit."""
     cut = before.expr.atoms(Expansion) if not form.expr.has(Expansion) else set()
     if not cut:
         return
@@ -133,9 +124,8 @@ def _check_sign(key: str, i: int, before: Form, form: Form) -> None:
 
 
 def _series_evidence(key: str, claim: str, whole: Any, series: Any) -> Evidence:
-    """Check a truncated series. At the point of expansion, the series must have the value of the whole expression, and
-    its derivatives up to the order of the series must equal the derivatives of the whole expression. The series must
-    have no term beyond its order."""
+    """Check a truncated series: at the point of expansion, its value and derivatives must equal those of the whole
+    expression. The series must have no term beyond its order."""
     polynomial, x, place, order = series.args
     if not vanishes(diff(explicit(polynomial), x, int(order) + 1)):
         raise Unverified(Complaint("unverified", f"`{key}`: the series has terms beyond order {order} in {x}"))
@@ -159,15 +149,12 @@ def _rounding_evidence(key: str, claim: str, exact: Any, rounded: Any) -> Eviden
 def approximation_evidence(
     key: str, symbol: Any, chain: Sequence[Form], whole: Any, rests: Sequence[Quantity]
 ) -> tuple[Any, bool, list[Evidence]]:
-    """Return three values for a result that may be approximate, because it is a limit or a series or is derived from
-    one.
+    """Return three values for a result that may be approximate.
 
-    The first value is the symbol of the exact expression that the result approximates, or None. The second value says
-    whether the symbol of the result only approximately equals the first line. The third value is the evidence.
+    The first value is the symbol of the exact expression that the result approximates, or None. The second value is
+    whether the result is derived from another approximation. The third value is the evidence.
 
-    The symbol of a limit or a series must differ from the symbol of the exact expression. If all approximate parents of
-    a result are limits or series with the symbol of the result, the result approximates the same exact expression. Any
-    other result that is derived from an approximate result is itself only approximate.
+    The symbol of a limit or a series must differ from the symbol of the exact expression.
     """
     last = chain[-1]
     if last.because in ONLY_ABOUT and not isinstance(last.expr, Truncated) and (whole is None or whole == symbol):
@@ -185,8 +172,8 @@ def approximation_evidence(
 def route_evidence(
     key: str, claim: str, found: tuple[Any, Any] | Verdict, compared: Compared = Compared.ROUTE
 ) -> Evidence:
-    """Return the evidence of a route or a check; `found` is a pair of values to compare, or the verdict of a comparison
-    that the route itself makes. Raise `Unverified` if the values disagree or the verdict is a refutation."""
+    """Return the evidence of a route or a check; `found` is a pair of values to compare, or a verdict. Raise
+    `Unverified` if they disagree."""
     if isinstance(found, Verdict):
         left = right = None
         verdict = found

@@ -1,5 +1,4 @@
-"""Predicates that rules of several topics use to judge an outcome, such as whether the result vanishes or has a certain
-sign."""
+"""Predicates that rules of several topics use to judge an outcome."""
 
 from __future__ import annotations
 
@@ -28,8 +27,7 @@ Asked = ParamSpec("Asked")
 
 
 def numbers_fulfil(wanted: bool) -> Predicate:
-    """Judge whether a condition between numbers is true or, if `wanted` is False, whether the condition is false. The
-    comparison uses 30 digits."""
+    """Judge whether a condition between numbers is true or, if `wanted` is False, whether it is false."""
     truths = {
         "=": lambda d: d == 0,
         "<": lambda d: d < 0,
@@ -64,7 +62,7 @@ def as_told(predicate: Callable[[Judged, str], bool]) -> Naming:
 
 
 def parallel(one: Mapping[Any, Expr], other: Mapping[Any, Expr]) -> bool:
-    """Whether the second row of values is not zero and the first row is a multiple of the second row."""
+    """Whether the first row of values is a multiple of the second row, which must not be zero."""
     first = next((k for k, value in other.items() if not is_zero(value)), None)
     return first is not None and all(is_zero(one[k] * other[first] - one[first] * other[k]) for k in other)
 
@@ -102,13 +100,13 @@ def lasts(facts: Judged) -> bool:
 
 
 def never_vanishes(v: Any) -> bool:
-    """Whether a component of a vector is nonzero for all values of the symbols, so that the vector never vanishes."""
+    """Whether a component of a vector is known to be nonzero, so that the vector never vanishes."""
     return any(bool(tidied(entry).is_nonzero) for entry in v)
 
 
 def same_equation(value: Expr, other: Expr) -> bool:
-    """Whether two expressions are known to have the same zeros: they are equal, or the sign of their ratio is known,
-    nonzero, and confirmed by trial numbers."""
+    """Whether two expressions are known to have the same zeros, because they are equal or their ratio never
+    vanishes."""
     return is_zero(value - other) or not is_zero(other) and not may_be_zero(tidied(value / other))
 
 
@@ -119,8 +117,8 @@ def sign_is(wanted: int | None, of: Callable[[Judged], Expr] = lambda facts: fac
 def has_sign(value: Expr, wanted: int | None) -> bool:
     """Whether the sign of a value is known and equals `wanted`; if `wanted` is None, whether the sign is unknown.
 
-    The sign follows from the assumptions or the given numbers, and trial numbers must confirm the sign. Trial numbers
-    alone are not enough: (a - b)^2 vanishes where a = b, but at no trial point is a = b.
+    Trial numbers must confirm the sign, but they are not enough: (a - b)^2 vanishes where a = b, and no trial point may
+    have a = b.
     """
     return sign_known(value) == wanted and (wanted is None or sign_found(value) == wanted)
 
@@ -131,7 +129,6 @@ def is_negative(value: Expr) -> bool:
 
 
 def may_be_zero(value: Expr) -> bool:
-    """Whether a value may vanish: it is zero, its sign is unknown, or trial numbers do not confirm the sign."""
     sign = sign_known(value)
     return sign in (None, 0) or sign_found(value) != sign
 
@@ -170,8 +167,7 @@ def letters_in(value: Any) -> set[Any]:
 
 def is_a_root_just_where_told(facts: Judged) -> bool:
     """Whether the root is real, and positive if this is required, at exactly those trial numbers for which the stated
-    condition holds. Symbols with a given number keep this number.
-    """
+    condition holds."""
     value = with_numbers(facts.result)
     told, given = ([with_numbers(facts.inputs[r])] if r in facts.inputs else [] for r in ("condition", "existing"))
     allowed = {1, 0, -1} if facts.inputs["positive"] == 0 else {1}
@@ -179,18 +175,16 @@ def is_a_root_just_where_told(facts: Judged) -> bool:
 
 
 def says_what_it_divides_by(facts: Judged, outcome: str) -> bool:
-    """Whether the sentence excludes the zeros of the denominator, or need not exclude them because no factor of the
-    denominator can vanish. If there are several solutions, only the sentence of the first solution needs to exclude
-    these zeros."""
+    """Whether the sentence excludes the zeros of the denominator, if there may be any. Only the sentence of the first
+    of several solutions needs to do so."""
     below = factor_terms(explicit(facts.result)).as_numer_denom()[1]
     unsure = [f for f in Mul.make_args(factor(below)) if may_be_zero(f) and not f.as_base_exp()[0].is_nonzero]
     return not unsure or outcome == "following" or "excluded" in facts.inputs
 
 
 def given_as_the_condition_has_it(facts: Judged, outcome: str) -> bool:
-    """Whether the sentence states the given number of the symbol, and states correctly whether this number satisfies
-    the condition. The stated number may be rounded: it may differ from the given number by 5 %. If there is no
-    condition, the sentence must not make such a statement."""
+    """Whether the sentence states the given number of the symbol, up to rounding, and whether this number satisfies the
+    condition."""
     condition = facts.inputs.get("condition")
     if condition is None:
         return "seen" not in facts.words
@@ -203,14 +197,13 @@ def given_as_the_condition_has_it(facts: Judged, outcome: str) -> bool:
 
 
 def not_negative(facts: Judged, outcome: str) -> bool:
-    """Whether a period, a frequency or an amplitude is neither known to be negative nor negative at all trial numbers.
-    If its sign depends on the values of the symbols, the page states the condition."""
+    """Whether a period, a frequency or an amplitude is neither known to be negative nor negative at all trial
+    numbers."""
     return not is_negative(facts.result)
 
 
 def nowhere_negative(facts: Judged, outcome: str) -> bool:
-    """Whether a period or a radius is not known to be negative, is negative at no trial point, and is real at one trial
-    point or more."""
+    """As `not_negative`, and the value is negative at no trial point."""
     return not_negative(facts, outcome) and nowhere_negative_where_real(facts)
 
 

@@ -1,9 +1,8 @@
 """Replace the symbols of earlier results by their values in the lines of a step.
 
-This is done for results whose steps have the manner `taken_in`: a page shows these steps in no other way.
+This is done for results whose steps have the manner `taken_in`.
 
-Each new line is compared with the line that it replaces. The comparison uses the values that `establish` stored in the
-steps.
+Each new line is compared with the line that it replaces.
 """
 
 from __future__ import annotations
@@ -20,11 +19,7 @@ from derive.steps.step import NUMBERS, Form, Step
 
 def condensed(step: Step, known: Mapping[Any, Step]) -> Step:
     """In the lines of a step, replace the symbols of known steps by the results of these steps, and add evidence that
-    each new line equals the line that it replaces.
-
-    A result may contain names that the step itself does not contain, such as the name of a defined quantity. These
-    names are added to the step with their values.
-    """
+    each new line equals the line that it replaces."""
     if not known:
         return step
     results = {symbol: each.result for symbol, each in known.items()}
@@ -40,8 +35,6 @@ def condensed(step: Step, known: Mapping[Any, Step]) -> Step:
 
 
 def _put_in(form: Form, known: Mapping[Any, Any]) -> Form:
-    """Substitute the known values in a line, unless the line is a number or a truncated series. A series keeps its
-    symbols because its order refers to them."""
     if form.because in NUMBERS or isinstance(form.expr, Truncated):
         return form
     return replace(form, expr=bound(form.expr, known))

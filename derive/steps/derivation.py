@@ -44,7 +44,7 @@ class Derivation:
         return next(step for step in self.steps if step.key == key)
 
     def answering(self, asked: Iterable[str]) -> tuple[Step, ...]:
-        """Return the steps that the requested names ask for, or the steps that replace them; no step appears twice."""
+        """Return the steps that these names ask for, or the steps that replace them."""
         return tuple(self.step(key) for key in answering(asked, self.steps, dict(self.groups)))
 
     def warnings(self, place: Place) -> tuple[Complaint, ...]:
@@ -66,8 +66,8 @@ class Derivation:
 
 
 def returned_quantities(value: Any, place: Place | None = None) -> list[Quantity]:
-    """Return the quantities that a script returned, as one list. Only quantities, and tuples, lists and mappings of
-    quantities, are accepted.
+    """Return the quantities that a script returned, as one list. Only quantities, and nested tuples, lists and
+    dictionaries of quantities, are accepted.
 
     `place` is the line of the script that returns them.
     """
@@ -89,8 +89,7 @@ def returned_quantities(value: Any, place: Place | None = None) -> list[Quantity
 
 
 def returned_groups(value: Any, place: Place | None = None) -> dict[str, tuple[str, ...]]:
-    """If a script returned a mapping of names to quantities, return the keys of the steps by name; otherwise return an
-    empty mapping."""
+    """Return the keys of the steps by name, if a script returned a dictionary; otherwise an empty one."""
     if not isinstance(value, dict):
         return {}
     return {str(name): tuple(q.key for q in returned_quantities(each, place)) for name, each in value.items()}
@@ -102,7 +101,6 @@ def _is_whole(value: Any) -> bool:
 
 
 def _named(value: Any) -> str:
-    """Describe the value that a script returned in place of a quantity."""
     if value is None or value == ():
         return "nothing"
     if isinstance(value, tuple | list) and value:
@@ -139,11 +137,10 @@ def standing_in(steps: Iterable[Step]) -> dict[str, str]:
 
 
 def answering(asked: Iterable[W], steps: Iterable[Step], groups: Mapping[str, tuple[str, ...]]) -> dict[str, W]:
-    """Return the keys of the steps that the requested names ask for, each with the name that asks for it.
+    """Return the keys of the steps that these names ask for, each with the name that asks for it.
 
-    A name asks for the group with this name, unless the name is the key of a step outside the group. If a group of two
-    conditions has the key of one of them as its name, this key asks for both conditions: one condition alone would
-    claim too much.
+    A name may ask for a group of steps. If a group of two conditions has the key of one of them as its name, this key
+    asks for both conditions: one condition alone would claim too much.
     """
     steps = list(steps)
     own, instead = {step.key for step in steps}, standing_in(steps)
@@ -166,8 +163,8 @@ def derivation_of(
 ) -> Derivation:
     """Divide the steps among the parts; `answers` are the keys that each part asks for.
 
-    closing    the quantities of each limiting case; steps on which only limiting cases depend are in no part
-    observed   the observations of each part, which depend on steps of this part and of earlier parts
+    closing    the quantities of each limiting case
+    observed   the observations of each part
     """
     shown: dict[str, Step] = {}
     parts = []
@@ -201,7 +198,7 @@ def to_json(derivation: Derivation) -> str:
 
 
 def from_json(text: str) -> Derivation:
-    """Return the derivation that `to_json` wrote; raise ValueError, KeyError or TypeError for any other text."""
+    """Return the derivation that `to_json` wrote; raise `ValueError`, `KeyError` or `TypeError` for any other text."""
     found = from_data(json.loads(text), _CLASSES)
     if not isinstance(found, Derivation):
         raise ValueError("this is not a derivation")

@@ -1,10 +1,9 @@
 """The one function that makes steps.
 
-A `Step` is data: keys and expressions, no sentence and no TeX. Only `establish()` makes a step, under three conditions:
+A `Step` is data: keys and expressions, no sentence and no TeX. Only `establish()` makes a step, after three checks:
 
     (a) Each line of the chain follows from the line before it; a limit, a series or a rounded number equals it only
-        approximately. If the left side is an expression, the first line equals the left side. The returned value equals
-        the last line that is neither a number in a unit nor a truncated series.
+        approximately. The left side equals the first line. The returned value equals the last exact line.
     (b) Every second route to the result, and every check of the result, agrees with the result.
     (c) The subjects of the inputs fit together, and the word that chooses the sentence is true of the result.
 
@@ -61,9 +60,8 @@ class Lines:
     put_in    the level from which the law with substituted values is shown; None omits this line
     result    whether the result has a separate line
     arranged  a function that rewrites the result without changing its value
-    motion    rate -> the value of this rate by the equations of motion. The line of the result uses these values, so it
-              is valid only for motions that satisfy the equations
-    means     name -> its value, for the names that occur in the left side but not in the law
+    motion    rate -> the value of this rate by the equations of motion, which the line of the result uses
+    means     name -> its value, for names in the left side that are not in the law
     """
 
     before: Sequence[Form] = ()
@@ -90,11 +88,11 @@ class PhraseData:
     """Data for the sentence of a step, in addition to the chain, and data for judging the outcome.
 
     words         name -> key of a term ("about": "corner"); the phrases contain the words for this term
-    formulas      role -> a formula that occurs only in the sentence, and the same formula by another route
-    named         role -> a symbol or a place that occurs only in the sentence; a predicate judges this symbol or place
+    formulas      role -> a formula that only the sentence contains, and the same formula by another route
+    named         role -> a symbol or a place that only the sentence contains, judged by a predicate
     points_to     role -> a parent that the sentence mentions by its symbol or its number
-    outcome_data  further data for judging the outcome, in addition to the result and the inputs
-    stands_for    keys of other steps; this step replaces those steps if an answer asks for them
+    outcome_data  further data for judging the outcome
+    stands_for    keys of other steps; an answer that asks for one of them gets this step
     """
 
     words: Mapping[str, str] = field(default_factory=dict)
@@ -114,12 +112,10 @@ class PhraseData:
 class Scope:
     """The subject of a result, its new coordinates, and its relation to a general or exact quantity.
 
-    about         properties of the subject in addition to the properties of the inputs, or a function of the result
-                  that
-                  returns these properties
+    about         further properties of the subject, or a function of the result that returns them
     differ        the properties in which the subjects of the inputs may differ
     coordinates   coordinates that the step introduces, with their kinds
-    case_of       the general quantity with the same symbol; the result is a particular case of this quantity
+    case_of       the general quantity with the same symbol, if the result is a particular case of it
     approximates  for a limit or a series: the symbol of the exact result, or the key of the exact equation
     """
 
@@ -156,14 +152,14 @@ def establish(
     rule        the law, its source, its outcomes and its evidence; a rule without evidence is a definition
     symbol      the symbol of the result on the page
     law         a function of the inputs, in their order; it is called with names and with values
-    inputs      role -> Quantity, or plain SymPy value
+    inputs      role -> quantity, or plain SymPy value
     routes      claim of the rule -> a function of the result; it returns two values that must be equal, or a verdict
     outcome     a word that selects the phrase, or a function of the result that returns such a word
     parents     quantities on which the result depends, in addition to its inputs
     facts       facts that the quantity carries in addition to its value
     proposals   quantities that are usual in the field; the result may be written in their symbols
 
-    Raises `Unverified`, which names the step, if a line, a route or a statement of the sentence disagrees.
+    Raises `Unverified` if a line, a route or a statement of the sentence disagrees.
     """
     key = key or rule.key
     quantities = {role: q for role, q in inputs.items() if isinstance(q, Quantity)}
@@ -192,8 +188,7 @@ def establish(
     written = natural.formulas(phrase_data.formulas)
     parents = list(dict.fromkeys([*parents, *natural.used]))
     bindings = {**bindings_of(natural.used), **bindings}
-    # If `means` has a value for a name in the left side, such as x_dot in x_dot^2, the value of the left side is not
-    # taken from a parent.
+    # `means` has precedence for names in the left side, such as x_dot in x_dot^2.
     told = lines.means.keys() & getattr(symbol, "free_symbols", set())
     others = {name: value for name, value in bindings.items() if name != symbol or not told}
     evidence = left_side_evidence(key, symbol, chain[0], {**others, **lines.means})
@@ -247,7 +242,7 @@ def establish(
 
 
 def _witnessed(quantity: Quantity, judged: Judged) -> Quantity:
-    """Add evidence from the motion of the described system, if the quantity belongs to one system and a test exists."""
+    """Add evidence from the motion of the described system, if there is a test for it."""
     found = {fact for each in quantity.ancestors() for fact in each.facts if isinstance(fact, Witness)}
     by_kind = {kind: [fact for fact in found if type(fact) is kind] for kind in {type(fact) for fact in found}}
     if any(len(facts) > 1 for facts in by_kind.values()):
@@ -269,7 +264,7 @@ def _witnessed(quantity: Quantity, judged: Judged) -> Quantity:
 
 
 def _told_centre(words: Mapping[str, str], body: Any) -> Mapping[str, str]:
-    """Write "centre of mass" in full if the body has another point that may be called its centre."""
+    """Write "centre of mass" in full if the body has another centre."""
     is_unclear = words.get("about") == "centre" and bool(getattr(body, "other_centre", ""))
     return {**words, "about": "centre_of_mass"} if is_unclear else words
 
@@ -281,8 +276,7 @@ def _place_of_verb(frame: FrameType) -> str:
 
 
 def _check_told(key: str, told: Mapping[str, tuple[Any, Any]]) -> None:
-    """Check that each formula of the sentence equals the same formula by another route, and that each relation among
-    these formulas contains a symbol."""
+    """Check that each formula of the sentence equals the same formula by another route."""
     for role, (formula, otherwise) in told.items():
         verdict = equal(formula, otherwise)
         if not verdict:
@@ -293,33 +287,26 @@ def _check_told(key: str, told: Mapping[str, tuple[Any, Any]]) -> None:
 
 
 def _check_words(key: str, words: Mapping[str, str]) -> None:
-    """Check that no term of the sentence is an empty text."""
     empty = next((term for term, word in words.items() if not word), None)
     if empty is not None:
         raise Unverified(Complaint("unverified", f"`{key}`: its sentence has an empty word for `{empty}`"))
 
 
 def _check_pointed(key: str, pointed: Mapping[str, Quantity]) -> None:
-    """Check that a sentence that points to several steps does not name one step in two roles."""
+    """Check that the sentence does not name one step in two roles."""
     if len({id(quantity) for quantity in pointed.values()}) < len(pointed):
         message = f"`{key}`: its sentence names one step as {' and as '.join(pointed)}"
         raise Unverified(Complaint("unverified", message))
 
 
 def _called(value: Any) -> Any:
-    """Return the name of an input in a phrase: the symbol of a quantity, or its key if it has no symbol; return a plain
-    value unchanged."""
     if isinstance(value, Quantity):
         return Str(value.key) if value.symbol is None else value.symbol
     return value
 
 
 def _check_outcome(key: str, rule: Rule, outcome: str, facts: Judged, may_be_zero: bool) -> None:
-    """Check that the word that chooses the sentence is true of the result.
-
-    For every rule, the outcome "zero" requires that the result vanishes. If a function chose the outcome, a result that
-    vanishes must not have the outcome "generic".
-    """
+    """Check that the word that chooses the sentence is true of the result."""
     vanishing = is_zero(facts.result)
     if outcome == ZERO and not vanishing:
         raise _not_confirmed(key, Doubt("the result is not known to be zero"))
@@ -336,7 +323,7 @@ def _not_confirmed(key: str, doubt: Doubt) -> Unverified:
 
 
 def _check_named(key: str, rule: Rule, facts: Judged, named: Mapping[str, Any]) -> None:
-    """Check that each object that only the sentence names has a predicate, and that this predicate is true."""
+    """Check that the predicate of each object that only the sentence names is true."""
     role = rule.wrongly_named(facts, named)
     if role is not None:
         message = f"`{key}`: its sentence names {short(named[role])} as `{role}`, which does not fit the result"
@@ -344,7 +331,6 @@ def _check_named(key: str, rule: Rule, facts: Judged, named: Mapping[str, Any]) 
 
 
 def _check_handed_on(key: str, facts: Judged, handed_on: Sequence[Fact]) -> None:
-    """Check that the facts of this step, which later steps use, agree with the value of this step."""
     wrong = wrongly_handed_on(facts, handed_on)
     if wrong is not None:
         message = f"`{key}`: its fact {type(wrong).__name__}, which later steps use, does not fit its result"
@@ -373,8 +359,7 @@ def _check_names(key: str, quantities: Sequence[Quantity]) -> None:
 
 
 def _check_letter(key: str, symbol: Any, result: Any, means: Mapping[Any, Any]) -> None:
-    """Reject a result that contains its own symbol or, if its left side is an expression, a name in `means`. Also
-    reject two components with the same symbol."""
+    """Reject a result that contains its own symbol, and two components with the same symbol."""
     letters = {symbol} if isinstance(symbol, Symbol) else set(means)
     if isinstance(symbol, MatrixBase) and len(set(symbol)) < len(symbol):
         raise Unverified(Complaint("unverified", f"`{key}`: two of {', '.join(map(str, symbol))} have the same name"))
@@ -398,14 +383,13 @@ def check_can_hold(key: str, result: Any) -> None:
 
 
 def _check_has_value(key: str, result: Any) -> None:
-    """Reject a result that is undefined or infinite."""
     if has_no_value(result):
         message = f"`{key}` has no value: a denominator in it vanishes, or a part of it is infinite"
         raise Rejected(Complaint("no-value", message, help="look for values that make a denominator vanish"))
 
 
 def _unsupported(key: str, rule: Rule) -> Evidence:
-    """Return the evidence of a definition; reject a step that has no second route and is not a definition."""
+    """Return the evidence of a definition; reject any other step without a second route."""
     if not rule.is_definition:
         raise Unverified(Complaint("no-second-route", f"`{key}` has no second route and is not a definition"))
     return Evidence("definition", Compared.NOTHING, Grade.DEFINITION, rule.name)

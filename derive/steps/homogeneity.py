@@ -1,8 +1,7 @@
 """The dimension of an expression, and the check that every line of a derivation is homogeneous.
 
-Only the declared symbols need a dimension. The symbol of a step gets the dimension of the result. A variable of
-integration gets the dimension of the limits. Zero and numbers with units have the dimension `None`, which fits any
-other dimension.
+Only the declared symbols need a dimension. The symbol of a step gets the dimension of the result, and a variable of
+integration gets the dimension of the limits. Zero has the dimension `None`, which fits any other dimension.
 """
 
 from __future__ import annotations
@@ -42,8 +41,8 @@ Table = dict[Any, Dimension | None]
 
 
 def dimension_of(expr: Any, table: Mapping[Any, Dimension | None]) -> Dimension | None:
-    """Return the dimension of an expression. Raise `Inhomogeneous`, which names the wrong term, KeyError for a name
-    without a known dimension, or TypeError for an expression without a rule."""
+    """Return the dimension of an expression. Raise `Inhomogeneous`, or `KeyError` for a name without a known dimension,
+    or `TypeError` for an expression without a rule."""
 
     def of(part: Any, variables: Mapping[Any, Dimension | None] | None = None) -> Dimension | None:
         return dimension_of(part, {**table, **variables} if variables else table)
@@ -79,8 +78,7 @@ def dimension_of(expr: Any, table: Mapping[Any, Dimension | None]) -> Dimension 
 
 
 def _number_of(exponent: Any) -> Fraction:
-    """Return an exponent as a number. Fixed numbers replace the symbols of the exponent: a line that is homogeneous for
-    these numbers is taken to be homogeneous for all values of the symbols."""
+    """Return an exponent as a number, with fixed numbers for its symbols."""
     some = {s: Rational(101 + crc32(s.name.encode()) % 97, 89) for s in exponent.free_symbols}
     value = ex.explicit(exponent.xreplace(some))
     if not isinstance(value, Rational):
@@ -99,11 +97,10 @@ def _of_numbers(expr: Any, of: DimensionOf) -> Dimension | None:
 def dimension_table(
     declared: Mapping[Any, Dimension | None], steps: Iterable[Step], script: Place | None = None
 ) -> tuple[Table, list[Complaint]]:
-    """Return the dimension of every name, and an error for each step that is not homogeneous or whose dimension does
-    not fit its kind.
+    """Return the dimensions of the names, and an error for each step that is not homogeneous or does not fit its kind.
 
-    Each symbol must be given, be a coordinate, or be introduced by a step. Any other symbol is rejected, because its
-    meaning and its dependence on time are unknown; this error is reported at the place `script`.
+    A symbol that is neither given nor a coordinate nor introduced by a step is rejected; this error has the place
+    `script`.
     """
     table: Table = {**declared, ex.PLUS_MINUS: NUMBER, ex.TIME: dimension_of_kind("time")}
     complaints: list[Complaint] = []
@@ -128,8 +125,7 @@ def dimension_table(
 
 
 def variables_of_integrals(step: Step, table: Mapping[Any, Dimension | None]) -> Table:
-    """Return the dimensions of the variables in the integrals of a step: the variables of integration, and the vector
-    r of an integral over the mass. If two integrals give a variable different dimensions, its dimension is None.
+    """Return the dimensions of the variables in the integrals of a step; None if two integrals disagree.
 
     table   the dimensions of the other names in the lines of the step
     """
@@ -141,8 +137,7 @@ def variables_of_integrals(step: Step, table: Mapping[Any, Dimension | None]) ->
 
 
 def _variables_in(expr: Any, table: Mapping[Any, Dimension | None]) -> Iterator[tuple[Any, Dimension | None]]:
-    """Yield the variables of the integrals in an expression. The coordinates of the region of an integral over the mass
-    are left out, because no page prints them."""
+    """Yield the variables of the integrals in an expression that a page prints."""
 
     def of(part: Any, variables: Mapping[Any, Dimension | None] | None = None) -> Dimension | None:
         return dimension_of(part, {**table, **variables} if variables else table)
@@ -164,7 +159,7 @@ def _variables_in(expr: Any, table: Mapping[Any, Dimension | None]) -> Iterator[
 
 def _moving_names(step: Step) -> Table:
     """Return the dimensions of the coordinates that a step introduces, and of their rates. The dimension is None for a
-    name without a kind, such as a constraint force."""
+    name without a kind."""
     time = dimension_of_kind("time")
     return {
         (ex.rate(q, n) if n else q): dimension_of_kind(kind) / time**n if kind else None
@@ -188,8 +183,8 @@ def _free(expr: Any) -> set[Basic]:
 
 
 def _of_chain(step: Step, table: Table) -> Dimension | None:
-    """Return the common dimension of the lines of a step; None if no line has one. Relations, and lines that fit any
-    dimension, are left out. Raise `Inhomogeneous` if the dimensions differ."""
+    """Return the common dimension of the lines of a step; None if it is unknown. Raise `Inhomogeneous` if the
+    dimensions differ."""
     first: tuple[Any, Dimension] | None = None
     for form in step.chain:
         dimension = dimension_of(form.expr, table)

@@ -1,5 +1,5 @@
-"""The numbers that a problem gives for its symbols. A derivation uses these numbers only to choose between cases and to
-test its statements."""
+"""The numbers that a problem gives for its symbols. A derivation stays symbolic: these numbers only decide between
+cases and test statements."""
 
 from __future__ import annotations
 

@@ -35,24 +35,20 @@ class Display:
     """How a page below the level `full` shows a step, as the rule of the step specifies.
 
     brief, standard   the manner at these levels
-    told_along        whether the sentence of the step before this one may state the result of this step
-    first_only        whether the step is left out if an earlier step of the same rule has its own sentence and lines
-    only_explains     whether the step only explains the steps that use it; it is left out if the problem has its own
-                      `wording:` for these steps
-    result_again      up to this level, only the result is shown if two conditions are satisfied: the step shown
-                      directly before has the same rule and outcome, and a step shown earlier has the same rule and
-                      kinds of lines
-    each_worked_out   whether the lines of the page's level are shown even after a step with the same rule and kinds of
-                      lines; by default, only the lines of the level `brief` are then shown
-    abbreviates       whether the symbol of the step replaces, in later steps, the square root that is its value
-    names_formula     whether the sentence names the formula whose value the lines give, so that a line within a text
-                      needs no left side
+    told_along        whether the sentence of the step before may state the result of this step
+    first_only        whether only the first of several steps of the same rule is shown
+    only_explains     whether the step only explains the steps that use it, so that the author's words may replace it
+    result_again      up to this level, only the result is shown directly after a step of the same kind
+    each_worked_out   whether all lines are shown even after a step of the same kind; otherwise fewer lines are shown
+                      then
+    abbreviates       whether the symbol of the step may replace the square root that is its value in later steps
+    names_formula     whether the sentence names the formula, so that a line within a text needs no left side
     repeats           the key of the equation that the step repeats, if any
-    result_in         names of rules: if such a rule made an input, the lines of this input may already contain the
-                      result; below the level `full`, the sentence points to these lines
-    conditions        roles of the conditions in the sentence that are part of the answer, so the frame shows them too
-    quoted            whether only the result is shown below the level `full`, unless a part asks for the step
-    verdict           whether the answer is the sentence, and the formula only its reason, so that no frame is needed
+    result_in         names of rules: the lines of an input that such a rule made may already contain the result; the
+                      sentence may then point to these lines
+    conditions        roles of the conditions in the sentence that are part of the answer
+    quoted            whether only the result is shown, unless a part asks for the step or the level is `full`
+    verdict           whether the answer is the sentence, and the formula only its reason
     """
 
     brief: Manner = Manner.OWN
@@ -82,17 +78,15 @@ class Display:
 class Shown:
     """How a page shows the steps of a rule; by default each step appears with its sentence and its lines.
 
-    outcomes      outcome -> the manner at the level `brief` and the manner at `standard`, in place of the two fields
-                  with these names
-    told_along    outcomes for which the sentence of the step before this one may state the result of this step
-    condition_if  a predicate of the step; if it is true, the sentence of the step states a condition that is stated
-                  nowhere else
-    taken_in_if   a predicate of the step; if it is true, the step is shown within the step that uses it
+    outcomes      outcome -> the manners at the levels `brief` and `standard`, in place of the fields with these names
+    told_along    outcomes for which the sentence of the step before may state the result of this step
+    condition_if  a predicate of the step: whether its sentence states a condition that is stated nowhere else
+    taken_in_if   a predicate of the step: whether the step is shown within the step that uses it
     repeats       a function of the step that returns the key of the equation that the step repeats, or ""
-    result_in     outcome -> names of rules: if such a rule made an input, the lines of this input may already contain
-                  the result
-    quoted        outcomes whose steps are standard results: only the result is shown
-    verdicts      outcomes for which the answer is the sentence, such as "stable", and the formula is only its reason
+    result_in     outcome -> names of rules, as for `Display`
+    quoted        outcomes whose steps are standard results
+    verdicts      outcomes for which the answer is the sentence, such as "stable"
+
     The other fields are those of `Display`.
     """
 

@@ -1,13 +1,13 @@
 """Reuse the results of earlier calls of verbs, with everything that these calls added to the record.
 
-A call is recalled if three things are the same as in a stored call:
+A call is recalled if the following are the same as in a stored call:
 
 - the verb and its arguments;
 - the coordinates, assumptions and ranges that are known before the call;
 - the answers to the questions that the call asks the record.
 
-Arguments are identified by digests of their content, so a call is recalled even if its arguments were derived again. If
-an argument cannot be described as data, such as a function of a script, the call is not recalled but made.
+Arguments are identified by digests of their content. A call with an argument that cannot be described as data, such as
+a function of a script, is not stored.
 """
 
 from __future__ import annotations
@@ -35,9 +35,8 @@ class Store(Protocol):
 
 @dataclass(frozen=True)
 class _Asked:
-    """The data with which a call is looked up. `key` is a digest of the arguments of the call and of the state of the
-    run. `objects` are the names of the objects in these arguments and this state. `found` are cached properties of
-    these objects that contain steps."""
+    """The data with which a call is looked up: a digest, the names of the objects that it describes, and their cached
+    properties that contain steps."""
 
     key: str
     objects: list[str]
@@ -46,8 +45,6 @@ class _Asked:
 
 @dataclass(frozen=True)
 class _State:
-    """The lengths of the lists on the record before a call."""
-
     established: int
     assumed: int
     in_words: int
@@ -71,8 +68,7 @@ class Memory:
         return Memory(self.store)
 
     def result(self, verb: Callable[..., Any], given: Mapping[str, Any], run: Run, make: Callable[[], Any]) -> Any:
-        """Return the result of a call: read from the store if possible, otherwise computed now. A call within another
-        call is not stored separately."""
+        """Return the result of a call: read from the store if possible, otherwise computed now."""
         if run.call is not None:
             return make()
         run.call = Call(len(run.established))
@@ -110,8 +106,7 @@ class Memory:
         return _Asked(sha256(text.encode()).hexdigest(), objects, found)
 
     def _left(self, result: Any, asked: _Asked, before: _State, run: Run) -> str:
-        """Return as text: the questions of a call, everything that it added to the record, its result, and the objects
-        that it made."""
+        """Return the questions of a call, its result, and what it added to the record as text."""
         assert run.call is not None
         steps = tuple(zip(run.established, run.cases, strict=True))[before.established :]
         conditions = tuple((each, each in run.in_words[before.in_words :]) for each in run.assumed[before.assumed :])
@@ -126,8 +121,7 @@ class Memory:
         return "\n".join([*lines, json.dumps([data, data_found])])
 
     def _recalled(self, key: str) -> tuple[Any, ...] | None:
-        """Read the result of a call, and what the call added to the record. Return None if this is not stored or cannot
-        be read, or if a question now has a different answer."""
+        """Read the result of a call, and what it added to the record; None if this is not possible."""
         kept = self.store.get(key)
         if kept is None:
             return None

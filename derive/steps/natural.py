@@ -7,7 +7,7 @@ Three kinds of quantities are used:
 - results of earlier steps on which the step depends, if their rule allows this, such as the radius r_0 of a circular
   orbit.
 
-The new line is compared with the line before it, like every line of a chain.
+The new line is checked like every line of a chain.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ NATURAL = "natural"  # the reason of a line that is written with the symbols of 
 
 @dataclass(frozen=True)
 class NamesValue(Fact):
-    """Marks a quantity whose symbol may replace its value in the results of later steps."""
+    """A mark of a quantity whose symbol may replace its value in the results of later steps."""
 
 
 @dataclass(frozen=True)
@@ -84,8 +84,7 @@ class NaturalQuantities:
         return {role: short.value for role, short in found.items() if short is not None}
 
     def _shortened(self, value: Any, known: Mapping[Symbol, Proposal]) -> Shortened | None:
-        """Return a shorter form of a value or a condition in known quantities, or None. A matrix is not rewritten, and
-        neither is a value that contains coordinates or rates, such as an energy."""
+        """Return a shorter form of a value or a condition in known quantities, or None."""
         moving = {rate(q, order) for q in record.named_coordinates() for order in range(3)}
         is_value = isinstance(value, Expr) and not is_matrix(value) and not value.free_symbols & moving
         if not known or not (is_value or isinstance(value, Relation)):
@@ -106,7 +105,7 @@ class NaturalQuantities:
 
 
 def _ancestors(quantities: Sequence[Quantity]) -> Iterator[Quantity]:
-    """Yield the quantities, and their ancestors, whose symbols may replace their values."""
+    """Return those of these quantities and their ancestors whose symbols may replace their values."""
     ancestors = (each for quantity in quantities for each in quantity.ancestors())
     return (quantity for quantity in ancestors if quantity.fact(NamesValue))
 

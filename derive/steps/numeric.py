@@ -66,8 +66,7 @@ SHORT = 9  # with more numbers than this, only the level `full` shows the formul
 
 @dataclass(frozen=True)
 class Extreme(Fact):
-    """The second derivative of a function at a point where its slope vanishes. The sign of the second derivative
-    distinguishes a minimum from a maximum."""
+    """The second derivative of a function where its slope vanishes; its sign distinguishes a minimum from a maximum."""
 
     missing = "is not the value of a function where its slope vanishes"
     curvature: Expr
@@ -110,9 +109,7 @@ def value_of(
 ) -> Quantity | None:
     """The value of an answer in a unit, rounded to significant figures.
 
-    The result is None if letters remain, or if the value is not real, such as the frequency of a motion that does not
-    oscillate. It is also None for zero, for integers without letters, and for a relation without a single letter on its
-    left side.
+    The result is None if there is no number to state: letters remain, or the value is not real, for example.
 
     answer    any quantity; in a relation with a single letter on its left side, the right side gets the number
     amounts   symbol -> its number with a unit
@@ -123,8 +120,7 @@ def value_of(
 
     Check: the expression, evaluated again from the numbers of its letters, with extra digits against cancellation.
     For a condition on a letter with a given number, the step states whether this number satisfies the condition. A
-    period that is known as a series gets its number from the integral that the series approximates. Any other result
-    derived from the series is rejected if the series is not accurate to the requested figures.
+    period that is known as a series gets its number from the integral that the series approximates.
     Outcomes: measured (numbers were substituted), exact; integrated, for a period whose number is an integral; minimum
     or maximum, for the value of a function at zero slope.
     Source: Bureau International des Poids et Mesures, *The International System of Units*, section 5.4.
@@ -281,8 +277,8 @@ def _check_series(answer: Quantity, amounts: Mapping[Symbol, Amount], figures: i
 def _given_beside(
     condition: Quantity, amounts: Mapping[Symbol, Amount], unit: tuple[str, Expr], figures: int
 ) -> PhraseData:
-    """For a condition on a symbol with a given number, such as S > 23.55 rad/s, return this number (S = 900 rpm) and
-    whether this number satisfies the condition."""
+    """For a condition such as S > 23.55 rad/s, return the given number S = 900 rpm and whether it satisfies the
+    condition."""
     relation = condition.value
     if (
         not isinstance(relation, Relation)
@@ -307,8 +303,6 @@ def _given_beside(
 
 
 def _bent(answer: Quantity, amounts: Mapping[Symbol, Amount]) -> dict[str, Expr]:
-    """Return the second derivative at an extremum, with the numbers substituted; for any other result return an empty
-    mapping."""
     known = answer.fact(Extreme)
     return {} if known is None else {"curvature": explicit(bound(known.curvature, dict(amounts)))}
 
@@ -320,9 +314,8 @@ def _outcome(curvature: Expr | None, has_letters: bool) -> str:
 
 
 def is_plain(answer: Quantity) -> bool:
-    """Whether the number of an answer, alone or in front of symbols, is clearer unchanged than in decimals. Such a
-    number is rational, a rational multiple of pi, or the square root of an integer; in a vector it may also be the
-    square root of a rational number, such as 1/sqrt(2)."""
+    """Whether the number of an answer, alone or in front of symbols, is clearer unchanged than in decimals, as pi/2 and
+    sqrt(2) are."""
     value, _ = _valued(answer.value)
     if isinstance(value, MatrixBase):
         return all(_is_plain_number(entry) or (entry**2).is_Rational for entry in value)
@@ -340,7 +333,7 @@ def _as_it_is(value: Any) -> Any:
 
 def _valued(value: Any) -> tuple[Any, Callable[[Any], Any]]:
     """Return the part of a result that gets a number, such as the right side of R > a/2, and the function that puts the
-    number back into the result. For a relation whose left side is not a single symbol, this part is 0."""
+    number back into the result."""
     if not isinstance(value, Relation):
         return value, _as_it_is
     if isinstance(value.left, Symbol) and not value.right.has(value.left):
@@ -349,8 +342,7 @@ def _valued(value: Any) -> tuple[Any, Callable[[Any], Any]]:
 
 
 def _under_one_root(value: Expr) -> Expr:
-    """Write sqrt(M) sqrt(g)/sqrt(I) as sqrt(M g/I), so that numbers are substituted under one root. A fourth root of an
-    integer, 2^(1/4), becomes sqrt(2) under this root."""
+    """Write sqrt(M) sqrt(g)/sqrt(I) as sqrt(M g/I), so that numbers are substituted under one root."""
     roots = [f.as_base_exp() for f in Mul.make_args(value)]
     above = [base ** (2 * power) for base, power in roots if power == HALF or _is_fourth_root(base, power)]
     below = [base for base, power in roots if power == -HALF]
@@ -377,11 +369,11 @@ COMPARISON = Rule(
 def comparison_of(condition: Quantity, amounts: Mapping[Symbol, Amount], key: str | None = None) -> Quantity | None:
     """The comparison of the two sides of a condition with the numbers substituted, such as 20 cm > 2.5 cm.
 
-    The result is None if the condition is not an equation or inequality (!= does not count), if it has no letters, or
-    if letters remain.
+    The result is None if there is nothing to compare numerically.
 
     condition   an inequality or an equation between given quantities, such as a result of `where`
     amounts     symbol -> its number with a unit
+
     Check: both sides and the sign of their difference, evaluated again as for `value_of`.
     Outcomes: fulfilled, not_fulfilled.
     Source: as `value_of`.
@@ -421,15 +413,13 @@ def comparison_of(condition: Quantity, amounts: Mapping[Symbol, Amount], key: st
 def coefficient_of(answer: Quantity, figures: int, of_vectors: bool = False) -> Quantity | None:
     """Round the irrational number in front of the letters: sqrt(2 - sqrt(2)) omega becomes 0.7654 omega.
 
-    The result is None for a relation, for a value without letters, and for a vector unless `of_vectors` is true. It is
-    also None if the letters are in a sum, which has no common number in front, or if the number in front is rational.
-    Unless `of_vectors` is true, it is None for a product of roots and pi, whose size is easy to see. It is None, too,
-    if the answer ends with a line in other letters, such as sqrt(2) omega_0.
+    The result is None if there is no such number, or if its size is easy to see.
 
     answer       a quantity, usually a scalar with letters
     figures      the number of significant figures
     of_vectors   whether products of roots and pi are also rounded, and vectors whose components are numbers times
                  letters
+
     Check: the answer divided by its letters, evaluated again as for `value_of`.
     Outcomes: exact.
     Source: as `value_of`.
@@ -471,7 +461,7 @@ def in_radians(amount: Amount) -> Amount:
 
 
 def _only_turning(value: Any) -> set[Symbol]:
-    """Return the symbols that occur only in sines, cosines and tangents; their numbers may stay in degrees."""
+    """Return the symbols that occur only in sines, cosines and tangents, so that their numbers may stay in degrees."""
     angles: dict[Expr, Expr] = {f: Dummy() for entry in _entries(value) for f in entry.atoms(sin, cos, tan)}
     left = {letter for entry in _entries(value) for letter in entry.xreplace(angles).free_symbols}
     return _free(value) - left
@@ -497,15 +487,14 @@ def _with_unit(exact: Any, unit: str, factor: Expr, figures: int) -> Any:
 
 
 def _by_floats(value: Any, letters: set[Symbol], amounts: Mapping[Symbol, Amount], exact: Any) -> tuple[Expr, Expr]:
-    """Return two numbers that a check compares: the largest relative error of the exact entries, and zero. The entries
-    are compared with values computed again from the numbers of the symbols."""
+    """Return the largest relative error of the exact entries, and zero, for a check to compare."""
     numbers = {letter: explicit(amounts[letter]) for letter in letters}
     errors = [_error(value_at(v, numbers), e) for v, e in zip(_entries(value), _entries(exact), strict=True)]
     return max(errors), Integer(0)
 
 
 def _error(number: Expr, exact: Expr) -> Expr:
-    """Return the relative difference of the two numbers; 0 if they differ only in the last digits."""
+    """Return the relative difference of the two numbers; 0 if it is only a rounding error."""
     if number == 0:
         return Integer(0) if vanishes(exact) else Integer(1)
     error = abs(exact.evalf(5 * DIGITS) / number - 1)  # SymPy keeps no spare digits for the arguments of functions

@@ -1,9 +1,8 @@
 """Objects of derive written as data and read again: quantities, bodies, systems, and everything that they contain.
 
-The name of an object is the digest of its class and its content. A number is added if a distinct object already has
-this name, unless the class compares objects by their content. An object appears in the content of other objects by its
+An object has a name, which is made from a digest of its content, and appears in the content of other objects by this
 name. So an object that two objects share is still one object after reading, and two equal quantities remain two
-objects. Cached properties, which an object computes on first use, are not part of its content.
+objects.
 """
 
 from __future__ import annotations
@@ -30,7 +29,7 @@ VALUES = (Form, Evidence)  # there are too many of these small objects to give e
 
 
 class NoDescription(Exception):
-    """An object or a part of it cannot be described as data, or data does not describe an object."""
+    """An object cannot be described as data, or data does not describe an object."""
 
 
 class Objects:
@@ -98,7 +97,7 @@ class Objects:
         return data
 
     def _letter(self, letter: Dummy, told: list[str]) -> str:
-        """Return a unique name for a dummy symbol; two dummy symbols with the same printed form get distinct names."""
+        """Return a unique name for a dummy symbol."""
         known = self._letters.get(letter)
         if known is None:
             alike = sum(each.name == letter.name for each in self._letters)
@@ -153,8 +152,8 @@ class Objects:
         return found
 
     def texts(self, names: Iterable[str]) -> list[tuple[str, str]]:
-        """Return name and text of these objects; `enter` makes each object from its text. Raise `NoDescription` for
-        dummy symbols, which cannot be made again."""
+        """Return the names and texts of these objects, from which `enter` makes them. Raise `NoDescription` for dummy
+        symbols."""
         for name in names:
             if name not in self._texts:
                 raise NoDescription(f"of {name}, which exists only once")
@@ -171,8 +170,8 @@ class Objects:
         self._enter(name, value, text, parts)
 
     def read(self, data: Any, told: list[str] | None = None) -> Any:
-        """Return the value that the data describes, and add the names of the objects in it to `told`. Raise
-        `NoDescription`, ValueError, TypeError or KeyError if the data does not describe a value."""
+        """Return the value that the data describes, and add the names of the objects in it to `told`. Raise an error if
+        the data does not describe a value."""
         told = [] if told is None else told
         if isinstance(data, list):
             return tuple(self.read(each, told) for each in data)
@@ -226,7 +225,6 @@ def _is_its_content(kind: Any) -> bool:
 
 @cache
 def _lazy(kind: Hashable) -> dict[str, None]:
-    """Return the cached properties of the class."""
     classes = kind.__mro__ if isinstance(kind, type) else ()
     return {n: None for each in classes for n, v in vars(each).items() if isinstance(v, cached_property)}
 

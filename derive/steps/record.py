@@ -1,7 +1,7 @@
 """The record of one run of a script: the quantities that the script has established, and the coordinates that it has
 named.
 
-A symbol denotes one quantity in a run. An expression with a coordinate, a rate or the time is known to change.
+A symbol denotes one quantity in a run.
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ class Run:
     drawings      the drawings of the page
     defined       the quantities that the problem defines under `define:`
     defined_at    the place in a file where each quantity of `define:` is written, by its name
-    is_natural    whether results may be written with the quantities of `define:` and with common ones such as omega_0
+    is_natural    whether results may be written with quantities of `define:` and usual ones such as omega_0
     numbers       the numbers that the problem gives for its symbols
     places        the place in a file where each given is written
     letters       letters of the problem for givens, coordinates, forces and definitions; results must not use them
@@ -102,8 +102,7 @@ current_run: ContextVar[Run | None] = ContextVar("run", default=None)
 
 @contextmanager
 def recorded(run: Run | None = None) -> Iterator[Run]:
-    """Record the quantities and the assumptions of a run. Quantities that no answer needs can then be reported, and the
-    page can state the assumptions."""
+    """Record the quantities and the assumptions of a run."""
     run = run or Run()
     token = current_run.set(run)
     try:
@@ -115,7 +114,7 @@ def recorded(run: Run | None = None) -> Iterator[Run]:
 
 @contextmanager
 def unrecorded() -> Iterator[None]:
-    """Derive steps that only a check needs. The run does not record these steps, but it keeps their assumptions."""
+    """Derive steps that only a check needs. The run keeps only their assumptions."""
     run = current_run.get() or Run()
     token = current_run.set(replace(run, established=[], cases=[], drawings=[], defined=[], memory=None, call=None))
     try:
@@ -129,9 +128,8 @@ A = TypeVar("A")
 
 
 def question(answered: Callable[..., A]) -> Callable[..., A]:
-    """Decorate a function with which a verb queries the record. While a verb runs, each call of this function is noted
-    as a question, with its answer. If a question has a different answer in a later run, the stored result of the verb
-    is not used."""
+    """Decorate a function with which a verb queries the record. The answers are stored with the result of the verb,
+    which is used again only if they are still the same."""
     QUESTIONS[answered.__name__] = answered
 
     @wraps(answered)
@@ -205,11 +203,10 @@ def coordinate_named(symbol: Symbol, kind: str) -> None:
 
 @question
 def free_letter(name: str, *indices: str) -> str:
-    """Return the usual symbol of a result or, if the problem already uses this symbol, a symbol with another textbook
-    letter. If the problem uses all these letters, return the usual symbol.
+    """Return the usual symbol of a result or, if the problem already uses it, a symbol with another textbook letter.
 
     name      the usual symbol, with its own index
-    indices   further indices; the problem must not use the returned symbol with any of these indices
+    indices   further indices with which the symbol must also be free
     """
     run = current_run.get()
     base, _, own = name.partition("_")
@@ -259,7 +256,7 @@ def assumed() -> list[Relation]:
 
 
 def forget_words() -> None:
-    """Let the page state all assumptions after the statement of the problem, because no step states them in words."""
+    """Let the page state all assumptions, because no step states them in words."""
     run = current_run.get()
     if run is not None:
         run.in_words.clear()
@@ -297,8 +294,7 @@ def add_definition(quantity: Quantity) -> None:
 
 
 def check_not_defined(key: str, symbol: Any, value: Any = None) -> None:
-    """Reject a step whose key or symbol is the name of a quantity under `define:`. A result with the value of the
-    defined quantity may have the same symbol, and the square of this value may have the square of the symbol."""
+    """Reject a step whose key or symbol is the name of a quantity under `define:`, unless it has the same value."""
     run = current_run.get()
     if run is None:
         return
@@ -312,7 +308,7 @@ def check_not_defined(key: str, symbol: Any, value: Any = None) -> None:
 
 
 def _is_its_value(defined: Quantity, symbol: Any, value: Any) -> bool:
-    """Whether the value of a symbol, or of the square of a symbol, follows from a definition of the symbol."""
+    """Whether the value of an expression of a defined symbol follows from the definition."""
     if not isinstance(value, Expr) or not isinstance(symbol, Expr):
         return False
     return same_value(symbol.subs(defined.symbol, explicit(defined.value)), value)
@@ -349,8 +345,7 @@ def named_coordinates() -> tuple[Symbol, ...]:
 
 
 def coordinates_in(result: Any) -> dict[Symbol, str]:
-    """Return the coordinates that a result contains, each with its kind. A coordinate also counts if the result
-    contains only its rates, up to the third."""
+    """Return the coordinates that occur in a result, also by their rates, each with its kind."""
     run = current_run.get()
     if run is None or not run.coordinates:
         return {}
@@ -376,8 +371,7 @@ def _is_the_same(one: Quantity, other: Quantity) -> bool:
 def _check_one_meaning(
     quantity: Quantity, case_of: Quantity | None, coordinates: Iterable[Symbol], others: Iterable[Quantity]
 ) -> None:
-    """Check that the symbol of a quantity denotes only one quantity in a script. If another quantity has this symbol
-    and a different value, the new quantity must be a case of the other.
+    """Check that the symbol of a quantity denotes only one quantity in a script, or cases of it.
 
     A coordinate and its rates may have several values, since each motion has its own values.
     """
@@ -406,15 +400,14 @@ def _check_one_meaning(
 
 
 def _is_open(quantity: Quantity) -> bool:
-    """Whether the components of a vector are only names. Any other vector with the same symbol is a case of such a
-    vector."""
+    """Whether the components of a vector are only names, so that another vector with the same symbol is a case of
+    it."""
     symbol, value = quantity.symbol, quantity.value
     return isinstance(symbol, MatrixSymbol) and list(value) == list(component_names(symbol.name))
 
 
 def changes(value: Any, coordinates: Iterable[Symbol] = ()) -> Symbol | None:
-    """Return the symbol that makes a value change: the time, a function of the time, a coordinate or a rate. Return
-    None if the value is constant."""
+    """Return a symbol that makes a value change, such as the time or a coordinate; None if the value is constant."""
     letters = explicit(value).free_symbols
     moving = [*prescribed_in(value), TIME, *(s for q in coordinates for s in (q, rate(q), rate(q, 2)))]
     return next((s for s in moving if s in letters), None)

@@ -4,8 +4,7 @@ A verb chooses an outcome, such as "zero", "unstable" or "slow", and a page choo
 each outcome the rule has a predicate that must be true of the result. `establish` evaluates the predicate.
 
 Predicates are in the files `claims.py` of the folders of verbs, or in `derive/steps/claims.py`. They may use the facts
-of a result and the descriptions of bodies and systems. They use no module of `derive/mechanics` that contains a rule,
-with one exception: the module for coordinates as functions of the time.
+of a result and the descriptions of bodies and systems, but share no code with the verbs that they judge.
 """
 
 from __future__ import annotations
@@ -33,7 +32,7 @@ class Judged:
 
     result      the value of the step
     inputs      role -> value, for the inputs, the objects that only the sentence contains, and the outcome data
-    quantities  role -> quantity, for inputs that are quantities and for quantities that the sentence points to
+    quantities  role -> quantity, for the inputs and other quantities that the sentence mentions
     symbol      the symbol of the result on the page
     subject     the subject of the result
     words       term of the phrase -> its word
@@ -89,8 +88,7 @@ class Quote:
 
     outcomes   outcomes whose steps use the theorem; if empty, the steps of all outcomes use the theorem
     law_in     outcomes in which the theorem is the law of the step, so the step need not repeat the law
-    between    words that a phrase may have for its term `between`. A step uses the theorem only if its phrase has one
-               of these words; if `between` is empty, any word is allowed
+    between    words for the term `between` of the phrase with which the theorem is used; if empty, any word
     """
 
     theorem: Theorem
@@ -111,14 +109,11 @@ class Rule:
     name        the topic, usually the folder of the verb, and the default key of a step: "lagrange.lagrangian"
     source      the book and the section that state it
     outcomes    outcome -> the predicate that must be true of the result
-    evidence    claim -> ROUTE or CHECK, for each second derivation of the result. A route uses other physics, so
-                it reveals a wrong law. A check starts from the result or from the same formula, so it reveals only an
-                error of algebra. The claim TRIALS has no function: its evidence is the predicate of the outcome, which
-                tests the statement at trial numbers. A rule without evidence is a definition
-    statements  predicates for the roles, points and formulas that occur only in the sentence; they must be true for
-                every outcome
-    named       role -> the predicate of an object that only the sentence names. The predicate of `value` also judges
-                `value_1`
+    evidence    claim -> ROUTE or CHECK, for each second derivation of the result. A route uses other physics, so it
+                reveals a wrong law; a check reveals an error of algebra. The claim TRIALS is tested by the predicate of
+                the outcome, at trial numbers. A rule without evidence is a definition
+    statements  predicates that must be true of the sentence for every outcome
+    named       role -> the predicate of an object that only the sentence names
     shown       how a page shows the steps of this rule
     quotes      the theorems that the steps of this rule use
     names_value whether the symbol of a result may replace its value in later results
@@ -147,8 +142,7 @@ class Rule:
         return not self.evidence
 
     def verdict(self, outcome: str, facts: Judged) -> bool | Doubt:
-        """Whether three conditions hold: the rule has this outcome, the outcome is true, and all other statements of
-        the sentence are true."""
+        """Whether the outcome and all other statements of the sentence are true."""
         predicate = self.outcomes.get(outcome)
         verdict = predicate is not None and predicate(facts)
         return verdict and self._stated(outcome, facts)
@@ -163,8 +157,7 @@ class Rule:
         return next((said for each in self.statements if not (said := each(facts, outcome))), True)
 
     def theorems(self, outcome: str, words: Mapping[str, str]) -> dict[str, Any]:
-        """Return the fields of a `Step` for theorems: the theorems that the step uses, and the names of those theorems
-        that state its law."""
+        """Return the fields of a `Step` that concern theorems."""
         quotes = [each for each in self.quotes if each.fits(outcome, words.get("between", ""))]
         return {
             "theorems": tuple(each.theorem for each in quotes),
@@ -200,7 +193,7 @@ def judged_facts() -> frozenset[type[Any]]:
 
 
 def _names_its_point(facts: Judged) -> bool:
-    """Whether the words name no point other than the reference point of the result; true if this point is unknown."""
+    """Whether the words name no point other than the reference point of the result, if this is known."""
     known = getattr(facts.subject.point, "name", None)
     in_full = {CENTRE_OF_MASS: "centre"} if known == "centre" else {}
     named = {in_full.get(facts.words[word], facts.words[word]) for word in ("about", "point") if word in facts.words}
@@ -208,16 +201,14 @@ def _names_its_point(facts: Judged) -> bool:
 
 
 def _names_its_axis(facts: Judged) -> bool:
-    """Whether the words name no axis other than the axis of the result; true if this axis is unknown."""
+    """Whether the words name no axis other than the axis of the result, if this is known."""
     axis = facts.subject.axis
     named = {facts.words[word] for word in ("axis", "axis_letter") if word in facts.words}
     return not isinstance(axis, str) or named <= {axis}
 
 
 def _letter_of_its_axis(facts: Judged) -> bool:
-    """Whether the index of a symbol, such as z in I_z, agrees with the axis that the sentence names. For a part of a
-    composite body, the index must name the axis of the whole body that is parallel to the axis of the part. True if the
-    index names no axis, or if the sentence names none."""
+    """Whether the index of a symbol, such as z in I_z, agrees with the axis that the sentence names, if any."""
     axis = facts.words.get("whole", facts.words.get("axis"))
     index = str(getattr(facts.symbol, "name", "")).rpartition("_")[2]
     return index not in AXES or axis not in AXES or index == axis

@@ -1,6 +1,6 @@
-"""Decide the sign of an expression; the whole engine uses this module.
+"""Decide the sign of an expression.
 
-These means are tried in this order, until one of them decides the sign:
+Several means are tried:
 
     exact zero         the normal form of the expression
     factors            for each factor, as written and expanded, the assumptions on its symbols
@@ -8,8 +8,7 @@ These means are tried in this order, until one of them decides the sign:
     squares, roots     even powers that do not vanish, sums that are positive by the geometric mean, and roots
     numbers            the numbers that the problem gives for the symbols, only in `sign_known`
 
-`derive.algebra.ranges` decides the sign by ranges and relations. A derivation stays symbolic, so numbers are used only
-to choose between cases, such as whether a top spins fast enough.
+A derivation stays symbolic, so numbers are used only to choose between cases, such as whether a top spins fast enough.
 """
 
 from __future__ import annotations
@@ -43,17 +42,16 @@ def sign_for_all(value: Expr) -> int | None:
 
 
 def sign_known(value: Expr) -> int | None:
-    """Return the sign, 1, -1 or 0; None if unknown. The numbers that the problem gives are used if the assumptions on
-    the symbols do not decide the sign."""
+    """Return the sign, 1, -1 or 0; None if unknown. If the assumptions on the symbols do not decide, the given numbers
+    are used."""
     return _sign_of_product(tidied(value), by_numbers=True)
 
 
 def sign_beside_root(value: Expr) -> int | None:
-    """Return the sign of a ratio of sums P + Q sqrt(D) as `sign_known` does; if a sign is unknown, compare P^2 with Q^2
-    D. None if the sign is still unknown.
+    """Return the sign of a ratio of sums P + Q sqrt(D); None if it is unknown.
 
-    The caller knows that the square roots are real. If P^2 is less than Q^2 D, P + Q sqrt(D) has the sign of Q; if P^2
-    is greater, P + Q sqrt(D) has the sign of P. The root may be a product of square roots.
+    The square roots must be real. If P^2 is less than Q^2 D, P + Q sqrt(D) has the sign of Q; if P^2 is greater, P + Q
+    sqrt(D) has the sign of P.
     """
     own = sign_known(value)
     if own is not None:
@@ -94,8 +92,7 @@ def sign_where(value: Expr, exists: Relation | None) -> int | None:
 
 
 def truth_known(relation: Relation | None) -> bool | None:
-    """Return whether the relation holds, by the assumptions on its symbols or by the given numbers. Return None if this
-    is unknown, and True if no relation is given."""
+    """Return whether the relation is known to hold; None if this is unknown. No relation counts as true."""
     sign = sign_known(relation.residual) if relation is not None else 0
     return relation is None or (None if sign is None else sign in SIGNS_OF[relation.operator])
 
@@ -124,17 +121,16 @@ def _sign_of_factor(factor: Expr, by_numbers: bool) -> int | None:
 
 
 def _is_square_that_lasts(base: Expr, power: Expr) -> bool:
-    """Whether a factor is an even power of a real symbol that does not vanish, because the factor is in a denominator
-    or because the page assumes so."""
+    """Whether a factor is an even power of a real symbol that is assumed not to vanish."""
     lasts = power.is_negative or Relation(base, "!=", Integer(0)) in assumed()
     return bool(base.is_Symbol and base.is_real and power.is_even and lasts)
 
 
 def _is_positive_by_means(total: Expr) -> bool:
-    """Whether a sum is positive because each negative term is, in absolute value, at most twice the geometric mean of
-    two positive terms, as in a^2 - 2 a b + b^2 + c.
+    """Whether a sum is positive because each negative term is at most twice the geometric mean of two positive terms,
+    as in a^2 - 2 a b + b^2 + c.
 
-    Each positive term is used at most once, and at least one must be left over.
+    At least one positive term must be left over.
     """
     terms = Add.make_args(total)
     above = [term for term in terms if term.is_positive]
@@ -162,8 +158,8 @@ def _sign_by_numbers(expr: Expr) -> int | None:
 
 
 def taken_positive(value: Expr) -> int | None:
-    """Return the sign of a value. If the sign is unknown, assume that the value is positive; the page states this
-    assumption. A number times squares keeps the sign of the number: the assumption is that no square is zero."""
+    """Return the sign of a value. If it is unknown, assume that the value is positive, or for a number times squares
+    that no square is zero."""
     sign = 1 if tidied(value) in taken_as_positive() else sign_known(value)
     if sign is not None:
         return sign
@@ -194,8 +190,7 @@ def _factors(value: Expr) -> tuple[Expr, list[tuple[Expr, int]]]:
 
 
 def undecided(value: Any) -> Doubt:
-    """Return the reason why a sentence is not confirmed. If the order of two terms in the value is unknown, such
-    as l < r_0, this is the reason. Otherwise the reason is that numbers do not always agree with the sentence."""
+    """Return the reason why a sentence is not confirmed, such as an unknown order l < r_0 of two terms in the value."""
     parts = value.sides if isinstance(value, Relation) else list(value) if hasattr(value, "shape") else [value]
     exprs = [explicit(part) for part in parts if isinstance(part, Expr)]
     sizes = [size.args[0] for expr in exprs for size in expr.atoms(Abs)]
@@ -218,6 +213,6 @@ def holds(number: Expr | int, mark: str) -> bool:
 
 
 def of_the_size(value: Expr, mark: str) -> Expr:
-    """Return the absolute value of a difference, with the sign that the relation sign (=, < or >) requires. If the
-    relation is true, the returned value is the difference itself."""
+    """Return the absolute value of a difference with the sign that =, < or > requires. If the relation is true, this is
+    the difference itself."""
     return {"=": Integer(0), ">": Abs(value), "<": -Abs(value)}.get(mark, nan)

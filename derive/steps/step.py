@@ -32,9 +32,8 @@ class Form:
     """One line of a chain: an expression, and the reason why it follows from the line before.
 
     `because` is a key that `templates/phrases` puts into words. A form with the reason `rounded`, `limit` or `series`
-    only approximately equals the form before it. A form may be a `Relation`, which is equivalent to the relation in the
-    line before. The factors `nonzero` may have been divided out: they do not vanish in the case considered, and are
-    positive in an inequality.
+    only approximately equals the form before it. The factors `nonzero` may have been divided out: they do not vanish in
+    the case considered, and are positive in an inequality.
     """
 
     expr: Any
@@ -47,16 +46,14 @@ class Form:
 class Step:
     """An established result: the symbol, the chain that leads to its value, and the evidence.
 
-    A step that yields a relation has the symbol None; the page refers to the step by its number. `coordinates` are the
-    coordinates in the step, with their kinds. `stands_for` are keys of steps that would exist in another case, such as
-    the second root of an equation that has only one root here. `names` are the names that earlier steps introduced and
-    that occur in the lines, with their values. `motion` contains the values of rates that follow from the equations of
-    motion; a line that uses them holds only for motions that satisfy these equations. `law_at` is the place of the law
-    in the code, such as `derive/mechanics/rotation/vectors.py:120`.
+    `coordinates` are the coordinates in the step, with their kinds. `stands_for` are keys of steps that would exist in
+    another case, such as the second root of an equation that has only one root here. `names` are the names that earlier
+    steps introduced and that occur in the lines, with their values. `motion` contains the values of rates that follow
+    from the equations of motion; a line that uses them holds only for motions that satisfy these equations. `law_at` is
+    the place of the law in the code, such as `derive/mechanics/rotation/vectors.py:120`.
 
-    The result of a limit or a series has a separate symbol; `approximates` is the symbol of the exact result, or the
-    key of the exact equation. `about` is true if the step is derived from such a limit or series, but has another
-    symbol; the symbol of the step then equals the first line only approximately.
+    For a limit or a series, `approximates` is the symbol of the exact result, or the key of the exact equation. `about`
+    is true for other results that are derived from a limit or a series.
 
     Three fields come from the rule. `display` is how a page shows the step. `theorems` are the theorems that the step
     uses, and `law_in` are the names of the theorems that state the law of the step.
@@ -85,7 +82,7 @@ class Step:
 
     @property
     def exact(self) -> bool:
-        """Whether the result is exact: the step neither is a limit or a series nor is derived from one."""
+        """Whether the result is exact: neither a limit or a series nor derived from one."""
         return self.approximates is None and not self.about
 
     @property
@@ -99,9 +96,8 @@ class Step:
 
     @property
     def grade(self) -> Grade:
-        """Return the less certain of two grades: the grade of the least certain line, and the grade of the most certain
-        other evidence, such as a route or a check. All lines must hold, but one route or check is enough. A statement
-        that was only tested at trial numbers counts like a line."""
+        """Return the grade of the step: the grade of the least certain line, or of the most certain route or check if
+        this is lower."""
         needed = [e for e in self.evidence if e.compared is Compared.LINES or e.claim == TRIALS]
         routes = [e.grade for e in self.evidence if e not in needed]
         surest = [max(routes, key=LEAST_SURE_FIRST.index)] if routes else []
@@ -111,8 +107,7 @@ class Step:
 class Fact:
     """Data that a quantity carries in addition to its value, for the verbs that need such data.
 
-    Each kind of fact is a frozen dataclass, in the module of a verb whose results carry it, in a file `facts.py`, or in
-    a module that several verbs use. The text `missing` completes the message about a quantity without such a fact.
+    The text `missing` completes the message about a quantity without such a fact.
     """
 
     missing: ClassVar[str] = "is not of the kind that is needed here"
@@ -132,7 +127,7 @@ F = TypeVar("F", bound=Fact)
 
 @dataclass(frozen=True, eq=False)
 class Quantity:
-    """A value with the step that made it, the quantities on which this step depends, and the subject of the value.
+    """A value with the step that made it, the quantities on which this step depends, its facts and its subject.
 
     Arithmetic on a quantity would lose its history, so it is rejected. Use the verb `let`, which makes a step.
     """
@@ -153,13 +148,12 @@ class Quantity:
 
     @property
     def exact(self) -> bool:
-        """Whether the value is exact: it neither is a limit or a series nor is derived from one."""
+        """Whether the value is exact: neither a limit or a series nor derived from one."""
         return self.step.exact
 
-    @cached_property  # cached, because quantities read the coordinates of their parents many times
+    @cached_property
     def coordinates(self) -> Mapping[Symbol, str]:
-        """Return the coordinates on which the value may depend, with their kinds: the coordinates of the step, and the
-        coordinates of its parents that no fact eliminates."""
+        """Return the coordinates on which the value may depend, with their kinds."""
         gone = {q for fact in self.facts for q in fact.eliminates}
         known = {q: kind for parent in self.parents for q, kind in parent.coordinates.items() if q not in gone}
         return {**dict(self.step.coordinates), **known}
@@ -236,7 +230,7 @@ def compared_with(other: Callable[[], Any]) -> Route:
 
 
 def same_value(one: Any, other: Any) -> bool:
-    """Whether two values that describe subjects are equal, such as lengths, masses or positions."""
+    """Whether two values, or tuples of values, are equal."""
     try:
         if isinstance(one, tuple) and isinstance(other, tuple):
             return len(one) == len(other) and all(same_value(a, b) for a, b in zip(one, other, strict=True))
@@ -266,8 +260,7 @@ def value_behind(given: Any) -> Any:
 
 
 def approximations_among(*given: Any) -> list[Quantity]:
-    """Return those arguments of a verb that are approximate quantities. A result that depends on such an argument is
-    itself approximate."""
+    """Return those arguments of a verb that are approximate quantities."""
     return [each for each in given if isinstance(each, Quantity) and not each.exact]
 
 

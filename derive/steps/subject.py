@@ -1,8 +1,8 @@
 """The subject of a value: the body, mass, point, axes, axis, rotation and position in space to which the value belongs.
 
 A moment of inertia belongs to one body and one point; an angular momentum belongs to one rotation. Every quantity
-carries its subject, and `establish` unites the subjects of the inputs. Two bodies, two points or two rotations in one
-law are rejected, unless the law allows its inputs to differ in that property.
+carries its subject, and `establish` unites the subjects of the inputs. Different bodies, points or rotations in one law
+are rejected, unless the law allows them.
 """
 
 from __future__ import annotations
@@ -18,8 +18,7 @@ from derive.errors import Complaint, Rejected
 
 
 class Mixed(Enum):
-    """The value of a property in which united subjects differ. It counts as different from every value,
-    including itself."""
+    """The value of a property in which united subjects differ. It agrees with no value."""
 
     SEVERAL = "several"
 
@@ -46,8 +45,7 @@ class Subject:
     place: Any = None
 
     def with_more(self, other: Subject) -> Subject:
-        """Return a subject with the properties of the other subject and, where the other has none, the properties of
-        this subject."""
+        """Return this subject with the known properties of the other subject in place of its own."""
         both = zip(self._all, other._all, strict=True)
         return Subject(*(theirs if theirs is not None else ours for ours, theirs in both))
 
@@ -76,9 +74,9 @@ def united(
 
     key     the key of the step, for the message
     named   the key of each input, and its subject
-    differ  the properties in which the inputs may differ, in addition to `axis`; a property in which they differ
-            becomes `SEVERAL`
+    differ  the properties in which the inputs may differ, in addition to `axis`
     same    the function that decides whether two values are equal
+
     Errors: two inputs have different subjects.
     """
     found: dict[str, Any] = {}
@@ -108,7 +106,7 @@ def _agree(one: Any, other: Any, same: Callable[[Any, Any], bool]) -> bool:
 
 
 def with_name(called: str, key: str, symbol: Any) -> tuple[str, Any]:
-    """Return the key and the symbol of a result for a body with a name, such as `upper_rod_density` and rho_upper."""
+    """Return the key and the symbol of a result with the name of a body, such as `upper_rod_density` and rho_upper."""
     prefix = called.replace(" ", "_")
     if not key.startswith(f"{prefix}_"):
         key = f"{prefix}_{key}"
@@ -129,7 +127,7 @@ def _apart(key: str, field: str, one: tuple[str, Any], other: tuple[str, Any]) -
 
 
 def called(value: Any) -> str:
-    """Return the name by which a message calls a body, a point, an axis or a value; an empty text for a long value."""
+    """Return the name by which a message calls a property; an empty text for a long value."""
     if isinstance(value, Mixed):
         return "several"
     name = getattr(value, "called", "") or getattr(value, "name", None)

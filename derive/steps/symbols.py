@@ -1,5 +1,4 @@
-"""Check the symbol of a result: each name in it is a letter whose indices are not empty, and the symbol denotes the
-same kind of value as the result: a scalar, a vector or a tensor."""
+"""Check the symbol of a result: its names, and whether it denotes a scalar, a vector or a tensor as the result does."""
 
 from __future__ import annotations
 
@@ -14,7 +13,7 @@ EMPTY = {"", "None", "True", "False"}  # texts that code may insert where an ind
 
 
 def check_symbol(key: str, symbol: Any, result: Any) -> None:
-    """Reject a symbol that no page can print, or that denotes another kind of value than the result."""
+    """Reject a symbol that no page can print, or that does not fit the kind of the result."""
     for letter in symbol.atoms(Symbol, MatrixSymbol) if hasattr(symbol, "atoms") else ():
         if not is_notation(str(letter.name)):
             raise Unverified(Complaint("unverified", f"`{key}`: {letter.name} is not a letter with indices"))

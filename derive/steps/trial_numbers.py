@@ -1,13 +1,8 @@
 """Trial numbers: the points at which predicates test a statement, and the tests that predicates have in common.
 
-A point gives each symbol a rational number. The numbers are in the ranges of their symbols, and they satisfy the
-assumed order of symbols and the conditions of the statement. At some points all numbers are of ordinary size; at the
-other points each symbol has one of several sizes. If at most four symbols may be negative, the points have all
-combinations of their signs.
+A point gives each symbol a number in its range. The numbers have several sizes, and both signs where these are allowed.
 
-These tests are independent of verbs: verbs decide a sign by the assumptions on the symbols, and the checks of verbs use
-other points. A statement is accepted only if it is true at each point where it has a meaning, and if there is such a
-point.
+A statement is accepted only if it is true at each point where it has a meaning, and if there is such a point.
 """
 
 from __future__ import annotations
@@ -59,8 +54,8 @@ def _drawn(letters: list[Any]) -> Iterator[Point]:
 
 
 def _size(i: int, n: int) -> Expr:
-    """Return the size of the number for the symbol with index i at point n. The scales of two symbols take all 25 pairs
-    within the first 120 points, unless the indices of the symbols differ by a multiple of 5."""
+    """Return the size of the number for the symbol with index i at point n. The scales of two symbols take many
+    pairs."""
     scale = SCALES[(n % 5 * (i + 1) + n // 5 * (2 * i + 1) + i // 5 * (n % 3)) % 5] if n % 3 else 1
     return Rational(PRIMES[(11 * i + 5 * n + i * n) % 29], 7 + i) * scale
 
@@ -105,7 +100,7 @@ def holds_at(condition: Relation, point: Point) -> bool:
 
 
 def signs(value: Any, points: Iterable[Point]) -> set[int | None]:
-    """Return the set of signs of a value at the points; None is the sign of a value that is not real or not defined."""
+    """Return the set of signs of a value at the points; None for a value without a sign."""
     found = set[int | None]()
     for point in points:
         try:
@@ -124,8 +119,7 @@ def sign_found(value: Expr) -> int | None:
     """Return the sign that a value has at all trial numbers that the assumptions allow; None if there is no common
     sign.
 
-    The numbers that the problem gives are substituted. The rules by which verbs decide a sign are not used. Points at
-    which the value is too large or too small to compute, such as exp(-r/a) for r = 900 a, do not count.
+    The given numbers are substituted. Points at which the value is too large or too small to compute do not count.
     """
     known = with_numbers(explicit(value))
     found = set[int | None]()
@@ -136,7 +130,7 @@ def sign_found(value: Expr) -> int | None:
 
 
 def sign_as_set(value: Expr, point: Point) -> set[int | None]:
-    """Return a set with one entry: the sign of a value at a point, or None if the value is not real or not defined."""
+    """Return a set with one entry: the sign of a value at a point, or None if it has none."""
     try:
         return {sign_at(value, point)}
     except Undefined:
@@ -146,8 +140,8 @@ def sign_as_set(value: Expr, point: Point) -> set[int | None]:
 def everywhere(points: Iterable[Point], is_so: Callable[[Point], bool | None]) -> bool:
     """Whether a statement is true at each point where it has a meaning, and has a meaning at one point at least.
 
-    is_so   a function that returns whether the statement is true at a point. If the statement has no meaning at the
-            point, the function returns None, or raises `Undefined` or `NoNumber`
+    is_so   a function that returns whether the statement is true at a point; None, or an error, if it has no meaning
+            there
     """
     found = _judged(points, is_so)
     return bool(found) and all(found)
@@ -176,8 +170,8 @@ def decides(condition: Relation, points: Iterable[Point]) -> bool:
 def just_where(
     conditions: Sequence[Relation], is_so: Callable[[Point], bool | None], letters: Iterable[Any], *given: Relation
 ) -> bool:
-    """Whether a statement is true at trial points where all conditions hold and false at all other trial points. Points
-    close to the border of each condition are also tested.
+    """Whether a statement is true at trial points where all conditions hold and false at the others. Points close to
+    the border of each condition are also tested.
 
     is_so     as for `everywhere`
     letters   symbols of the statement
@@ -195,8 +189,7 @@ def just_where(
 
 
 def beside_border(condition: Relation, points: Sequence[Point], *given: Relation) -> list[Point]:
-    """Return pairs of points close to the border of a condition, one on each side. Such a pair is found by repeatedly
-    halving the distance between two points."""
+    """Return points close to the border of a condition, on both sides."""
     ahead, behind = ([point for point in points if _side(condition, point) is side] for side in (True, False))
     pairs = [_narrowed(condition, *ends) for ends in islice(zip(ahead, behind, strict=False), PAIRS)]
     kept = [*given, *(Relation(each, ">", 0) for each in known_order().positive)]
@@ -211,7 +204,7 @@ def _side(condition: Relation, point: Point) -> bool | None:
 
 
 def _narrowed(condition: Relation, one: Point, other: Point) -> tuple[Point, ...]:
-    """Return two points close to each other: the condition holds at the first point and does not hold at the second."""
+    """Return two points close to each other: the condition holds only at the first of them."""
     for _ in range(HALVINGS):
         middle = {s: (number + other[s]) / 2 for s, number in one.items()}
         side = _side(condition, middle)

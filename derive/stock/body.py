@@ -44,7 +44,7 @@ from derive.stock.keys.results import RESULTS, read_results
 
 AXES = "xyz"
 SIZES = ("length", "area", "volume")
-# for each key, the beginnings of the names of the answers that depend on this key
+# key -> the beginnings of the names of the answers that depend on it
 DEPENDING = {
     "about": ("inertia_tensor", "parallel", "moment", "radius", "turned", "principal", "perpendicular"),
     "origin": ("centre_of_mass",),
@@ -95,8 +95,7 @@ class Asked:
 
     @property
     def prefix(self) -> str:
-        """Return the beginning of the names of the answers: the name of the body, or an empty text for a single
-        body."""
+        """Return the beginning of the names of the answers: the name of the body, if it has one."""
         return f"{self.described.called.replace(' ', '_')}_" if self.described.called else ""
 
 
@@ -123,7 +122,7 @@ def read(written: GivenBody, symbols: Mapping[str, Declared], faults: Faults) ->
 
 
 def _without(written: GivenBody) -> tuple[tuple[Word, set[str]], ...]:
-    """Return, for each key that specifies a point or an axis, the answers that do not depend on this key."""
+    """Return, for each such key, the answers that do not depend on it."""
     own = {f"{name.replace(' ', '_')}_": keys for name, keys in written.bodies.items()}
     asks = [*BodyAnswers(Asked(DescribedBody("", (), True))).asks()]
     every = {f"{prefix}{name}" for prefix in own or [""] for name in asks}
@@ -151,8 +150,7 @@ def _one_of_many(name: Word, written: OneOfManyKeys, others: GivenBody, known: I
 
 
 def _asked(body: DescribedBody, own: Questions, others: Questions, known: InLetters) -> Asked:
-    """Return one body with its points and axes. If the body does not specify a point or an axis, the value for all
-    bodies is used."""
+    """Return one body with its points and axes, or those for all bodies in place of missing ones."""
     about, origin = own.about or others.about, own.origin or others.origin
     directions = Directions(known)
     direction = own.direction or others.direction
@@ -204,7 +202,7 @@ class BodyAnswers(Answers[Asked]):
         return self._of_mass("mass")
 
     def _of_mass(self, name: str) -> Quantity:
-        """Return the step that derives the density or the mass; reject a request for a value that is given."""
+        """Return the step that derives the density or the mass."""
         if isinstance(self.body, PointMass) or name == "density" and isinstance(self.body, Composite):
             self._has_no(name)
         found = self.body.density
@@ -244,10 +242,7 @@ class BodyAnswers(Answers[Asked]):
 
     @answer
     def parallel_axes(self) -> Quantity:
-        """Return the tensor about `about`, moved from the centre of mass by the parallel-axis theorem.
-
-        If `about` is the centre of mass, the tensor is moved from the origin of the body's axes.
-        """
+        """Return the tensor about `about`, moved from the centre of mass (or to it) by the parallel-axis theorem."""
         if self.about == "centre":
             start = self.body.reference
             there = inertia_tensor(self.body, start, key=f"{start.replace(' ', '_')}_tensor")
@@ -315,7 +310,7 @@ class BodyAnswers(Answers[Asked]):
         own      the name of the answer without the name of the body
         key      the name of the entry, which becomes the key of the answer
         letter   the symbol of the result, if the author chose one
-        tensor   the symbol and the key of the tensor, if the tensor is about another point or is the answer
+        tensor   the symbol and the key of the tensor, where needed
         """
         axis = own[-1]
         if own == "inertia_tensor":
@@ -334,8 +329,7 @@ class BodyAnswers(Answers[Asked]):
 
 
 class BodiesAnswers(StockAnswers[DescribedBodies]):
-    """The quantities of one body or of several bodies. If there are several, each name begins with the name of its
-    body."""
+    """The quantities of one body or of several bodies."""
 
     what = "a body"
 
@@ -344,7 +338,6 @@ class BodiesAnswers(StockAnswers[DescribedBodies]):
         self.of = {one.prefix: BodyAnswers(one) for one in described.bodies}
 
     def asks(self) -> dict[str, Callable[[], Any]]:
-        """Return, for every name that a part may ask for, the function that derives the answer."""
         return {f"{prefix}{name}": asked for prefix, one in self.of.items() for name, asked in one.asks().items()}
 
     def solve(self, asked: Sequence[Word], drawings: Sequence[Placement] = ()) -> dict[str, object]:

@@ -148,7 +148,6 @@ def read(written: RotationKeys, symbols: Mapping[str, Declared], faults: Faults)
 
 
 def _check_together(written: RotationKeys, faults: Faults) -> None:
-    """Report keys that exclude each other, and required keys that are missing."""
     there = written.values_at.keys()
     for first, second in EXCLUDE_EACH_OTHER:
         if {first, second} <= there:
@@ -176,7 +175,7 @@ def _components(written: RotationKeys, name: str, kind: str, known: InLetters) -
 
 
 def _without(written: RotationKeys) -> tuple[tuple[Word, set[str]], ...]:
-    """Return, for each of `rate` (of a disturbed rotation) and `torque`, the answers that do not depend on this key."""
+    """Return, for `rate` and `torque`, the answers that do not depend on them."""
     asks = {*RotationAnswers(DescribedRotation()).asks()}
     of_rate = {name for name in asks if name.startswith(("stability", "wobble"))}
     without_torque = ("inertia_tensor", "spin", "angular_momentum", "kinetic_energy", "angle_between", "torque")
@@ -188,8 +187,7 @@ def _without(written: RotationKeys) -> tuple[tuple[Word, set[str]], ...]:
 
 
 def _point(written: RotationKeys, body: DescribedBody | None) -> str:
-    """Return the name of the point about which the body rotates. For a body that is specified by its moments, this is
-    the centre of mass or a fixed point."""
+    """Return the name of the point about which the body rotates."""
     if written.body is not None:
         return body.point(written.about) if body is not None and written.about else "centre"
     if written.about is None:
@@ -213,7 +211,7 @@ class RotationAnswers(StockAnswers[DescribedRotation]):
         if described.body is not None:
             drawn_turning(self, "angle_between" in asked)
         elif described.about in ("centre", CENTRE_OF_MASS):
-            turns = {"changing", "angular_momentum"} <= vars(self).keys()  # whether both answers have been derived
+            turns = {"changing", "angular_momentum"} <= vars(self).keys()  # whether both answers were derived
             drawn_free(self, turns and not (described.rate or described.start or described.torque))
         for drawing in (drawing for drawing in drawings if drawing.key == POLHODES):
             with told_at(drawing.place):
@@ -221,8 +219,8 @@ class RotationAnswers(StockAnswers[DescribedRotation]):
         return found
 
     def place_of_mark(self, node: Tree, name: str, letters: InLetters) -> MatrixBase:
-        """Return a place relative to the origin of the drawing. For a body that is described by its moments, the
-        components are numbers, relative to the semi-axes of the drawn ellipsoid."""
+        """Return a place relative to the origin of the drawing; for a body that is described by its moments, in units
+        of the semi-axes of the drawn ellipsoid."""
         if not self.described.moments or not isinstance(node, SequenceNode):
             return super().place_of_mark(node, name, letters)
         sizes = semi_axes(self.described.moments)
@@ -232,8 +230,7 @@ class RotationAnswers(StockAnswers[DescribedRotation]):
     def _draw_polhodes(self, asked: Sequence[Word]) -> None:
         """Draw the curves on which the tip of the angular momentum of a free body stays.
 
-        The drawing follows the requested answers about the stability of a rotation and about the conserved quantities
-        or, without such answers, the angular momentum.
+        The drawing follows the answers about the stability of a rotation, if there are any.
         """
         if self.described.torque or self.is_given:
             message = "the polhodes are those of a body that rotates freely"

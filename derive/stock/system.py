@@ -84,7 +84,7 @@ from derive.stock.keys.places import PLACE
 from derive.stock.keys.systems import DescribedSystem, SystemKeys, constant, read
 from derive.witness.facts import Rest
 
-POTENTIAL_ENERGY = "lagrange.potential_energy"  # the rule whose steps state assumptions about springs in words
+POTENTIAL_ENERGY = "lagrange.potential_energy"  # the rule of the steps that state assumptions about springs in words
 SYSTEM = "system"  # the key of the drawing of a system
 
 
@@ -129,8 +129,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         return answers
 
     def _by_methods(self, asked: Sequence[Word], drawings: Sequence[Placement]) -> dict[str, object]:
-        """Return the answers by the requested names, each derived by the method of the part that asks for it; draw the
-        plots."""
+        """Return the answers by the requested names, each derived by the method of its part, and draw the plots."""
         methods, whole = self.described.methods, self.described.methods.whole
         groups: dict[Word | None, list[Word]] = {whole: []}
         for name in asked:
@@ -161,8 +160,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         return list(made(self.described.named, self.parts_by_name))
 
     def place_of_mark(self, node: Tree, name: str, letters: InLetters) -> MatrixBase:
-        """Return a place of the system: its components, a displacement from a place, or the name of a place, of a
-        particle, of a body (its centre of mass) or of a point of a body."""
+        """Return a place of the system, as it is written in the file."""
         faults = Faults()
         written = PLACE.read(node, name, faults)
         faults.stop()
@@ -173,8 +171,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
             return column_of(getattr(found, "centre", None) or getattr(found, "at", None) or found)
 
     def _state_static_friction(self) -> None:
-        """State the conditions under which static friction suffices, unless steps of the answers derive these
-        conditions."""
+        """State the conditions under which static friction suffices."""
         of = {each.force.name: each for each in self.system.constraints}
         for part in self.described.acting:
             if "static" in part.named:
@@ -184,10 +181,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
     def _draw_forces(self) -> None:
         """Draw the forces on each particle and each body.
 
-        The drawing precedes the steps that derive Newton's laws for this particle or body or, in space, the equations
-        of motion with constraint forces. It then shows each force in the direction in which its symbol is positive. If
-        there are no such steps, the forces are drawn only in a plane, and only if they are derived. All drawings have
-        the same scale.
+        A drawing before the steps of Newton's laws shows each force in the direction in which its symbol is positive.
         """
         run = current_run.get()
         steps = run.established if run is not None else ()
@@ -230,8 +224,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         return [each.key for each in laws if forces & explicit(each.value).free_symbols]
 
     def asks(self) -> dict[str, Any]:
-        """Return, for every name that a part may ask for, the function that derives the answer; answers about an impact
-        are included."""
+        """Return the functions that derive the answers, including those about an impact."""
         return super().asks() | (self.of_impact.asks() if self.of_impact is not None else {})
 
     @cached_property
@@ -284,8 +277,8 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
 
     @property
     def drawn_surfaces(self) -> dict[str, Any]:
-        """Return the described surfaces, and the circle on which a string or rod of constant length keeps a particle in
-        a plane: `circle_of_bob` for a particle with the name `bob`."""
+        """Return the described surfaces, and the circles on which strings or rods keep particles, such as
+        `circle_of_bob`."""
         found = dict(self.surfaces)
         for name, particle in self.particles.items():
             for circle in circles_of(self.system, particle.at):
@@ -345,8 +338,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
 
     @answer
     def energy_function(self) -> Quantity:
-        """Return the energy function h of the Lagrangian; with a method other than `lagrange`, return the energy T + U,
-        which must be constant."""
+        """Return the energy function h of the Lagrangian or, by another method, the energy T + U."""
         return energy_function(self.lagrangian) if self.method == LAGRANGE else total_energy(self.system)
 
     @answer
@@ -507,10 +499,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
 
     @property
     def reduced(self) -> Quantity:
-        """Return the Routhian if some but not all coordinates are cyclic and `at` has no value for a cyclic coordinate.
-
-        Otherwise return the Lagrangian.
-        """
+        """Return the Routhian if it can replace the Lagrangian; otherwise the Lagrangian."""
         is_left = self.cyclic and len(self.cyclic) < len(self.coordinates)
         return self.routhian if is_left and not self._has_place_of_cyclic else self.lagrangian
 
@@ -520,8 +509,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
 
     @cached_property
     def independent(self) -> dict[str, Coordinate]:
-        """Return the coordinates that remain after conditions such as rolling have eliminated others. With the method
-        `lagrange`, these are the coordinates of the Lagrangian."""
+        """Return the coordinates that remain after conditions such as rolling have eliminated others."""
         if self.method != LAGRANGE:
             return {name: q for name, q in self.coordinates.items() if q.symbol in self.system.coordinates}
         moving = self.lagrangian.coordinates
@@ -529,22 +517,8 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
 
     @cached_property
     def potential_at_rest(self) -> Quantity:
-        """Return the function that is stationary at equilibria.
-
-        If the problem gives the Lagrangian:
-
-        - the effective potential energy, if some but not all momenta are constant;
-        - otherwise the Lagrangian.
-
-        If the problem describes bodies:
-
-        - the effective potential energy, if there are no constraint forces, and if some but not all momenta are
-          constant or a driven system has only one coordinate;
-        - otherwise the Lagrangian, if the system is driven or forces are given;
-        - otherwise the potential energy.
-
-        A system is driven if it has kinetic energy while all rates are zero, such as a bead on a rotating hoop.
-        """
+        """Return the function that is stationary at equilibria: the potential energy, an effective potential energy or
+        the Lagrangian."""
         if self.described.given is not None:
             return self.effective_potential if 0 < len(self.cyclic) < len(self.coordinates) else self.lagrangian
         still: Mapping[Any, Any] = dict.fromkeys([q.rate for q in self.coordinates.values()], Integer(0))
@@ -558,11 +532,8 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         return self.lagrangian if is_pushed else self.potential_energy
 
     def _assume_momenta(self) -> None:
-        """Assume that each constant momentum is positive, if its symbol is declared positive, or that it is not zero.
-
-        The second assumption is left out for a momentum if some coordinates are not cyclic, and if the forces of the
-        effective potential on these coordinates do not depend on this momentum.
-        """
+        """Assume that each constant momentum is positive, if its symbol is declared positive, or that it is not zero,
+        if this matters."""
         left = [q.symbol for name, q in self.coordinates.items() if name not in self.cyclic]
         for symbol in (momentum.symbol for momentum in self.cyclic.values()):
             if symbol.is_positive:
@@ -578,7 +549,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         return equilibria(self.potential_at_rest)
 
     def _stability_at(self, at: Quantity | Mapping[Any, Expr]) -> tuple[Quantity, ...]:
-        """Decide stability by the potential energy, or by small motions if the potential energy does not decide.
+        """Decide stability by the potential energy, or by small motions if it does not decide.
 
         Gyroscopic forces may stabilise a state at which the potential energy has no minimum.
         """
@@ -623,8 +594,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
 
     @property
     def _is_pushed(self) -> bool:
-        """Whether given forces may shift the equilibrium; false if one of these forces or the Lagrangian depends on the
-        time. A Lagrangian that the problem gives may contain such forces."""
+        """Whether given forces that do not depend on the time may shift the equilibrium."""
         if depends_on_time(self.lagrangian.value):
             return False
         pushes = [c for force in self.system.given_forces for c in force.components] if not self.described.given else []
@@ -643,7 +613,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
 
 
 def _some(found: Iterable[Quantity], otherwise: str) -> tuple[Quantity, ...]:
-    """Return the quantities as a tuple; without quantities, raise an error with the message `otherwise`."""
+    """Return the quantities as a tuple; if there are none, reject with the message `otherwise`."""
     some = tuple(found)
     if not some:
         raise Rejected(Complaint("wrong-argument", otherwise))
@@ -654,8 +624,8 @@ STOCK = Stock(SystemKeys, read, SystemAnswers)
 
 
 def _forces_found(steps: Sequence[Any], system: System) -> tuple[dict[Any, Quantity], dict[Any, Quantity]]:
-    """Return two mappings from symbols of constraint forces to steps: to the steps that derive the forces, and to the
-    steps that express them without rates, by conservation of energy along a motion."""
+    """Return the steps that derive constraint forces, by their symbols, and the steps that express these forces without
+    rates."""
     found: dict[Any, Quantity] = {}
     along: dict[Any, Quantity] = {}
     rates, coordinates = {rate(q) for q in system.coordinates}, {*system.coordinates}

@@ -1,7 +1,6 @@
 """The described system, simulated numerically: statements about the motion are tested on the motion itself.
 
-The simulation does not use derived equations. A description consists of formulas for masses, positions, forces and
-constraints, or of a given Lagrangian. The positions are differentiated by complex steps. The equations of Newton and
-Euler, with the multipliers of constraints, are linear in the accelerations and are solved numerically. SciPy
-integrates the accelerations.
+The simulation does not use derived equations. A description has formulas for masses, positions, forces and constraints,
+or a given Lagrangian. The equations of Newton and Euler, with the multipliers of constraints, are solved numerically
+for the accelerations, which SciPy integrates.
 """

@@ -33,8 +33,7 @@ CONSERVED = frozenset(["energy", "conserved", "given_conserved"])
 
 
 def holds_along(step: Quantity) -> bool:
-    """Whether a step states something about each instant of a motion, according to its rule and the rules of its
-    parents."""
+    """Whether a step states something about each instant of a motion, by its rule and the rules of its parents."""
     if step.step.rule in OF_MOTION:
         return True
     if step.step.rule not in PASSED_ON:
@@ -71,10 +70,7 @@ def substitution(claim: Claim) -> Verdict | None:
 
 
 def _fits_together(claim: Claim) -> Verdict | None:
-    """Test whether the described system has a state with all given values of coordinates and rates.
-
-    If the given rates contradict a constraint, the claim is refuted.
-    """
+    """Test whether the described system has a state with all given values of coordinates and rates."""
     letters = {*claim.blueprint.coordinates, *claim.blueprint.rates}
     plain = [each for each in claim.states_given if each.target in letters]
     if not plain or not claim.blueprint.of.conditions:
@@ -132,6 +128,6 @@ def _unchanging(claim: Claim, value: Expr) -> Verdict | None:
 
 
 def _terms(residual: Expr) -> list[Expr]:
-    """The terms of a residual; the sizes of these terms are the scale of the comparison."""
+    """The terms of a residual, which give the scale of the comparison."""
     terms = list(residual.args) if residual.is_Add else [residual]
     return [part for term in terms for part in ((term.args) if term.is_Add else [term])]

@@ -75,7 +75,7 @@ class Claim:
 
     @cached_property
     def moving(self) -> set[Symbol]:
-        """The coordinates, their rates up to the third order, the multipliers and the time; not the momenta."""
+        """The coordinates, their rates up to the third order, the multipliers and the time."""
         q = self.blueprint.coordinates
         return {*q, *(rate(s, n) for s in q for n in (1, 2, 3)), *self.blueprint.multipliers, TIME}
 
@@ -90,8 +90,8 @@ class Claim:
 
     @property
     def functions_given(self) -> dict[Symbol, Expr]:
-        """Prescribed function -> the formula that was substituted for it, and rate -> the derivative of this formula.
-        Raises `NotComputable` if two formulas were substituted for one function."""
+        """The formulas that were substituted for prescribed functions, and the derivatives of these formulas for the
+        rates. Raises `NotComputable` if two formulas were substituted for one function."""
         found: dict[Symbol, Expr] = {}
         for each in self.givens:
             function, value = each.target, explicit(each.value)
@@ -103,8 +103,7 @@ class Claim:
 
     @cached_property
     def constants(self) -> dict[Symbol, Expr]:
-        """Cyclic coordinate -> its constant momentum, for each cyclic coordinate that was eliminated by means of this
-        momentum."""
+        """The eliminated cyclic coordinates, each with its constant momentum."""
         found: dict[Symbol, Expr] = {}
         reduced = [each for each in self.quantity.ancestors() if each.step.rule in REDUCED]
         for each in (ancestor for step in reduced for ancestor in step.ancestors()):
@@ -137,7 +136,6 @@ class Claim:
         return [each for each in self.givens if self.is_of_a_state(each)]
 
     def trials(self, count: int = TRIALS, also: Sequence[Relation] = ()) -> Iterator[Trial]:
-        """The system with several sets of numbers, which satisfy the assumptions and the conditions in `also`."""
         for number in range(count):
             try:
                 yield self._trial(number, (*self.assumed, *also))
@@ -145,8 +143,7 @@ class Claim:
                 return
 
     def _trial(self, number: int, assumed: tuple[Relation, ...]) -> Trial:
-        """The system with one set of numbers. Steps with the same given values and assumptions share one trial, and so
-        also its states."""
+        """The system with one set of numbers; steps with the same given values and assumptions share it."""
         letters, momenta = tuple(self.letters_given), tuple(self.momenta.items())
         known, key = self.blueprint.known, (number, assumed, letters, momenta, tuple(known_ranges().items()))
         if key not in known:
@@ -155,8 +152,8 @@ class Claim:
         return found
 
     def moments(self, trial: Trial, given: Sequence[Given] | None = None) -> Iterator[tuple[State, Response]]:
-        """States of the motion, each with its accelerations and multipliers. A state that does not determine its
-        accelerations is left out."""
+        """States of the motion, each with its accelerations and multipliers. States that do not determine the
+        accelerations are left out."""
         given = tuple(self.states_given if given is None else given)
         for which in range(STATES):
             try:
@@ -177,7 +174,7 @@ class Claim:
 
 
 def substituted(step: Quantity) -> list[Given]:
-    """The replacements made by one substitution: values for symbols, and results that replace their own symbols."""
+    """The replacements made by one substitution."""
     found = [
         Given(relation.left, explicit(relation.right))
         for role, relation in step.step.roles

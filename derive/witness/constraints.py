@@ -14,11 +14,11 @@ from derive.witness.tape import NotComputable
 from derive.witness.trial import Contradiction, Trial
 
 TRIALS, STATES = 2, 3
-NO_GRADIENT = 1e-4  # a smaller gradient counts as zero: a state where the gradient vanishes is found to within 1e-5
+NO_GRADIENT = 1e-4  # a smaller gradient counts as zero
 
 
 def without_gradient(of: Description) -> list[int]:
-    """The indices of the conditions whose gradients vanish in all tested states that satisfy all conditions."""
+    """The indices of the conditions whose gradients vanish in all tested states."""
     vanishing: list[set[int]] = []
     try:
         blueprint = Blueprint(of)

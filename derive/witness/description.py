@@ -54,10 +54,10 @@ class Pair:
 
 @dataclass(frozen=True)
 class Force:
-    """A force in N at the position `place`; or a torque in N m, if `place` has only one component, an angle.
+    """A force in N at the position `place`; or a torque in N m, if `place` is an angle.
 
-    body   the index of a body: the force acts on the particle of this body at `place`; by default, the force acts on a
-           point whose position is `place` at all times
+    body   the index of a body: the force acts on the particle of this body at `place`; without a body, it acts on the
+           point `place` itself
     """
 
     components: Vector
@@ -102,7 +102,7 @@ class Condition:
 
 @dataclass(frozen=True)
 class Description:
-    """A mechanical system as it is described, or a given Lagrangian in place of masses and forces.
+    """A mechanical system as it is described, possibly by a given Lagrangian in place of masses.
 
     coordinates   each coordinate with its kind, such as "angle" or "length"
     gravity       the acceleration of free fall, in the negative direction of the last axis, m/s^2
@@ -143,8 +143,7 @@ def with_functions(part: Any, known: Mapping[Symbol, Expr]) -> Any:
 class Meeting:
     """A collision of two particles, or of one particle with an object at rest.
 
-    start, end    the positions of the colliding particles, given like the positions of forces; `start` is None for an
-                  object at rest
+    start, end    the positions of the colliding particles; `start` is None for an object at rest
     normal        the direction of the impulse on `end`; empty if the colliding objects stay together
     restitution   the ratio of the speed of separation to the speed of approach
     letters       the symbol of the impulse, or the symbols of its components

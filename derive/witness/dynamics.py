@@ -1,7 +1,6 @@
 """The Newton-Euler equations, numerically: the accelerations and multipliers of a described system in any state.
 
-Complex steps differentiate each position with respect to the coordinates and along the motion. With the Jacobians J and
-the accelerations c at constant rates, virtual work gives
+With the Jacobians J of positions and their accelerations c at constant rates, virtual work gives
 
     sum of W J^T J a + sum of W J^T c = sum of J^T F + A^T lambda,    A a + b = 0,
 
@@ -41,13 +40,13 @@ from derive.witness.geometry import (
 from derive.witness.tape import Compiled, Tape
 
 NEAR = 1e-4  # step for second derivatives of a given Lagrangian, which may be singular at a nearby speed
-LEAST = 1e-12  # a row of the equations with all entries below this number does not determine an acceleration
+LEAST = 1e-12  # a row of the equations with smaller entries counts as zero
 RANK = 1e-9  # singular values below this fraction of the largest count as zero
 Found = TypeVar("Found")
 
 
 class Singular(Exception):
-    """Raised for a state that does not determine the accelerations, for example because a mass vanishes."""
+    """A state does not determine the accelerations, for example because a mass vanishes."""
 
 
 @dataclass(frozen=True)
@@ -98,7 +97,7 @@ class Blueprint:
 
 
 def _weights(description: Description) -> list[Expr]:
-    """All constants of masses, gravity, drag and charges, in the order in which `Dynamics` reads them."""
+    """The constants of the description, in the order in which `Dynamics` reads them."""
     found: list[Expr] = [particle.mass for particle in description.particles]
     for body in description.bodies:
         found += [body.mass, *body.arm, *(entry for row in body.spread for entry in row)]
@@ -110,7 +109,7 @@ def _weights(description: Description) -> list[Expr]:
 
 
 def once_per_state(method: Callable[[Dynamics, State], Found]) -> Callable[[Dynamics, State], Found]:
-    """Keep the result of a method for the last state, because most results of a state need the same derivatives."""
+    """Keep the result of a method for the last state, because several results need the same derivatives."""
 
     @wraps(method)
     def kept(of: Dynamics, state: State) -> Found:
@@ -211,7 +210,7 @@ class Dynamics:
         return Response(known[: self.count], known[self.count :], rank)
 
     def _pairs_of_matter(self, at: Placed) -> Iterator[tuple[float, Place, Place]]:
-        """Yield triples: each mass with its position twice, and each second moment with the two body axes to which it
+        """Yield each mass with its position twice, and each second moment with the two body axes to which it
         belongs."""
         for mass, place in self._weighed(at):
             yield mass, place, place
@@ -221,8 +220,7 @@ class Dynamics:
                     yield spread[i, k], one, other
 
     def _matter(self, at: Placed) -> tuple[Reals, Reals]:
-        """The mass matrix, and the generalized forces of gravity minus the inertial terms, which are masses and second
-        moments times accelerations at constant rates."""
+        """The mass matrix, and the generalized forces of gravity minus the inertial terms at zero accelerations."""
         matrix, forces = np.zeros((self.count, self.count)), np.zeros(self.count)
         for weight, one, other in self._pairs_of_matter(at):
             matrix += weight * one.jacobian.T @ other.jacobian
@@ -232,7 +230,7 @@ class Dynamics:
         return matrix, forces
 
     def _weighed(self, at: Placed) -> Iterator[tuple[float, Place]]:
-        """Each mass with its position; the position of a body is its centre of mass."""
+        """Each mass with its position, for a body the centre of mass."""
         yield from zip(self._masses, at.particles, strict=True)
         for (mass, _, _), body in zip(self._bodies, at.bodies, strict=True):
             yield mass, body.centre
@@ -254,7 +252,7 @@ class Dynamics:
     def _given(self, state: State, at: Placed) -> Reals:
         """The generalized forces of given forces, drag and charges.
 
-        The first column holds the forces at zero multipliers; each further column is the factor of one multiplier.
+        The first column has the forces at zero multipliers; each further column is the factor of one multiplier.
         """
         rows, n = len(self.blueprint.multipliers), self.count
         found = np.zeros((n, 1 + rows))
@@ -277,11 +275,7 @@ class Dynamics:
         return found
 
     def _kept(self, state: State) -> tuple[Reals, Reals]:
-        """The gradients A of the conditions, and the time derivatives b of the conditions at zero acceleration.
-
-        The entry of b is the second time derivative of a condition on coordinates, or the first time derivative of a
-        condition on rates.
-        """
+        """The matrix A and the column b of the constraints A a + b = 0 on the accelerations a."""
         by_places, by_rates, along = self._slopes_of_conditions(state)
         in_rates = self.blueprint.in_rates
         return np.where(in_rates[:, None], by_rates, by_places), np.where(in_rates, along[:, 0], along[:, 1])
@@ -290,7 +284,7 @@ class Dynamics:
     def _slopes_of_conditions(self, state: State) -> tuple[Reals, Reals, Reals]:
         """The derivatives of the conditions with respect to coordinates, with respect to rates, and along the motion.
 
-        The last array holds the first and the second derivative along the motion at constant rates.
+        The last array has the first and the second derivative along the motion at constant rates.
         """
         n = self.count
         if not self.blueprint.of.conditions:
@@ -319,8 +313,8 @@ class Dynamics:
         return np.where(in_rates, 0.0, residuals), np.where(in_rates, residuals, along[:, 0])
 
     def gradients(self, state: State) -> tuple[Reals, Reals]:
-        """The derivatives of the first array of `violation` with respect to coordinates, and of the second with respect
-        to rates."""
+        """The derivatives of the first array of `violation` with respect to coordinates, and of the second array with
+        respect to rates."""
         by_places, by_rates, _ = self._slopes_of_conditions(state)
         in_rates = self.blueprint.in_rates
         on_places = by_places.copy()
@@ -340,7 +334,6 @@ class Dynamics:
         return found
 
     def kinetic_energy(self, state: State) -> float:
-        """Half the sum of W v . v, over all masses and second moments W."""
         pairs = self._pairs_of_matter(self.placed(state))
         return sum(float(weight * one.velocity @ other.velocity) for weight, one, other in pairs) / 2
 
@@ -370,7 +363,7 @@ class Dynamics:
 
 
 def jacobian_of(body: int | None, place: Place, at: Placed) -> Reals:
-    """The Jacobian of a position or, if a body is given, of the particle of this body at the position."""
+    """The Jacobian of a position, or of the particle of a body at this position."""
     return place.jacobian if body is None else at.bodies[body].jacobian_at(place.at)
 
 

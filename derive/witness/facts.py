@@ -13,10 +13,7 @@ from derive.steps.step import Fact
 
 @dataclass(frozen=True)
 class Rest(Fact):
-    """An equilibrium: the values of the coordinates, and the condition under which it exists.
-
-    A coordinate without a value may have any value.
-    """
+    """An equilibrium: the values of the coordinates, and the condition under which it exists."""
 
     missing = "is not an equilibrium"
     values: Mapping[Symbol, Expr]
@@ -25,7 +22,7 @@ class Rest(Fact):
 
 @dataclass(frozen=True)
 class Around(Fact):
-    """The equilibrium about which an equation holds to first order, given by the values of the coordinates.
+    """The equilibrium about which an equation holds to first order.
 
     exists      the condition under which the equilibrium exists
     displaced   symbol of a displacement -> the displaced coordinate

@@ -1,7 +1,7 @@
 """The positions of all parts of a description in a state, with their derivatives.
 
-Complex steps give the first derivatives with respect to each coordinate and along the motion. The second derivative
-along the motion, at constant rates, is computed from first derivatives at three points ahead and three points behind.
+Complex steps give the first derivatives. The second derivative along the motion, at constant rates, is computed from
+first derivatives at nearby points.
 """
 
 from __future__ import annotations
@@ -36,7 +36,6 @@ class State:
 
     @cached_property
     def reach(self) -> float:
-        """The time between the points along the motion that are used for second derivatives."""
         return PATH / (1 + max(1.0, float(np.abs(self.v).max(initial=0.0))))
 
 
@@ -106,7 +105,7 @@ class Placed:
 
 
 def formulas_of(description: Description) -> list[Expr]:
-    """All components of positions, and the angles of rotations, in the order in which `placed` reads them."""
+    """The components of positions, and the angles of rotations, in the order in which `placed` reads them."""
     found: list[Expr] = [c for particle in description.particles for c in particle.place]
     for body in description.bodies:
         found += [*body.place, *(angle for _, angle in body.turns)]
@@ -118,14 +117,13 @@ def formulas_of(description: Description) -> list[Expr]:
 
 
 def _acting_places(description: Description) -> list[Vector]:
-    """The positions of forces, drag and charges."""
     places = [force.place for force in description.forces] + [drag.place for drag in description.drags]
     return places + [charge.place for charge in description.charges]
 
 
 def placed(description: Description, formulas: Compiled, arms: Sequence[Reals], state: State) -> Placed:
-    """The positions of all parts in a state; `arms` has, for each body, the vector to its centre of mass from the point
-    whose position the description gives."""
+    """The positions of all parts in a state; `arms` are the vectors from the known points of the bodies to their
+    centres of mass."""
     points, count = _points(state), len(state.q)
     found = formulas(points)
     rows = iter(found)
@@ -147,11 +145,8 @@ def placed(description: Description, formulas: Compiled, arms: Sequence[Reals], 
 
 
 def _points(state: State) -> Numbers:
-    """The points at which formulas are evaluated.
-
-    The first point is the state itself. The next points have a complex step along each coordinate, and one along the
-    motion. The last points are three states behind and three ahead, each with a complex step along the motion.
-    """
+    """The points at which formulas are evaluated: the state itself, complex steps from it, and nearby states along the
+    motion."""
     n = len(state.q)
     here, along = np.concatenate([state.q, [state.t]]), np.concatenate([state.v, [1.0]])
     points = copies(here, n + 8)
@@ -176,7 +171,7 @@ def _body(body: Body, arm: Reals, rows: Iterator[Numbers], points: int, count: i
 
 
 def _axes(body: Body, angles: Sequence[Numbers], points: int) -> list[Numbers]:
-    """The axes of a body, three in space or two in a plane, as vectors at each sample point."""
+    """The axes of a body as vectors at each point."""
     if len(body.axes) == 2:
         c, s = np.cos(angles[0]), np.sin(angles[0])
         return [np.array([c, s]), np.array([-s, c])]

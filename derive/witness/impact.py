@@ -30,7 +30,7 @@ from derive.witness.trial import Contradiction, Given, Trial
 
 @lru_cache(maxsize=8)
 def _blueprint(of: Impact) -> Blueprint:
-    """The system with one force at the position of each impulse, so that these positions are computed."""
+    """The system with a force at each impulse, so that the positions of the impulses are computed."""
     acting = [*of.impulses, *(end for meeting in of.meetings for end in _ends(meeting.start, meeting.end))]
     return Blueprint(replace(of.system, forces=tuple(acting), drags=(), charges=()))
 
@@ -41,14 +41,14 @@ def _ends(start: Force | None, end: Force) -> list[Force]:
 
 @dataclass(frozen=True)
 class After:
-    """The rates just after an impact and the impulses of the impact, each under its symbol."""
+    """The rates just after an impact and the impulses of the impact, by their symbols."""
 
     rates: dict[Symbol, float]
     impulses: dict[Symbol, float]
 
 
 def after(of: Impact, trial: Trial) -> After | None:
-    """The rates just after an impact, and the impulses; None if the momentum balance does not determine them."""
+    """The rates just after an impact, and the impulses; None if they are not determined."""
     blueprint = trial.blueprint
     q = blueprint.coordinates
     given = [Given(symbol, value) for symbol, value in of.at]
@@ -85,12 +85,8 @@ def _given_share(of: Impact, trial: Trial, state: State) -> Reals:
 
 
 def _equations(of: Impact, trial: Trial, state: State) -> tuple[Reals, Reals, Reals, Reals, list[Symbol]]:
-    """The mass matrix, and for each unknown impulse: its effect on the momenta, the speed required after the impact,
-    and its symbol.
-
-    The effect on the momenta is returned twice: as a column of the momentum balance, and as a row of the conditions
-    that give the speed after the impact.
-    """
+    """The mass matrix, and for each unknown impulse: its effect on the momenta, twice, the speed required after the
+    impact, and its symbol."""
     matrix, _ = trial.dynamics.inertia(state)
     at = trial.dynamics.placed(state)
     places = iter(at.forces[len(of.impulses) :])
@@ -113,7 +109,7 @@ def _equations(of: Impact, trial: Trial, state: State) -> tuple[Reals, Reals, Re
 
 
 def _normals(trial: Trial, normal: Vector, at: tuple[tuple[Symbol, Expr], ...], size: int) -> list[Reals]:
-    """The unit vector along the impulse; if the colliding objects stay together, the unit vectors of all axes."""
+    """The unit vector along the impulse, or the unit vectors of all axes if the colliding objects stay together."""
     if not normal:
         return list(np.eye(size))
     components = np.array([trial.value(c.subs(dict(at))) for c in normal])

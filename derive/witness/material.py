@@ -23,8 +23,7 @@ SAME = 1e-8
 def moving_alone(of: Description, places: Sequence[Vector]) -> list[int]:
     """The indices of the positions that do not move like any part of the system.
 
-    The parts are the particles, the bodies, massless rods that end at a particle, and the ground. The tested states
-    include states that the constraints do not allow.
+    The parts are the particles, the bodies, massless rods that end at a particle, and the ground.
     """
     zero = tuple(0 * c for c in places[0]) if places else ()
     asked = replace(of, forces=tuple(Force(zero, place) for place in places), drags=(), charges=(), conditions=())

@@ -1,5 +1,4 @@
-"""Motions simulated from their start: speeds by energy conservation, loss of contact, slipping, free flights,
-solutions and periods. A test returns None if nothing could be tested.
+"""Tests of motions that are simulated from their start. A test returns None if nothing could be tested.
 
 SciPy integrates the accelerations of the described system by a multistep method, which needs few evaluations of the
 accelerations, and finds when an event occurs: Hairer, Norsett, Wanner, *Solving Ordinary Differential Equations I*,
@@ -28,17 +27,16 @@ from derive.witness.trial import EXACT, HOLDS, Contradiction, Formulas, Given, T
 LONG = 12.0  # duration of a simulated motion, with masses, lengths and g of order one
 CALLS = 6000  # largest number of evaluations of the accelerations in one motion
 MOMENTS, WATCHED = 12, 80  # least number of integration steps: without an event, and with an event, which may be short
-CLEAR = 0.1  # margin by which a condition must be satisfied; otherwise an event is too short to be detected
+CLEAR = 0.1  # margin by which a condition must be satisfied, because a short event might not be detected
 FOLLOWED = 1e-5  # accuracy to which a simulated motion and a formula agree
-MANY = 6  # number of sets of numbers that are tried, because a motion may not reach the position with some numbers
-# A motion begins at this fraction of the distance between its given start and the stated position, because the given
-# start may be an equilibrium.
+MANY = 6  # number of sets of numbers that are tried
+# A motion begins at this fraction of the way from its given start, because this start may be an equilibrium.
 NUDGE = 2e-3
 Event = Callable[[State], float]
 
 
 class TooLong(Exception):
-    """Reports a motion that needs more evaluations of the accelerations than `CALLS`."""
+    """A motion needs more evaluations of the accelerations than `CALLS`."""
 
 
 class Run:
@@ -84,8 +82,7 @@ class Run:
 def followed(
     trial: Trial, start: State, length: float = LONG, event: Event | None = None, free: Dynamics | None = None
 ) -> Run | None:
-    """The motion from a state, for a time `length` or until `event`; None if the motion reaches a singularity or takes
-    too long.
+    """The motion from a state, for a time `length` or until `event`; None if the motion cannot be computed.
 
     free   the dynamics of the system without its constraints, in place of the dynamics of the trial
     """
@@ -127,8 +124,7 @@ def _without_repeats(given: Sequence[Given]) -> list[Given]:
 
 
 def leaves(claim: Claim) -> Verdict | None:
-    """Test whether the force vanishes at the stated position, and not before, in the motion from the start. If the step
-    states that the motion turns back, test whether the force never vanishes."""
+    """Test whether the force first vanishes at the stated position, or never if the motion turns back."""
     inputs = claim.judged.inputs
     if "unknown" not in inputs or "start" not in inputs or not isinstance(claim.value, Relation):
         return None
@@ -151,7 +147,7 @@ TURNS_BACK, TURNS_THERE = "turns_back", "turns_there"
 
 
 def _leaves_in(claim: Claim, trial: Trial, inputs: Mapping[str, Any], place: Expr) -> Verdict | int:
-    """The refutation of the claim by one motion; otherwise the number of motions (0 or 1) that confirm the claim."""
+    """The refutation of the claim by one motion; otherwise the number of motions (0 or 1) that were tested."""
     unknown, begin = explicit(inputs["unknown"]), explicit(inputs["start"])
     margin = _margin(claim)
     if margin is None:
@@ -194,7 +190,7 @@ def _ending(claim: Claim) -> str:
 
 def _margin(claim: Claim) -> Expr | None:
     """An expression in the multipliers: N, which vanishes where the contact ends, or mu_s N - |F|, which vanishes where
-    the body begins to slip. None if the forces of the step are not multipliers."""
+    the body begins to slip."""
     quantities, inputs = claim.judged.quantities, claim.judged.inputs
     found = [quantities[role] for role in ("force", "normal", "friction") if role in quantities]
     if not found or any(each.symbol not in claim.blueprint.multipliers for each in found):
@@ -204,8 +200,8 @@ def _margin(claim: Claim) -> Expr | None:
 
 
 def slips(claim: Claim) -> Verdict | None:
-    """Test whether |F| <= mu_s N if and only if the stated condition holds. If the step states where the body begins to
-    slip, test instead whether the motion first violates |F| <= mu_s N at this place."""
+    """Test whether |F| <= mu_s N if and only if the stated condition holds, or whether the body begins to slip at the
+    stated place."""
     if claim.outcome in SLIPS_ALONG:
         return leaves(claim)
     margin, side = _margin(claim), claim.judged.inputs.get("side")
@@ -243,8 +239,7 @@ def _can_go_on(claim: Claim, trial: Trial, unknown: Expr, begin: Expr, place: Ex
 
 
 def _towards(trial: Trial, unknown: Expr, state: State, sign: float) -> State:
-    """Return the state, with all rates reversed if the motion from this state would move away from the stated
-    position."""
+    """Return the state, with all rates reversed if this is needed to move in the direction of `sign`."""
     response = trial.dynamics.response(state)
     changing = float(trial.formulas([unknown]).rate_at(state, response)[0])
     return replace(state, v=-state.v) if changing * sign < 0 else state
@@ -252,12 +247,11 @@ def _towards(trial: Trial, unknown: Expr, state: State, sign: float) -> State:
 
 # --- free flight after the constraint has ended ---
 
-# The simulated motion that leads to a flight starts after this fraction of the distance from its given start to the
-# beginning of the flight, because the given start may be an equilibrium.
+# The motion before a flight begins at this fraction of the way from its given start, because this start may be an
+# equilibrium.
 BEGUN = 0.03
-FLIGHTS = 3  # number of sets of trial numbers; they satisfy the conditions of the flight, so the force vanishes
-# The greatest difference between a formula and a simulated flight, relative to 1 plus the size of the value. It also
-# contains the error of the simulated beginning of the flight.
+FLIGHTS = 3  # number of sets of numbers
+# The greatest difference between a formula and a simulated flight, relative to 1 plus the size of the value.
 FLOWN = 1e-4
 
 
@@ -310,8 +304,8 @@ def landing(claim: Claim) -> Verdict | None:
 
 
 def _begun(claim: Claim, fact: Any) -> Iterator[tuple[Trial, State, Dynamics]]:
-    """Yield trials. Each trial comes with a state in which the force of the constraint vanishes, and with the dynamics
-    of the system after this constraint and the friction of the same contact have been removed.
+    """Yield trials, each with the state in which the force of the constraint vanishes, and with the dynamics of the
+    system without this constraint.
 
     fact   the flight: the position where it begins, and the motion before it
     """
@@ -335,13 +329,12 @@ def _begun(claim: Claim, fact: Any) -> Iterator[tuple[Trial, State, Dynamics]]:
 
 
 def _first_of(formulas: Formulas, trial: Trial | None = None) -> Event:
-    """An event at which the first formula vanishes; if a trial is given, the formula may contain multipliers."""
+    """An event at which the first formula vanishes."""
     return lambda here: float(formulas.at(here, None if trial is None else trial.dynamics.response(here))[0])
 
 
 def _time_to_turn(trial: Trial, start: State) -> float:
-    """A time of the order of the duration of the flight: the largest rate plus 0.3, but at most 1, in units with g of
-    order one."""
+    """A time of the order of the duration of the flight, in units with g of order one."""
     return float(min(1.0, np.max(np.abs(start.v)) + 0.3))
 
 
@@ -414,16 +407,14 @@ TIMED = 1e-7  # accuracy of the period of a simulated motion
 
 
 def _shrinks(series: Expr, amplitude: Symbol) -> float:
-    """The largest allowed ratio of the error at half amplitude to the error at full amplitude.
-
-    The result is (1/2)^(n + 1/2), where n is the highest power in the series.
-    """
+    """The largest allowed ratio of the error at half amplitude to the error at full amplitude, by the highest power in
+    the series."""
     highest = series.as_poly(amplitude).degree()
     return float(0.5 ** (highest + 0.5))
 
 
 def _swing(claim: Claim, trial: Trial, q: Symbol, amplitude: Symbol, length: float) -> float | None:
-    """Twice the time from the release to the other turning point; None if the motion does not reach this point."""
+    """Twice the time from the release to the other turning point; None if this point is not reached."""
     i = claim.blueprint.coordinates.index(q)
     try:
         start = trial.state(_without_repeats([*claim.states_given, Given(q, amplitude), Given(rate(q), Integer(0))]))

@@ -1,9 +1,8 @@
 """Tests of equilibria and of small motions about them: stability, frequencies and decay. A test returns None if nothing
 could be tested.
 
-The described system is linearised numerically on the manifold of its constraints. The known momenta of cyclic
-coordinates are constant. The eigenvalues s of the linear motion show whether a displacement grows (Re s > 0 for some
-s) or oscillates (s = i omega).
+The described system is linearised numerically on the manifold of its constraints. The eigenvalues s of the linear
+motion show whether a displacement grows (Re s > 0) or oscillates (s = i omega).
 
 Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 6.1 and 6.2; Meirovitch, *Methods of Analytical
 Dynamics*, section 6.
@@ -28,22 +27,21 @@ from derive.witness.tape import NotComputable
 from derive.witness.trial import Contradiction, Given, Trial
 
 SMALL = 1e-3  # step of the finite differences for the derivatives; their error is of the order of SMALL**4
-# Re s counts as zero below this fraction of the largest |s|; |s|**2 counts as zero below this fraction of the largest
-# |s|**2.
+# Re s, or |s|**2, counts as zero below this fraction of the largest |s|, or |s|**2.
 SURE = 1e-3
-FREQUENCY = 1e-5  # relative accuracy of squared frequencies; the tests allow ten times this value
-STAYS = 1e-7  # accuracy of an acceleration if all numbers are of order one; the tests allow ten times this value
-DOUBLE = 1e-4  # relative accuracy of eigenvalues s; low, because two nearly equal eigenvalues are less accurate
+FREQUENCY = 1e-5  # relative accuracy of squared frequencies
+STAYS = 1e-7  # accuracy of an acceleration if all numbers are of order one
+DOUBLE = 1e-4  # relative accuracy of eigenvalues s, which is low for two nearly equal eigenvalues
 SHORT, MOMENTS = 2.0, 6  # duration of a simulated small motion, and number of times at which it is tested
 ZERO = Integer(0)
-DRAWS = 8  # number of trials; if the stability has a condition, also the number of trials that violate the condition
+DRAWS = 8  # number of trials
 DISPLACED = np.array([-2.0, -1.0, 1.0, 2.0])
 WEIGHTS = np.array([1.0, -8.0, 8.0, -1.0]) / 12
 
 
 @dataclass(frozen=True)
 class Neighbourhood:
-    """States near an equilibrium, described by as many coordinates as there are degrees of freedom.
+    """States near an equilibrium.
 
     free     the indices of the coordinates that may be displaced: all except cyclic coordinates with known momenta
     momenta  index of each cyclic coordinate with a known momentum -> this momentum
@@ -55,8 +53,7 @@ class Neighbourhood:
     momenta: Mapping[int, float]
 
     def basis(self) -> Reals:
-        """The directions in which the constraints allow displacements: one column for each direction, one row for each
-        free coordinate."""
+        """The directions in which the constraints allow displacements, as columns."""
         _, by_rates = self.trial.dynamics.gradients(self.state)
         if not len(by_rates):
             return np.eye(len(self.free))
@@ -65,11 +62,7 @@ class Neighbourhood:
         return np.array(rows[rank:].T)
 
     def at(self, basis: Reals, u: Reals, w: Reals) -> State:
-        """The state with the displacements u along the basis and the rates w of these displacements.
-
-        If the system has constraints, the result is a nearby state that satisfies the constraints. Otherwise the cyclic
-        coordinates get the rates that follow from their momenta.
-        """
+        """The state with the displacements u along the basis and the rates w of these displacements."""
         q, v = self.state.q.copy(), self.state.v.copy()
         q[list(self.free)] += basis @ u
         v[list(self.free)] = self.state.v[list(self.free)] + basis @ w
@@ -82,7 +75,6 @@ class Neighbourhood:
         return np.asarray(basis.T @ response.a[list(self.free)])
 
     def eigenvalues(self) -> NDArray[np.complex128]:
-        """The eigenvalues of the linear motion."""
         return np.asarray(np.linalg.eigvals(self.matrix()), dtype=np.complex128)
 
     def matrix(self) -> Reals:
@@ -99,11 +91,7 @@ class Neighbourhood:
 
 
 def neighbourhood(claim: Claim, trial: Trial, place: Mapping[Symbol, Expr]) -> Neighbourhood | None:
-    """The states near the equilibrium at `place`, which gives values of coordinates.
-
-    The result is None if the system has both constraints and cyclic coordinates with known momenta, or if a symbol in
-    `place` is not a coordinate of the system.
-    """
+    """The states near the equilibrium at `place`; None if such states cannot be found."""
     q = claim.blueprint.coordinates
     cyclic = {q.index(of): value for of, value in claim.constants.items() if of not in place}
     if cyclic and claim.blueprint.of.conditions:
@@ -154,7 +142,7 @@ def rest(claim: Claim) -> Verdict | None:
 
 
 def _is_balanced(near: Neighbourhood) -> bool:
-    """Whether all generalized forces vanish at this equilibrium; False if the system has constraints."""
+    """Whether all generalized forces vanish at this equilibrium, for a system without constraints."""
     if near.trial.blueprint.of.conditions:
         return False
     _, forces = near.trial.dynamics.inertia(near.state)
@@ -167,8 +155,7 @@ UNSTABLE = frozenset(["unstable", "unstable_along"])
 
 def stability(claim: Claim) -> Verdict | None:
     """Test the stability that the step states: no small displacement may grow at a stable equilibrium, and some small
-    displacement must grow at an unstable equilibrium. If the step states a condition for stability, the equilibrium
-    must be stable for numbers that satisfy the condition, and unstable for numbers that violate the condition."""
+    displacement must grow at an unstable equilibrium."""
     inputs = claim.judged.inputs
     if "coordinates" not in inputs or "place" not in inputs:
         return None
@@ -205,11 +192,7 @@ def _neighbourhoods_with(
 
 
 def _goes_as_stated(claim: Claim, near: Neighbourhood, is_stable: bool) -> Verdict | int:
-    """Return the refutation of the stated stability; if nothing refutes it, return the number of equilibria (0 or 1)
-    that were tested.
-
-    The linear motion does not refute instability if one of its eigenvalues is zero.
-    """
+    """Return the refutation of the stated stability, or the number of equilibria (0 or 1) that were tested."""
     try:
         growth = near.eigenvalues()
     except (Singular, Contradiction, np.linalg.LinAlgError):
@@ -236,8 +219,8 @@ def _around(claim: Claim) -> Around | None:
 
 
 def frequency(claim: Claim) -> Verdict | None:
-    """Test whether some small displacement oscillates with the stated frequency. If the outcome of the step says that a
-    displacement grows, test whether some small displacement grows at the stated rate."""
+    """Test whether some small displacement oscillates with the stated frequency. If the step states a growth, test the
+    rate of growth."""
     around = _around(claim)
     if around is None or claim.outcome == "neutral":
         return None
@@ -264,8 +247,7 @@ def _squares_of(near: Neighbourhood) -> NDArray[np.complex128] | None:
 
 
 def damped(claim: Claim) -> Verdict | None:
-    """Test whether some small displacement decays or grows at the stated rate, or has both the stated frequency and the
-    stated rate of decay."""
+    """Test whether some small displacement has the stated rate or frequency."""
     around = _around(claim)
     if around is None:
         return None
@@ -326,7 +308,7 @@ def motion(claim: Claim) -> Verdict | None:
 
 
 def _starts_of(claim: Claim) -> dict[Expr, Expr] | None:
-    """The initial displacements and rates that the sentence states; None if one of them is not a relation."""
+    """The initial displacements and rates that the sentence states."""
     told = [each for role, each in claim.judged.inputs.items() if role.startswith("start")]
     if not all(isinstance(each, Relation) for each in told):
         return None
@@ -334,16 +316,13 @@ def _starts_of(claim: Claim) -> dict[Expr, Expr] | None:
 
 
 def _stays(near: Neighbourhood) -> bool:
-    """Whether the accelerations in this state vanish at two times, so that it counts as an equilibrium at all times."""
+    """Whether this state is an equilibrium at two different times."""
     at_times = [near.trial.dynamics.response(replace(near.state, t=t)) for t in (0.0, 0.3)]
     return all(np.max(np.abs(each.a[list(near.free)]), initial=0.0) < STAYS * 10 for each in at_times)
 
 
 def _eigenvalues_of(near: Neighbourhood) -> NDArray[np.complex128] | None:
-    """The eigenvalues of the linear motion, or None if they cannot be computed.
-
-    They are computed once for each equilibrium and cached, because the tests of all frequencies use them.
-    """
+    """The eigenvalues of the linear motion, from a cache, or None if they cannot be computed."""
     known, letters = near.trial.blueprint.known, sorted(near.trial.blueprint.letters, key=str)
     here = near.state.q.tobytes(), near.state.v.tobytes(), tuple(near.momenta.items())
     key = (tuple(near.trial.numbers[letter] for letter in letters), near.free, *here)

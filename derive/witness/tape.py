@@ -2,8 +2,8 @@
 
 The derivative of a formula f at q is the imaginary part of f(q + ih), divided by a very small h (a complex step).
 
-Equal parts of formulas are computed once. Operations whose arguments are all constant are evaluated when numbers
-replace the symbols; all other operations are evaluated for a whole array of points at a time.
+Equal parts of formulas are computed once. Operations on constants are evaluated when numbers replace the symbols; the
+others are evaluated for a whole array of points at a time.
 
 Source: Squire, Trapp, *SIAM Review* 40 (1998), 110 (derivatives by complex steps).
 """
@@ -48,11 +48,11 @@ from derive.algebra.ranges import POSITIVE, range_of
 Numbers: TypeAlias = NDArray[np.complex128]
 Operation: TypeAlias = tuple[Callable[..., Any], tuple[int, ...]]
 
-LARGEST = 20_000  # largest number of operations, symbols and numbers in one `Tape`
+LARGEST = 20_000  # largest size of a `Tape`
 
 
 class NotComputable(Exception):
-    """Reports that the witness cannot compute a value, for example of a function that is not in `FUNCTIONS`."""
+    """The witness cannot compute a value, for example of a function that is not in `FUNCTIONS`."""
 
 
 def _absolute(x: Any) -> Any:
@@ -94,9 +94,8 @@ def _root_in_order(number: int, *coefficients: Any) -> Any:
 def tested_by(prescribed: Prescribed) -> Callable[..., Any]:
     """Return a definite function of time that replaces a prescribed function X(t) or one of its derivatives.
 
-    X(t) is replaced by c + A sin(w t + p) + B sin(v t + q). The numbers follow from the name of X, and the values of
-    X(t) are in the range of X. An equation of motion is unlikely to have this function as a solution by accident. The
-    derivatives of the function are exact.
+    X(t) is replaced by c + A sin(w t + p) + B sin(v t + q). The numbers follow from the name of X, and the values are
+    in the range of X. An equation of motion is unlikely to have this function as a solution by accident.
     """
     own, source = prescribed.function, Random(crc32(prescribed.function.name.encode()))
     known = range_of(own) or (POSITIVE if own.is_positive else None)
@@ -114,9 +113,10 @@ def tested_by(prescribed: Prescribed) -> Callable[..., Any]:
 
 
 class Tape:
-    """Formulas as operations; each operation uses the results of earlier operations.
+    """Formulas as operations; `inputs` are the symbols whose values vary from point to point.
 
     inputs   the symbols whose values vary from point to point
+
     All other symbols are constants, except prescribed functions: `tested_by` gives a definite function for each.
     """
 
@@ -211,7 +211,7 @@ class Tape:
 
 
 class Compiled:
-    """Operations in which numbers replace the constants, and which are evaluated at many points at once."""
+    """The operations of a tape, with numbers for its constants."""
 
     def __init__(
         self,
@@ -233,7 +233,7 @@ class Compiled:
             values[i] = row
         with np.errstate(all="ignore"):
             for i, operation, args in self._varying:
-                if len(args) == 2:  # true for most operations; the general line below would take twice as long
+                if len(args) == 2:  # faster than the general line below
                     one, other = args
                     values[i] = operation(values[one], values[other])
                 else:

@@ -1,8 +1,6 @@
 """A description with random numbers for its symbols, and states that satisfy the conditions and the given values.
 
-The seed of a random number consists of the name of its symbol, the index of the trial and a count of the attempts.
-So the numbers are the same in every run. They are in the ranges of their symbols and satisfy the assumptions of the
-page.
+The numbers are the same in every run. They are in the ranges of their symbols and satisfy the assumptions of the page.
 """
 
 from __future__ import annotations
@@ -40,8 +38,8 @@ HOLDS = {
 
 
 class Contradiction(Exception):
-    """Reports given values that are impossible in the described system; `of_rates` is true if only the values of rates
-    are impossible."""
+    """Given values are impossible in the described system; `of_rates` is true if only the values of rates are
+    impossible."""
 
     def __init__(self, of_rates: bool):
         super().__init__()
@@ -76,7 +74,7 @@ class Drawn(Mapping[Symbol, float]):
 
 
 def drawn(letter: Symbol, trial: int, salt: int = 0, wide: float = 1.0) -> float:
-    """A random number that the symbol may have; of order `wide`, unless the symbol has a range or is an integer."""
+    """A random number that the symbol may have, of order `wide` unless the symbol has a range or is an integer."""
     source = Random(crc32(f"{letter.name} {trial} {salt}".encode()))
     known = range_of(letter)
     if known is not None:
@@ -102,7 +100,7 @@ class Trial:
     number    the index of the trial; the random numbers depend on it
     assumed   relations that the numbers and the states must satisfy
     fixed     numbers for some of the symbols, in place of random ones
-    letters   given values of constants, such as `m = 2 M`; `state` takes given values of coordinates and rates
+    letters   given values of constants, such as `m = 2 M`
     momenta   the symbols of momenta, each with its coordinate
     """
 
@@ -171,8 +169,7 @@ class Trial:
         return self._moments[given, which]
 
     def drawn_state(self, which: int, still: bool = False, wide: float = 1.0) -> State:
-        """A random state. If `wide` is small, all rates are small. The coordinates that have no range and need not be
-        positive are then also small."""
+        """A random state; the rates and the coordinates without a range are of order `wide`."""
         q, v = [], []
         for symbol, kind in self.blueprint.of.coordinates:
             place = drawn(symbol, self.number, 7 + which)
@@ -187,8 +184,7 @@ class Trial:
         """Return a state near `state` that satisfies the conditions and the given values. Raise `Contradiction` if none
         is found.
 
-        Newton's method, with the smallest changes, finds the coordinates and, where needed, the time. Then it finds
-        the rates.
+        Newton's method finds first the coordinates, and then the rates.
         """
         inputs = [*self.blueprint.coordinates, *self.blueprint.rates, TIME]
         kept = [(self.momenta[g.target], self.value(g.value)) for g in given if g.target in self.momenta]
@@ -272,7 +268,7 @@ class Trial:
         return any(depends_on_time(c.residual) for c in self.blueprint.of.conditions if not c.in_rates)
 
     def _by_time(self, state: State) -> Reals:
-        """The partial derivatives, with respect to time, of the conditions on coordinates."""
+        """The partial time derivatives of the conditions on coordinates."""
         at_rest = replace(state, v=np.zeros_like(state.v))
         _, violation = self.dynamics.violation(at_rest)
         return np.where(self.blueprint.in_rates, 0.0, violation)
@@ -284,7 +280,6 @@ class Trial:
         return all(HOLDS[each.operator](x) for each, x in zip(self._stays, found, strict=True))
 
     def _allowed(self, q: Reals) -> bool:
-        """Whether each coordinate has an allowed value."""
         for symbol, place in zip(self.blueprint.coordinates, q, strict=True):
             known = range_of(symbol)
             if symbol.is_positive and place <= 0:
@@ -315,11 +310,11 @@ class Formulas:
         self._bound = self._tape.bound(trial.numbers)
 
     def at(self, state: State, response: Response | None = None) -> Reals:
-        """The values of the formulas in a state; if `response` is None, accelerations and multipliers count as zero."""
+        """The values of the formulas in a state; accelerations and multipliers need a `response`."""
         return np.array([_real(x) for x in self._values(state, response)])
 
     def complex_at(self, state: State) -> complex:
-        """The value of the first formula in a state; this value may be complex."""
+        """The value of the first formula in a state, which may be complex."""
         return complex(self._values(state)[0])
 
     def _values(self, state: State, response: Response | None = None) -> NDArray[np.complex128]:

@@ -225,7 +225,6 @@ TURNED = {"=": "=", "!=": "!=", "<": ">", ">": "<", "<=": ">=", ">=": "<="}
 
 
 def relations(source: Random) -> Iterator[tuple[Any, Any]]:
-    """The same multiplied by what has one sign; with the sides exchanged; with a term on the other side."""
     letters: tuple[Expr, ...] = (x, y, a, b, sin(theta), cos(theta), x * cos(phi))
     for turn in range(34):
         left, right = (a_sum(source, letters, 2) for _ in range(2))
@@ -262,7 +261,6 @@ FAMILIES: dict[str, Callable[[Random], Iterator[tuple[Any, Any]]]] = {
 
 
 def asked(root: Path, sets: tuple[str, ...] = ("hw9", "library")) -> Iterator[tuple[Any, Any]]:
-    """All pairs that are told to be equal while the problems are derived, but those that are written alike."""
     from unittest.mock import patch
 
     import derive.steps.establish
@@ -292,7 +290,6 @@ def asked(root: Path, sets: tuple[str, ...] = ("hw9", "library")) -> Iterator[tu
 
 
 def slipped(expr: Any, source: Random) -> Any | None:
-    """The expression with one slip: a sign, a factor, a term left out, a power, another letter or function."""
     nodes = [node for node in dict.fromkeys(preorder_traversal(expr)) if isinstance(node, Basic)]
     source.shuffle(nodes)
     letters = sorted((node for node in nodes if isinstance(node, Symbol)), key=str)
@@ -364,7 +361,6 @@ def _holds(mark: str, x: Any) -> bool:
 
 
 def _solved(residual: Expr, numbers: dict[Expr, Any]) -> Iterator[dict[Expr, Any]]:
-    """The point with one letter changed so that the residual is zero there."""
     for letter in sorted(residual.free_symbols, key=str)[:4]:
         at = {**numbers}
 
@@ -410,7 +406,6 @@ def _value(expr: Expr, numbers: dict[Expr, Any]) -> Any:
 
 @lru_cache(maxsize=64)
 def _compiled(expr: Expr, ordered: tuple[Expr, ...]) -> Callable[..., Any]:
-    """The expression as a function of numbers for its letters and unknown functions, what holds others first."""
     unknown = [Symbol(f"unknown_{number}") for number, _ in enumerate(ordered)]
     for each, stand_in in zip(ordered, unknown, strict=True):
         expr = expr.xreplace({each: stand_in})
@@ -421,7 +416,6 @@ def _compiled(expr: Expr, ordered: tuple[Expr, ...]) -> Callable[..., Any]:
 
 
 def by_sympy(pair: Pair) -> str:
-    """Which of `equals` and `simplify` gives the right answer."""
     if isinstance(pair.left, Relation | MatrixBase):
         return "-"
     difference = Add(pair.left.doit(), -pair.right.doit())
@@ -452,7 +446,6 @@ def _within(question: Callable[[], Any]) -> Any:
 
 
 def all_pairs(root: Path) -> Iterator[Pair]:
-    """Equal ones, and after each of them one that is not."""
     source = Random(9)
     made = ((name, pair) for name, family in FAMILIES.items() for pair in family(source))
     drawn = list(asked(root))

@@ -41,8 +41,6 @@ class Pair:
 
 
 class Letters:
-    """The word for each letter, and what is assumed of it."""
-
     def __init__(self) -> None:
         self.words: dict[Symbol, str] = {}
 
@@ -60,7 +58,6 @@ class Letters:
 
 
 def written(expr: Any, letters: Letters) -> str:
-    """The expression as text; TypeError for what has none."""
     if isinstance(expr, Symbol):
         return letters.word(expr)
     if isinstance(expr, Rational):
@@ -142,7 +139,6 @@ def pairs_in(text: str) -> list[Pair]:
 
 
 def families() -> list[str]:
-    """The families of the kept pairs, without reading the expressions."""
     _, _, body = FILE.read_text(encoding="utf-8").partition("\n\n")
     return sorted({line.partition(" | ")[0] for line in body.splitlines()})
 

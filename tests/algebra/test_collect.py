@@ -108,7 +108,6 @@ def test_terms_of_one_constant_stand_together_and_others_stay() -> None:
 
 
 def test_terms_without_a_constant_are_added_up() -> None:
-    """The smallest kinetic energy that was once refused: the squares of two rates were multiplied."""
     m, x, y = symbols("m x y", positive=True)
     value = m * rate(x) * rate(y) + rate(x) ** 2 / 2 + rate(y) ** 2 / 2
     assert (with_weights_in_front(value, [x, y], {m}) - value).expand() == 0

@@ -208,7 +208,6 @@ INDICES = {omega_x: omega_y, I_x: I_z, x: y, theta: phi, a: b, b: a, y: x}
 
 
 def slips(expr: Expr) -> Iterator[tuple[str, Expr]]:
-    """The expression with one slip, for each place at which one may be made."""
     for node in dict.fromkeys(preorder_traversal(expr)):
         if isinstance(node, Add):
             *others, last = node.args

@@ -406,7 +406,6 @@ def test_a_changed_coefficient_is_refuted(f: Expr, form: Any, change: Any) -> No
 @bounded
 @given(rational_functions(), rational_functions())
 def test_what_is_proved_agrees_in_floating_point(f: Expr, g: Expr) -> None:
-    """Soundness, judged by other means: what differs at a point is never proved."""
     point = {x: 0.8125, y: -1.375, a: 0.4375, b: 1.28125}
     values = [expr.subs(point).evalf(30) for expr in (f, g)]
     assume(all(value.is_finite for value in values))
@@ -431,7 +430,6 @@ def test_roots_of_numbers_multiply(m: int, k: int) -> None:
 
 
 def test_equations_that_say_different_things_are_told_apart_by_a_point() -> None:
-    """At the point the second equation holds, and the first does not."""
     free, pushed = Relation(3 * rate(x, 2), "=", 0), Relation(3 * rate(x, 2), "=", y)
     verdict = equal(free, pushed)
     assert verdict.grade is Grade.REFUTED
@@ -570,7 +568,6 @@ def test_what_is_imaginary_everywhere_is_compared_there() -> None:
 
 
 def test_a_size_is_sampled_on_both_sides_of_its_zero() -> None:
-    """Where y is positive and k below -3, few points are."""
     y, k = symbols("y k", real=True)
     power = symbols("a", positive=True)
     assert equal(y**power / Abs(k + 3), y**power / (k + 3)).grade is Grade.REFUTED

@@ -111,7 +111,6 @@ def test_a_vector_product_is_perpendicular_to_both_factors(p: tuple[int, ...], q
 @bounded
 @given(whole, whole)
 def test_a_vector_carried_round_changes_at_omega_cross_it(p: tuple[int, ...], w: tuple[int, ...]) -> None:
-    """The two are evaluated by different means: a rotation matrix that is differentiated, and the vector product."""
     carried = explicit(ex.CarriedRate(column(*p), column(*w)))
     assert (carried - explicit(ex.Cross(column(*w), column(*p)))).applyfunc(lambda e: e.expand()) == zeros(3, 1)
 

@@ -184,8 +184,6 @@ def test_signs_do_not_depend_on_what_was_asked_before(value: Expr, monkeypatch: 
 
 
 def test_a_common_factor_of_many_letters_is_found_without_the_gcd_of_all(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A sum of masses below the line is divided out; what has no factor in common is seen to have none."""
-
     def never(*_: object) -> None:
         raise AssertionError
 

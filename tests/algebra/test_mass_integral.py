@@ -17,7 +17,6 @@ SIZES = {a: LENGTH, b: LENGTH, rho: MASS / LENGTH, Integer(0): None, Integer(1):
 
 
 def rod(integrand: object, density: object = rho) -> MassIntegral:
-    """Over a rod from 0 to a along x."""
     return MassIntegral(integrand, r, density, column(x, 0, 0), Integer(1), Tuple(x, 0, a))
 
 
@@ -45,7 +44,6 @@ def test_the_element_of_volume_weighs_each_place() -> None:
 
 
 def dimension(expr: object, inner: dict[object, object] | None = None) -> object:
-    """A table for what stands in these integrals."""
     table = {**SIZES, **(inner or {})}
     return table.get(expr, NUMBER if isinstance(expr, Identity) else None)
 

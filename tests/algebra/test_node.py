@@ -22,8 +22,6 @@ a, b, x = symbols("a b x", positive=True)
 
 @pytest.fixture
 def square() -> Iterator[Any]:
-    """A node that the package does not have."""
-
     class Squared(ScalarNode):
         def _evaluated(self, inside: Expr) -> Expr:
             return inside**2

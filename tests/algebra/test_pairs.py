@@ -34,7 +34,6 @@ def test_every_pair_is_decided_rightly_and_as_surely_as_before(family: str) -> N
 
 
 def test_what_sympy_decides_is_not_left_to_samples() -> None:
-    """`equals` and `simplify` show no pair to be equal that is only sampled here, but for those that are listed."""
     left_open = [pair for pair in kept() if pair.equal and pair.by_sympy != "-" and pair.grade != Grade.PROVED]
     assert not left_open
 

@@ -94,7 +94,6 @@ NEIGHBOURS = [
 
 
 def changed(left: Expr, mark: str, right: Expr) -> list[Relation]:
-    """The relation with each other mark, its sides exchanged, each side with the other sign, twice, or squared."""
     sides = [(left, right), (right, left), (-left, -right), (-left, right), (left, -right), (2 * left, right)]
     sides += [(left**2, right**2), (x * left, x * right), (a * left, a * right)]
     near = {"=": "=!", "!": "!=", "<": "<>", ">": "<>"}[mark[0]]

@@ -12,7 +12,6 @@ a, b = symbols("a b", positive=True)
 
 
 def at(ring: Ring, **powers: int) -> int:
-    """The monomial with these powers."""
     return sum(n << ring.place(Symbol(name, positive=True)) for name, n in powers.items())
 
 

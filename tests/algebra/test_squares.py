@@ -28,7 +28,6 @@ def test_a_sum_times_a_difference(product: Expr, expected: Expr) -> None:
 
 
 def test_a_square_among_the_terms_of_a_sum() -> None:
-    """The moment of inertia of a loaded cylinder about its contact."""
     value = I + M * R**2 - 2 * M * R * a + M * a**2
     assert with_squares(value) == I + M * (R - a) ** 2
     assert with_squares(value).is_positive

@@ -81,7 +81,6 @@ def test_no_slip_of_the_corpus_is_taken_for_equal() -> None:
 
 
 def test_the_order_of_the_questions_does_not_matter() -> None:
-    """A half of an angle, once asked for, divides the angle for all that follows."""
     questions = [
         (sin(x) * cos(x), sin(2 * x) / 2),
         (cos(x / 2) ** 2, (1 + cos(x)) / 2),
@@ -171,7 +170,6 @@ def test_of_roots_that_depend_on_one_another_and_of_what_may_be_nothing_this_mod
 
 
 def test_a_root_of_one_is_of_no_lower_order() -> None:
-    """Products of all differences to the other roots are not zero: only the irreducible equation counts."""
     turn = cos(pi / 9) + I * sin(pi / 9)
     assert not any(are_equal(turn**n, S.One) for n in range(1, 18))
     assert are_equal(turn**18, S.One)

@@ -15,7 +15,6 @@ def git(root: Path, *arguments: str) -> None:
 
 
 def committed(root: Path) -> Path:
-    """All that is there, as one commit."""
     if not (root / ".git").exists():
         git(root, "init", "-q")
     git(root, "add", "-A")

@@ -21,7 +21,6 @@ from tests.courses import course_in
 
 @pytest.fixture
 def made(monkeypatch: pytest.MonkeyPatch) -> list[str]:
-    """The keys of the steps that are established from here on, in place of being recalled."""
     keys: list[str] = []
     add = establish.record.add
     monkeypatch.setattr(establish.record, "add", lambda q, case: (keys.append(q.key), add(q, case))[1])
@@ -36,13 +35,11 @@ def change(course: Path, name: str, old: str, new: str) -> None:
 
 
 def derive(course: Path, cache: Cache, problem: str = "block") -> Derivation:
-    """The steps alone, of which only the calls are kept."""
     with calls_of(f"hw9/{problem}", cache) as memory:
         return derived(load_problem(course, f"hw9/{problem}"), memory)[0]
 
 
 def page(course: Path, problem: str, cache: Cache) -> Any:
-    """The page, or why there is none."""
     try:
         return rendered(course, problem, None, cache).to_data()
     except DeriveError as error:
@@ -78,7 +75,6 @@ def test_after_an_edit_the_page_is_the_one_derived_afresh(tmp_path: Path, proble
 
 
 def of_verbs(keys: list[str]) -> set[str]:
-    """Those that a verb made, and not a body that was asked for its centre, or the page that put numbers in."""
     return {key for key in keys if key not in {"axis_vector", "centre_of_mass"} and not key.endswith("_value")}
 
 
@@ -208,7 +204,6 @@ def build(course: Path, problem: str) -> None:
 
 
 def test_builds_at_once_share_what_is_kept(tmp_path: Path) -> None:
-    """Every file that they leave is whole, and gives the steps that are derived afresh."""
     course = course_in(tmp_path)
     for name in ("block.yaml", "block.py"):
         text = (course / "problems" / "hw9" / name).read_text().replace("block.py", "other.py")

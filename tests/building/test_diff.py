@@ -19,7 +19,6 @@ EDIT = {"Find the inertia tensor": "Compute the inertia tensor"}
 
 @pytest.fixture(autouse=True)
 def derived_once(monkeypatch: pytest.MonkeyPatch) -> None:
-    """What some test has derived is not derived again."""
     real = derive.building.solution.rendered
     monkeypatch.setattr(
         derive.building.solution,
@@ -29,7 +28,6 @@ def derived_once(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def built(root: Path, **others: Any) -> Path:
-    """The course with what a build left."""
     text = rendered_once(root, "hw9/block", only={"json"}).texts["json"]
     outputs = root / "build" / "hw9"
     outputs.mkdir(parents=True)

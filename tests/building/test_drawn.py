@@ -93,7 +93,6 @@ def files_of(
 
 @pytest.fixture
 def drawings(monkeypatch: pytest.MonkeyPatch) -> list[str]:
-    """Each drawing made notes itself here, and says in its files the how manieth it is."""
     made: list[str] = []
 
     def draw(*_: object) -> tuple[SimpleNamespace, SimpleNamespace]:
@@ -131,7 +130,6 @@ def test_a_drawing_that_shows_or_says_something_else_is_made_anew(
 def test_what_is_said_of_a_letter_makes_those_drawings_anew_that_have_it(
     problem: Problem, drawings: list[str], tmp_path: Path
 ) -> None:
-    """A number moves what it measures, a kind the letter's place in a label; of letters elsewhere neither is seen."""
     a, b, c = (Symbol(name, positive=True) for name in "abc")
 
     def is_made_anew(said: Symbol | None = None, kinds: Mapping[Any, Any] | None = None) -> bool:
@@ -148,7 +146,6 @@ def test_what_is_said_of_a_letter_makes_those_drawings_anew_that_have_it(
 def test_each_letter_is_set_once_in_each_font(
     problem: Problem, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Not again for other numbers, nor for a drawing that has others beside it."""
     a, b = (Symbol(name, positive=True) for name in "ab")
     made: list[str] = []
 
@@ -263,7 +260,6 @@ def test_a_view_of_its_own_changes_only_that_drawing(tmp_path: Path, block: Rend
 
 
 def many_labels(count: int, **more: Any) -> Drawing:
-    """Points next to one another: the more there are, the less room each label has."""
     side = isqrt(count)
     marks = [point_mark(column(5 * (i % side), 4 * (i // side), 0), label=Symbol(f"p_{i}")) for i in range(count)]
     return replace(drawing("points", marks, view="plane"), **more)

@@ -44,7 +44,6 @@ def built(course: Course) -> Report:
 
 @pytest.fixture(scope="module")
 def hostile(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Rendered]:
-    """The block with the evil text in every field of its prose."""
     root = course_in(tmp_path_factory.mktemp("course"))
     file = root / "problems" / "hw9" / "block.yaml"
     quoted = "'" + EVIL + "'"

@@ -54,7 +54,6 @@ ALL = part("[period, chord, weight, share]")
 
 
 def told(found: list[Complaint]) -> list[tuple[str, str, str]]:
-    """The code and the message of each, and what it points at."""
     at = [c.place.text[c.place.column - 1 :].partition(",")[0].strip("} \n") if c.place else "" for c in found]
     return [(c.code, c.message, place) for c, place in zip(found, at, strict=True)]
 

@@ -15,7 +15,6 @@ from tests.courses import course_in, rendered_once
 
 
 def squeezed(path: Path) -> str:
-    """All text of a PDF without white space: where glyphs stand is for the eye."""
     return re.sub(r"\s+", "", "".join(page.extract_text() for page in PdfReader(path).pages))
 
 

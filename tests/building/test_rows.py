@@ -31,20 +31,17 @@ def typeset_with_log(folder: Path, tex: str) -> Logged:
 
 
 def outside(log: str) -> list[str]:
-    """What TeX says of boxes that are wider or higher than they may be."""
     found = re.findall(r"Overfull \\[hv]box \(([\d.]+)pt too (?:wide|high)\).*", log)
     return [width for width in found if float(width) > TOLERATED]
 
 
 def scales(log: str) -> list[float]:
-    """By how much rows were made smaller."""
     rows = re.findall(r"derive: a row is ([\d.]+)pt wide and has ([\d.]+)pt", log)
     return [float(room) / float(width) for width, room in rows]
 
 
 @pytest.fixture(scope="module")
 def logged(tmp_path_factory: pytest.TempPathFactory) -> Logged:
-    """All problems at all levels, as one document."""
     pages: list[Rendered] = []
     for name in PROBLEMS:
         root = course_in(tmp_path_factory.mktemp(name), problem=name)
@@ -62,7 +59,6 @@ def test_no_row_of_the_problems_is_too_small_to_read(logged: Logged) -> None:
 
 
 def places(page: PageObject) -> list[tuple[float, float]]:
-    """Where pieces of text begin."""
     found: list[tuple[float, float]] = []
     page.extract_text(visitor_text=lambda text, _, at, *__: found.append((at[4], at[5])) if text.strip() else None)
     return found

@@ -28,7 +28,6 @@ OTHER = Diff("then", (Change("answer", "acceleration", "g", "2 g"),))
 
 @pytest.fixture(autouse=True)
 def derived(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A stand-in for the comparison of each problem: `two` has another answer."""
     for name in ("since_build", "since_revision"):
 
         def stand_in(root: Path, problem_id: str, *how: object, **more: object) -> Diff:

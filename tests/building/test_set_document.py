@@ -45,7 +45,6 @@ def set_of(root: Path, *problems: str) -> None:
 
 
 def also(root: Path, name: str, edits: dict[str, str]) -> None:
-    """A second problem beside the block, from the same script."""
     folder = root / "problems" / "hw9"
     text = (folder / "block.yaml").read_text(encoding="utf-8")
     for old, new in edits.items():
@@ -87,7 +86,6 @@ def numbers_in(course: Path) -> Kept:
 
 
 def page_of(reader: PdfReader, name: str) -> int:
-    """The page, from 1, on which a named destination is."""
     return int(reader.get_destination_page_number(reader.named_destinations[name])) + 1  # type: ignore[arg-type]
 
 

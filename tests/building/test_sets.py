@@ -134,7 +134,6 @@ def test_a_reference_that_appears_is_a_change(course: Course) -> None:
 
 
 def test_a_file_edited_while_it_is_built_is_read_again(course: Course) -> None:
-    """Also if what takes its place has an old time, as after `mv` or `rsync -a`."""
     course.problem("one", "replaced")
     build(course)
     assert "replaced" in (course.outputs / "one.txt").read_text()
@@ -154,7 +153,6 @@ def test_a_file_with_a_time_in_the_future_is_read_once(course: Course) -> None:
 
 
 def test_what_is_made_while_a_template_is_edited_is_made_again(course: Course, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Also if the template is as before when the next build looks at it."""
     with monkeypatch.context() as patched:
         patched.setattr("derive.building.sets.edited_since", lambda *_: True)
         build(course)

@@ -60,7 +60,6 @@ def refused(folder: Path, form: str) -> Complaint:
 def test_steps_are_not_kept_if_their_script_was_edited_while_they_were_derived(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """They are those of a script that is not there any more."""
     solved(tmp_path)
     script, cache, derivations = tmp_path / "problems" / "set" / "pendulum.py", Cache(tmp_path / "kept"), []
     derive_it = solution.derived

@@ -23,7 +23,6 @@ def course(tmp_path: Path) -> Path:
 
 @pytest.fixture(scope="module")
 def known(tmp_path_factory: pytest.TempPathFactory) -> tuple[Rendered, Path]:
-    """The page of the course as it is, and the one file that is kept of it: derived once for all tests."""
     course = course_in(tmp_path_factory.mktemp("known"))
     page = rendered(course, "hw9/block", None, Cache(course / "kept"))
     return page, course / "kept" / steps_key(load_problem(course, "hw9/block"))

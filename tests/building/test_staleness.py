@@ -160,7 +160,6 @@ def test_a_page_that_tex_refused_is_stale_also_in_the_next_build_of_another(cour
 
 
 def carried_out(course: Course, found: Staleness) -> None:
-    """The command that the answer names."""
     command = found.fixes[0].partition("`derive build ")[2].removesuffix("`").split()
     what, *options = command
     only = (what.partition("/")[2],) if "/" in what else ()

@@ -22,7 +22,6 @@ from tests.stock.described import PENDULUM, course_with
 
 
 def stopped(work: Callable[[], object], limit: float = 0.4) -> tuple[Complaint, float]:
-    """The complaint, and how long it took by the clock."""
     started = time.monotonic()
     with pytest.raises(BuildFailed) as caught:
         done(Job("`x`", work, limit))
@@ -100,7 +99,6 @@ def test_the_words_for_long_work_are_told_from_the_inside_out_and_only_at_the_li
 
 
 def test_the_part_the_step_and_what_is_finished_are_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """And what is finished is kept, so that the next attempt begins behind it."""
     root, cache = course_with(tmp_path, PENDULUM), Cache(tmp_path / "kept")
     job = job_of(root, "trial/one", lambda: rendered(root, "trial/one", cache=cache), 1)
     with monkeypatch.context() as patched:

@@ -28,8 +28,6 @@ def course(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Course:
 
 
 class Told:
-    """What a watch says in this process, one list for all of it."""
-
     def __init__(self) -> None:
         self.lines: list[str] = []
         self.shown = Shown(
@@ -161,8 +159,6 @@ def test_only_what_somebody_writes_is_looked_at(tmp_path: Path) -> None:
 
 
 class Process:
-    """The real command in a process of its own, and the lines that it says."""
-
     def __init__(self, arguments: list[str], environment: dict[str, str]):
         pipe = subprocess.PIPE
         self.process = subprocess.Popen(arguments, env=environment, stdout=pipe, stderr=subprocess.STDOUT, text=True)
@@ -174,14 +170,12 @@ class Process:
         return iter(self.process.stdout.readline, "")
 
     def end(self, number: int) -> tuple[int, str]:
-        """Its exit code when it gets that signal, and what it says on the way."""
         self.process.send_signal(number)
         rest, _ = self.process.communicate()
         self.limit.cancel()
         return self.process.returncode, rest
 
     def until(self, said: str) -> list[str]:
-        """The lines up to one that has this."""
         lines = []
         for line in self:
             lines.append(line)

@@ -46,7 +46,6 @@ def test_a_memory_limit_that_is_none_is_misuse(monkeypatch: pytest.MonkeyPatch, 
 
 
 def imported_loop(folder: Path, body: str) -> Callable[[], Any]:
-    """A script beside a problem's file, as a function."""
     script = folder / "problems" / "hw1" / "block.py"
     script.parent.mkdir(parents=True, exist_ok=True)
     script.write_text(f"import ctypes, os, signal\n\n\ndef solve():\n    {body}\n")
@@ -79,7 +78,6 @@ def test_a_worker_that_gives_no_answer_is_told_at_the_line_of_its_script(tmp_pat
 
 
 def test_what_a_document_states_is_blamed_on_its_own_file(tmp_path: Path) -> None:
-    """And a script that is run for what a document gives still on its own line."""
     folder = tmp_path / "problems" / "hw1" / "topic"
     folder.mkdir(parents=True)
     (folder / "block.yaml").write_text("")

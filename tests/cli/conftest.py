@@ -20,7 +20,6 @@ def course(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Course:
 
 @pytest.fixture
 def handed(monkeypatch: pytest.MonkeyPatch) -> list[Namespace]:
-    """What the commands are handed, which then do nothing."""
     found: list[Namespace] = []
 
     def take(arguments: Namespace) -> int:

@@ -37,8 +37,6 @@ BROKEN = {"yaml", "tab", "alias", "anchor", "control-character", "documents", "d
 
 
 class Editor(yaml.SafeLoader):
-    """YAML as editors read it, version 1.2: `yes` is a word, a date is text."""
-
     yaml_implicit_resolvers: dict[str, Any] = {}  # noqa: RUF012
 
 
@@ -77,7 +75,6 @@ def test_no_schema_refuses_a_file_that_builds(file: Path) -> None:
 
 
 def underlined(text: str, made: Callable[[], str]) -> list[set[int]]:
-    """The lines of each error as an editor underlines it: a key that is unknown, else the whole value."""
     top = yaml.compose(text, Editor)
     return [lines for error in refused(text, made) for lines in _lines(error, top)]
 
@@ -172,7 +169,6 @@ def test_loader_and_schema_take_the_same_under_each_key(
 
 
 def records(of: type[Record] = Record) -> Iterator[type[Record]]:
-    """Those of every file, and those of what a script of the engine describes."""
     assert all(stock_script(name).keys for name in stock_names())  # which has them imported
     for record in of.__subclasses__():
         yield from records(record)

@@ -16,7 +16,6 @@ BAD = sorted(file.stem for file in FOLDER.glob("*.yaml"))
 
 
 def complaint_of(name: str, root: Path) -> str:
-    """What a user reads about one bad file, placed as `problems/hw9/<name>.yaml`."""
     folder = root / "problems" / "hw9"
     folder.mkdir(parents=True)
     shutil.copy(FOLDER / f"{name}.yaml", folder)

@@ -15,7 +15,6 @@ a = Symbol("a", positive=True)
 
 
 def placed(folder: Path, written: str, *edits: tuple[str, str]) -> Placement:
-    """What the problem says of one drawing."""
     (found,) = loaded(folder, *edits, ("figures: 3\n", f"figures: 3\ndrawings: {{vectors: {{{written}}}}}\n")).drawings
     assert found.key == "vectors"
     return found

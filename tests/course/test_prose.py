@@ -10,7 +10,6 @@ from derive.errors import Complaint, Faults, Rejected
 
 
 def read(text: str) -> tuple[Prose | None, tuple[Complaint, ...]]:
-    """The prose of the one key of a file, and what is wrong with it."""
     tree = yaml_tree(Source("x.yaml", text))
     assert isinstance(tree, Mapping)
     faults = Faults()

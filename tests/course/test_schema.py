@@ -121,7 +121,6 @@ def test_every_key_is_documented(page: str) -> None:
 
 
 def parts_of(value: Any) -> Iterator[Any]:
-    """The value and everything that it is made of."""
     yield value
     inner: list[Any] = []
     if is_dataclass(value) and not isinstance(value, type):

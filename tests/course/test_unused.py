@@ -86,7 +86,6 @@ def test_a_point_or_an_axis_that_no_answer_needs_is_a_warning(
 
 
 def test_a_letter_that_waits_for_another_number_is_used(tmp_path: Path) -> None:
-    """In the top of the homework theta_0 is the tilt, once that is no angle with an exact sine."""
     assert load_problem(course_in(tmp_path, problem="top"), "hw9/top").warnings == ()
 
 

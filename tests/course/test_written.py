@@ -47,7 +47,6 @@ def test_optional_mappings_may_be_empty(tmp_path: Path) -> None:
 
 
 def written(folder: Path, *edits: tuple[str, str]) -> tuple[ProblemKeys, list[tuple[str, str | None]]]:
-    """What the file says, and the code of each fault with its help."""
     faults = Faults()
     found = written_problem(at(folder, edited(*edits)), "hw9/block", faults)
     try:

@@ -46,7 +46,6 @@ UNITS = dict.fromkeys((l, l1, l2, a, h, R, omega), 1.0) | {alpha: 0.6, beta: 0.6
 
 
 def seen(found: Drawing, width: float = 5.0, height: float = 4.2, **numbers: float) -> list[Piece]:
-    """The pieces of a drawing, lengths of one and the coordinates as it says, or as is said here."""
     said = {q: numbers[q.name] for q, _ in found.coordinates if q.name in numbers}
     chosen = {each for each, _ in found.values}
     known = {each: value for each, value in UNITS.items() if each not in chosen} | said

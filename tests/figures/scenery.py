@@ -41,7 +41,6 @@ NUMBERS = {a: 1.0, R: 1.0, h: 1.5, theta: 0.6, Symbol("phi", real=True): 3.6, Sy
 
 
 def vectors_of_block(sides: Any = (a, 2 * a, 3 * a), axis: Any = "diagonal", **variant: Any) -> Drawing:
-    """The angular velocity and the angular momentum of the block, from its middle."""
     known = known_block(sides=sides, axis=axis, **variant)
     block = Cuboid(sides, M)
     omega, L, size = known["spin"], known["angular_momentum"], known["angle_between"]

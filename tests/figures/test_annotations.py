@@ -25,7 +25,6 @@ UP, RIGHT = column(0, 1, 0), column(1, 0, 0)
 
 
 def seen(found: Drawing, *direction: float) -> float:
-    """The heading on paper of a direction in space, worked out apart from the strokes."""
     numbers = Numbers(NUMBERS)
     places = [place for mark in found.marks if isinstance(mark, Surface) for place in mark.places(numbers)]
     middle = tuple((min(p[k] for p in places) + max(p[k] for p in places)) / 2 for k in range(3))
@@ -103,7 +102,6 @@ def test_an_angle_needs_two_directions() -> None:
 
 
 def test_no_head_of_an_arrow_seems_to_be_at_a_corner() -> None:
-    """The angular velocity of the block ends beyond one corner, and on paper far from all others."""
     found = vectors_of_block()
     pieces = pieces_of(found)
     tip = strokes(pieces, "asked")[0].spots[-1]

@@ -141,7 +141,6 @@ class Pyramid(EdgedBody):
         return Region(limits, column(x, y, z))
 
     def particles(self) -> Particles:
-        """Slices at the apex, a quarter up and the base, the middle two as a square's five."""
         found = [(self.mass / 20, column(0, 0, self.height))]
         for share, at, size in ((Rational(4, 5), Rational(1, 4), Rational(3, 4)), (Rational(3, 20), 0, 1)):
             far, z = size * self.side / 2, at * self.height
@@ -189,7 +188,6 @@ def test_the_outline_of_a_curved_body_is_what_its_shadow_is() -> None:
 
 
 def test_the_edges_of_a_pyramid_are_hidden_behind_it() -> None:
-    """Seen from x towards y and a little from above, the corner at -x, -y lies behind."""
     pieces = pieces_of(drawing("one", outline(PYRAMID, named=False)), a=1.0, h=1.0)
     hidden, seen = strokes(pieces, "hidden"), strokes(pieces, "edge")
     assert (len(hidden), len(seen)) == (3, 5)

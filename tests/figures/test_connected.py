@@ -490,7 +490,6 @@ def test_the_distance_from_an_incline_is_measured_from_the_incline(tmp_path: Pat
     values = {"x": 2.0, "y": 1.0, "a": 1.0, "alpha": 0.5}
 
     def height(place: Any) -> float:
-        """The distance from the incline, along its normal."""
         u, v = (float(c.xreplace({s: values[s.name] for s in c.free_symbols})) for c in place)
         return u * sin(0.5) + v * cos(0.5)
 

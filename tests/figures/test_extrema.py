@@ -15,7 +15,6 @@ x = symbols("x", real=True)
 
 
 def slab_energy(radius: Rational, thickness: Rational) -> object:
-    """Of a slab of one kilogram on a cylinder, in metres and joules."""
     return Rational(98, 10) * (radius * x * sin(x) + (radius + thickness / 2) * cos(x))
 
 

@@ -24,8 +24,6 @@ from tests.figures.scenery import CONE, a, pieces_of, plane, strokes
 
 @dataclass(frozen=True)
 class Spring(Mark):
-    """A zigzag between two points."""
-
     start: Position
     end: Position
     turns: int
@@ -68,7 +66,6 @@ def test_a_mark_of_ones_own_is_told_and_kept() -> None:
 
 
 def test_one_looks_so_that_the_direction_of_a_mark_is_seen() -> None:
-    """From the usual stance one looks almost along x."""
     towards_the_eye = Spring(column(0, 0, 0), column(a, 0, 0), 6)
     turned = best_stance(drawing("one", outline(CONE), towards_the_eye), Numbers({a: 1.0}))
     assert hypot(turned.right[0], turned.up[0]) > 1.5 * hypot(stance_from(25, 18).right[0], stance_from(25, 18).up[0])

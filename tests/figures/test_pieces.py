@@ -15,8 +15,6 @@ FROM_THE_FRONT = Stance((0.0, 1.0, 0.0), (0.0, 0.0, 1.0), (1.0, 0.0, 0.0))
 
 
 class Glass(Paper):
-    """Paper on which nothing hides anything."""
-
     def polyhedron(self, corners: Sequence[Vector], faces: Sequence[Sequence[int]], lengths: EdgeNames) -> list[Piece]:
         return [Stroke(self.spots(*(corners[i] for i in face)), "edge") for face in faces]
 

@@ -47,8 +47,6 @@ theta = Symbol("theta", real=True)
 
 @dataclass(frozen=True)
 class Placed:
-    """A body in a plane, turned by an angle, or in space as it is: what a system has of it."""
-
     body: Any
     point: Point
     at: Location
@@ -185,7 +183,6 @@ def test_a_ring_in_a_plane_is_a_disc_with_a_hole() -> None:
 
 @pytest.mark.parametrize(("across", "shown"), [("y", Circle), ("x", ConnectionMark)])
 def test_a_rod_whose_middle_goes_round_is_drawn_there(across: str, shown: type[Mark]) -> None:
-    """Across the way to its middle its ends slide on a circle; along it they do not."""
     with recorded():
         angle = coordinate("theta")
         size = sqrt(R**2 - l**2 / 4)

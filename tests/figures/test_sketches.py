@@ -75,7 +75,6 @@ def test_gravity_is_drawn_where_there_is_weight() -> None:
 
 
 def test_a_planet_moves_on_an_ellipse_about_what_attracts_it() -> None:
-    """A focus is where the force comes from: the distances from both foci to the ellipse add up to the same."""
     found = SKETCHES["planet"]
     pieces = seen(found)
     orbit = max(strokes(pieces, "trace"), key=lambda stroke: len(stroke.spots))

@@ -26,7 +26,6 @@ def shown(*marks: Mark) -> list[Piece]:
 
 
 def side(pieces: list[Piece]) -> tuple[float, float]:
-    """Where the hatches lead from their line."""
     hatches = strokes(pieces, "hatch")
     return tuple(sum(h.spots[1][k] - h.spots[0][k] for h in hatches) / len(hatches) for k in (0, 1))  # type: ignore
 

@@ -57,7 +57,6 @@ def test_the_axes_follow_the_line_of_nodes_and_not_the_spin() -> None:
 
 
 def test_the_vertical_is_dashed_where_the_disc_is_in_front_of_it() -> None:
-    """It begins in front of the disc, passes through it, and is seen again above the rim."""
     pieces = pieces_of(leaning(), theta=0.3)
     upright = [
         (min(y for _, y in stroke.spots), pen, stroke.head)

@@ -54,8 +54,6 @@ def commands(text: str) -> Iterator[tuple[str, int]]:
 
 
 class Reader:
-    """Does what a page says, in a course that has the homework and the library."""
-
     def __init__(self, root: Path, capfd: pytest.CaptureFixture[str]):
         self.root, self.capfd, self.told = root, capfd, ""
 
@@ -96,7 +94,6 @@ class Reader:
         return out + err
 
     def served(self, arguments: list[str]) -> str:
-        """Its first line; that the page is served is tested in tests/preview."""
         started = [sys.executable, "-P", "-m", "derive", *arguments, "--port", "0"]
         with subprocess.Popen(started, cwd=self.root, stdout=subprocess.PIPE, text=True) as server:
             assert server.stdout is not None

@@ -28,7 +28,6 @@ def block_derivation(
     axis: str | tuple[Any, ...] = "diagonal",
     rate: Any = omega,
 ) -> dict[str, Quantity]:
-    """Every quantity of the block, by key."""
     block = verbs.Cuboid(sides, M)
     direction = Direction(axis) if isinstance(axis, str) else Direction(None, axis)
     corner = verbs.inertia_tensor(block, about="corner", key="corner_tensor")
@@ -53,7 +52,6 @@ def with_what_they_rest_on(quantities: list[Quantity]) -> dict[str, Quantity]:
 def known_block(
     sides: tuple[Any, Any, Any] = (a, 2 * a, 3 * a), axis: str | tuple[Any, ...] = "diagonal", rate: Any = omega
 ) -> dict[str, Quantity]:
-    """The block by the laws as they are; derived once for all tests."""
     return block_derivation(verbs_as_imported(), sides, axis, rate)
 
 

@@ -33,7 +33,6 @@ THETA, X = coordinate("theta"), coordinate("x", "length")
 
 
 def position(name: str, value: Any, *coordinates: Coordinate, kind: str = "length") -> Quantity:
-    """A place that is known from the start, as a function of coordinates."""
     letters = {symbol: known for q in coordinates for symbol, known in q.letters.items()}
     value = Integer(value) if isinstance(value, int) else value
     return establish(
@@ -50,7 +49,6 @@ def position(name: str, value: Any, *coordinates: Coordinate, kind: str = "lengt
 def of_system(
     x: Any, y: Any, *coordinates: Coordinate, inertia: Any = ZERO, turning: Coordinate | None = None
 ) -> Quantity:
-    """The Lagrangian of a body of mass m whose centre is at (x, y)."""
     with recorded():
         for q in (*coordinates, *([turning] if turning else [])):
             coordinate_named(q.symbol, q.kind)
@@ -60,7 +58,6 @@ def of_system(
 
 
 def potential(x: Any, y: Any, *coordinates: Coordinate) -> Quantity:
-    """The potential energy of a particle of mass m at (x, y)."""
     with recorded():
         for q in coordinates:
             coordinate_named(q.symbol, q.kind)
@@ -68,10 +65,8 @@ def potential(x: Any, y: Any, *coordinates: Coordinate) -> Quantity:
 
 
 def motion(x: Any, y: Any, q: Coordinate, **named: Any) -> Quantity:
-    """The equation of motion of q."""
     return equation_of_motion(of_system(x, y, q, **named), q)
 
 
 def small_oscillations(x: Any, y: Any, q: Coordinate, at: Any = None, **named: Any) -> Quantity:
-    """The frequency about an equilibrium."""
     return frequency(frequency_squared(linearised(motion(x, y, q, **named), at)))

@@ -14,7 +14,6 @@ R, h, M, a, m = symbols("R h M a m", positive=True)
 
 
 def cone_derivation(verbs: SimpleNamespace, radius: Any = R, height: Any = h) -> dict[str, Quantity]:
-    """Every quantity of the cone, by key."""
     cone = verbs.Cone(radius, height, M)
     found = verbs.moved_to(verbs.inertia_tensor(cone, about="apex", key="apex_tensor"), cone.centre)
     from_base = verbs.inertia_tensor(cone, about="base", coordinates="cartesian", symbol="J'", key="base_tensor")
@@ -32,5 +31,4 @@ def top_derivation(verbs: SimpleNamespace) -> dict[str, Quantity]:
 
 
 def skew_tensor(verbs: SimpleNamespace) -> Quantity:
-    """A rectangular plate about its corner: a tensor that is not diagonal."""
     return verbs.inertia_tensor(verbs.Plate((2 * a, 3 * a), M), about="corner")  # type: ignore[no-any-return]

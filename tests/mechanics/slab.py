@@ -19,7 +19,6 @@ R, a, M, I, g = symbols("R a M I g", positive=True)
 def slab_derivation(
     verbs: SimpleNamespace, radius: Any = R, thickness: Any = a, mass: Any = M, inertia: Any = I, gravity: Any = g
 ) -> dict[str, Quantity]:
-    """Every quantity of the slab, by key; where no letter decides the stability there is no bound."""
     with recorded():
         return _derived(verbs, radius, thickness, mass, inertia, gravity)
 
@@ -56,5 +55,4 @@ def _derived(
 
 @cache
 def known_slab(**variant: Any) -> dict[str, Quantity]:
-    """The slab by the laws as they are; derived once for all tests."""
     return slab_derivation(verbs_as_imported(), **variant)

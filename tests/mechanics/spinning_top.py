@@ -29,7 +29,6 @@ def motion_of(verbs: Verbs, spin: Any = S) -> SimpleNamespace:
 
 
 def rates_of(verbs: Verbs, motion: SimpleNamespace, tilt: Any, numbers: Any = None) -> SimpleNamespace:
-    """Both rates of steady precession at a tilt in one formula, each by itself, and when they are real."""
     with recorded(Run(numbers=numbers or {})):
         here = verbs.let("tilt", lambda: tilt, symbol="theta", kind="angle")
         keys = ("slow_precession", "fast_precession")

@@ -62,7 +62,6 @@ def given(value: Expr, key: str = "f", **more: Any) -> Quantity:
 
 
 def equation(left: Any, right: Any = 0, key: str = "equation") -> Quantity:
-    """Not `Eq` itself, which decides at once what the letters decide."""
     return let(key, lambda: Relation(left, "=", right))
 
 
@@ -110,7 +109,6 @@ def test_the_accelerations_of_a_block_and_its_wedge() -> None:
 
 
 def test_the_root_of_a_square_is_drawn_in_a_limit() -> None:
-    """The frequencies of a double pendulum with a light lower mass are those of its two lengths."""
     width = given(sqrt((l + R) ** 2 - 4 * l * R + M * l * R / m))
     assert limiting_case(width, M, 0).value == Abs(l - R)
 

@@ -44,7 +44,6 @@ def run() -> Iterator[None]:
 
 
 def stone() -> tuple[Any, ...]:
-    """A stone above the Earth, x to the south, y to the east, z upwards."""
     x, y, z = (coordinate(name, "length") for name in "xyz")
     earth = space.turned(Z, W * t).turned(Y, theta)
     L = lagrangian(System(Particle(m, earth.place(x, y, z)), potential(m * g * z.symbol)))
@@ -68,7 +67,6 @@ def test_coriolis_force_alone_is_left_to_the_first_order() -> None:
 
 
 def test_leading_terms_for_a_small_letter_and_for_a_large_one() -> None:
-    """A cart with a heavy pendulum, and with a light one."""
     x, phi = coordinate("x", "length"), coordinate("phi")
     cart = point(x, 0)
     bob = point(x.symbol + l * sin(phi.symbol), -l * cos(phi.symbol))

@@ -257,7 +257,6 @@ def test_every_body_has_a_central_tensor_as_a_value(body: Any) -> None:
 
 @pytest.mark.parametrize("axis", "xyz")
 def test_a_turn_is_right_handed(axis: str) -> None:
-    """A quarter turn about x takes y to z, and so on in the order of the axes."""
     turn = turn_about(axis, pi / 2)
     k = "xyz".index(axis)
     assert turn[(k + 2) % 3, (k + 1) % 3] == 1

@@ -44,7 +44,6 @@ def test_a_frequency_is_not_negative_for_any_sign_of_a_letter() -> None:
 
 
 def test_which_root_is_smaller_is_told_by_the_numbers_of_a_problem() -> None:
-    """They may both be positive for these, of which another letter has no number, and not for all."""
     with recorded(Run(numbers={alpha: Integer(3)})):
         assert root("smaller", -m * alpha, 2 * m**2 * alpha / 3, -1)
         assert not root("larger", -m * alpha, 2 * m**2 * alpha / 3, -1)
@@ -59,8 +58,6 @@ def test_which_root_is_smaller_depends_on_the_sign_of_a_letter() -> None:
 
 
 def test_all_ways_of_two_letters_are_tried() -> None:
-    """Whatever positive letters are between them."""
-
     def ways(*letters: Expr) -> set[tuple[int, ...]]:
         return {tuple(sign_at(letter, point) or 0 for letter in letters) for point in trial_points({*letters, m, k})}
 

@@ -66,7 +66,6 @@ def bead_on_turning_hoop() -> Quantity:
 
 
 def in_elevator() -> Quantity:
-    """The height above a floor that accelerates upwards."""
     z = coordinate("z", "length")
     return lagrangian(System(Particle(m, point(0, z + a * t**2 / 2)), weight(g)))
 
@@ -231,7 +230,6 @@ def test_a_conserved_momentum_is_written_by_the_momenta() -> None:
 
 
 def test_a_massless_coordinate_has_no_hamiltonian() -> None:
-    """Two coordinates for one motion: the momenta do not determine both rates."""
     x, y = coordinate("x", "length"), coordinate("y", "length")
     with pytest.raises(Rejected, match="do not determine"):
         hamiltonian(lagrangian(System(Particle(m, point(x + y, 0)))))

@@ -35,7 +35,6 @@ def test_each_that_does_not_vanish_is_an_integral(body: Any, found: dict[str, An
 
 
 def test_a_triangle_with_equal_sides_is_no_image_of_itself() -> None:
-    """Along (1, 2) the third moment of this one vanishes by chance."""
     assert centre_of_mass(Triangle(((ZERO, ZERO), (a, ZERO), (ZERO, a)), M)).step.outcome == "by_components"
 
 

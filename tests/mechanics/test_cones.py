@@ -30,7 +30,6 @@ A, B, C, a, M, p, r = symbols("A B C a M p r", positive=True)
 
 
 def free(*moments: Any, omega: Any = (p, 0, r)) -> tuple[Quantity, Quantity, Quantity]:
-    """The tensor, the angular velocity at one moment, the angular momentum."""
     tensor = RigidBody(moments=moments).tensor
     velocity = momentary_angular_velocity(omega, through="centre_of_mass")
     return tensor, velocity, angular_momentum(tensor, velocity)

@@ -190,7 +190,6 @@ def test_a_joint_that_pulls_at_the_wrong_point_is_refused(tmp_path: Path, monkey
 
 
 def test_in_a_plane_the_force_of_a_joint_has_no_component_r_z(tmp_path: Path) -> None:
-    """So R_z may be another symbol of the problem."""
     declared = edited(RODS, ("g: acceleration}", "g: acceleration, R_z: spring constant}"))
     with_spring = edited(
         declared, ("  gravity: g\n", "  gravity: g\n  springs: {constant: R_z, from: [0, 0], to: [x, y]}\n")
@@ -294,7 +293,6 @@ def test_a_driven_wedge_carries_the_cylinder_that_rolls_on_it(tmp_path: Path) ->
 
 
 def test_a_pulley_may_be_at_a_place_that_moves_with_a_particle(tmp_path: Path) -> None:
-    """A block on a cart, a string over a pulley at its edge, and a weight that hangs in front of the cart."""
     text = """\
 title: A block on a cart
 solve: system

@@ -39,7 +39,6 @@ gravity = symbols("g", positive=True)
 def kept(
     u: Expr, v: Expr, angle: Coordinate = THETA, inertia: Any = None, keeping: bool = True
 ) -> tuple[tuple[Quantity, ...], Quantity]:
-    """The forces that keep a body of mass m at (u, v), and the equation of what is free."""
     for each in (angle, U, V):
         coordinate_named(each.symbol, each.kind)
     ties = [constraint(U, u, force="lambda_u"), constraint(V, v, force="lambda_v")]
@@ -67,7 +66,6 @@ def test_at_rest_a_constraint_carries_the_weight_and_a_rod_turns_by_its_moments(
 
 @pytest.mark.parametrize("keeping", [True, False])
 def test_a_string_pulls_with_the_weight_along_it_and_the_centripetal_force(keeping: bool) -> None:
-    """With the acceleration left in the forces, or put in: along the string there is none of it."""
     with recorded():
         forces, _ = kept(l * sin(q), -l * cos(q), inertia=moment, keeping=keeping)
         pull = constraint_force(forces, {U: -sin(q), V: cos(q)}, "S", "tension")
@@ -120,7 +118,6 @@ def test_normal_force_and_friction_are_the_multipliers_in_turned_axes() -> None:
 
 
 def test_friction_and_normal_force_turn_the_slab_about_its_centre() -> None:
-    """Levers R theta for the normal force, which raises the angle's opposite, and a/2 for friction."""
     found = known_slab()
     moments = -found["normal_force"].value * R * q - found["tangent_force"].value * a / 2
     assert equal(Relation(moment * q_ddot, "=", moments), found["equation_of_motion"].value)

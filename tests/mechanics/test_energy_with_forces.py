@@ -47,7 +47,6 @@ def run() -> Iterator[Run]:
 
 
 def on_spring(*others: Callable[[Any], Any]) -> tuple[Quantity, Coordinate]:
-    """A mass on a spring, and what else acts at its place."""
     x = coordinate("x", "length")
     at = point(x, 0)
     return lagrangian(System(Particle(m, at), spring(k, point(0, 0), at), *(other(at) for other in others))), x

@@ -53,7 +53,6 @@ def run() -> Iterator[None]:
 
 
 def hoop() -> Quantity:
-    """The Lagrangian of a bead on a hoop that turns about its vertical diameter."""
     q = coordinate("theta")
     place = space.turned(Z, w * t).place(R * sin(q), 0, -R * cos(q))
     return lagrangian(System(Particle(m, place), weight(g)))
@@ -65,7 +64,6 @@ def pendulum() -> tuple[Quantity, Any]:
 
 
 def sideways(height: Expr) -> tuple[Quantity, Any]:
-    """A bead on a level wire, and a spring from a point above it."""
     q = coordinate("x", "length")
     bead = point(q, 0)
     return lagrangian(System(Particle(m, bead), spring(k, point(0, height), bead, l))), q
@@ -301,7 +299,6 @@ def test_a_condition_of_the_wrong_sense_is_refused(monkeypatch: pytest.MonkeyPat
 
 
 def test_energies_in_play_are_those_of_the_verbs() -> None:
-    """The kinetic energy alone has no equilibrium to look for, and a central force may give it one."""
     q = coordinate("r", "length", positive=True)
     d = Symbol("d", positive=True)
     system = System(Particle(m, point(q, 0)), central(k * (d - l) ** 2 / 2, d, point(0, 0), point(q, 0)))
@@ -324,7 +321,6 @@ phi = Symbol("phi", real=True)
 
 
 def upright() -> Quantity:
-    """The potential energy of two pendulums that stand upright, joined by a spring."""
     one, other = coordinate("theta"), coordinate("phi")
     places = point(l * sin(one), l * cos(one)), point(a + l * sin(other), l * cos(other))
     bobs = (Particle(mass, place) for mass, place in zip((m, M), places, strict=True))
@@ -332,7 +328,6 @@ def upright() -> Quantity:
 
 
 def test_a_spring_between_two_upright_pendulums_does_not_hold_them() -> None:
-    """Both fall to one side, and the spring is not stretched."""
     found = stability(upright(), {theta: 0, phi: 0})
     assert found.step.outcome == "unstable_along"
     assert equal(roles(found)["falling"], -(m + M) * g * l)
@@ -370,7 +365,6 @@ def test_another_fall_than_that_of_the_direction_is_refused(monkeypatch: pytest.
 
 
 def on_turning_rod() -> Quantity:
-    """A bead on a rod that turns, held by a spring from the axis."""
     q = coordinate("r", "length", positive=True)
     rod = space.turned(Z, w * t)
     at = rod.place(q + 0, 0, 0)

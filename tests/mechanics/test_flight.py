@@ -31,7 +31,6 @@ FLOOR = "floor: {through: [0, -R], along: [1, 0]}"
 
 
 def numbers(value: Expr, **given: float) -> float:
-    """The value with a number for each symbol; all other symbols are 1."""
     return float(explicit(value).evalf(subs={s: given.get(s.name, 1.0) for s in explicit(value).free_symbols}))
 
 
@@ -244,8 +243,6 @@ def test_a_spring_that_acts_during_the_flight_is_refused(tmp_path: Path) -> None
 
 
 def departing(**properties: Any) -> Any:
-    """Patch properties of the departure."""
-
     def patch(monkeypatch: pytest.MonkeyPatch) -> None:
         for name, made in properties.items():
             original = getattr(flight.Departure, name)

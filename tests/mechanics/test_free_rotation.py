@@ -38,7 +38,6 @@ GENERAL = (I_x, I_y, I_z)
 
 @cache
 def found(moments: tuple[Expr, Expr, Expr] = GENERAL, torque: tuple[Expr, Expr, Expr] = NONE) -> dict[str, Quantity]:
-    """Everything about a body of these moments, by key."""
     body, omega = RigidBody(moments=moments), changing_angular_velocity()
     L = angular_momentum(body.tensor, omega)
     equations = euler_equations(rate_in_space(L, omega), torque)
@@ -52,7 +51,6 @@ def found(moments: tuple[Expr, Expr, Expr] = GENERAL, torque: tuple[Expr, Expr, 
 
 
 def component(i: int) -> Quantity:
-    """A component of the angular velocity by itself."""
     names = component_names("omega")
     return establish(
         RULES["answers.let"],
@@ -188,7 +186,6 @@ def test_energy_and_length_are_constant_in_any_axes_of_the_body() -> None:
 
 
 def test_a_motion_followed_in_small_steps_keeps_what_is_said_to_be_constant() -> None:
-    """Runge-Kutta in floating point with the axes carried along: an illustration, which is why it is only a test."""
     moments = (Integer(2), Integer(3), Integer(4))
     steps = found(moments)
     accelerations = rates_by(steps)
@@ -206,7 +203,6 @@ def test_a_motion_followed_in_small_steps_keeps_what_is_said_to_be_constant() ->
 
 
 def rates_by(steps: dict[str, Quantity]) -> dict[Symbol, Expr]:
-    """The angular accelerations, each solved for in its own equation."""
     solved = {}
     for axis, w in zip("xyz", (w_x, w_y, w_z), strict=True):
         residual = explicit(steps[f"euler_{axis}"].value).residual.expand()
@@ -215,7 +211,6 @@ def rates_by(steps: dict[str, Quantity]) -> dict[Symbol, Expr]:
 
 
 def turned(state: list[float], follow: list[Any]) -> list[float]:
-    """Rates of the angular velocity in the body, and of the nine components of the body's axes in space."""
     w, axes = state[:3], [state[3 + 3 * i : 6 + 3 * i] for i in range(3)]
     spin = [[0.0, -w[2], w[1]], [w[2], 0.0, -w[0]], [-w[1], w[0], 0.0]]
     rows = [[sum(axes[i][k] * spin[k][j] for k in range(3)) for j in range(3)] for i in range(3)]

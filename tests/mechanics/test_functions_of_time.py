@@ -52,7 +52,6 @@ def _run() -> Iterator[None]:
 
 
 def pendulum(across: bool = True) -> tuple[Quantity, Coordinate, Prescribed]:
-    """The Lagrangian of a pendulum whose support moves across, or up and down."""
     theta, X = coordinate("theta"), function_of_time("X", "length")
     support = point(X, 0) if across else point(0, X)
     L = lagrangian(System(Particle(m, support + point(l * sin(theta.symbol), -l * cos(theta.symbol))), weight(g)))
@@ -247,7 +246,6 @@ def test_a_prescribed_function_has_no_equation_of_motion() -> None:
 
 @pytest.fixture
 def fresh() -> Iterator[None]:
-    """Forget the derivatives that earlier tests have computed, and those that a wrong law computes."""
     stored = (derivatives._derivative_by_parts, derivatives._letters, node._carried_out)
     for each in stored:
         each.cache_clear()
@@ -257,7 +255,6 @@ def fresh() -> Iterator[None]:
 
 
 def without(*orders: int) -> Callable[[Any], Any]:
-    """The rates along a motion, without these rates of prescribed functions."""
     right = expressions.TimeRate.doit
 
     def wrong(self: Any, **hints: Any) -> Any:

@@ -122,7 +122,6 @@ def test_a_wrong_cell_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_a_volume_of_the_wrong_sense_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Its square alone does not tell. In another order of the variables the product is negative, rightly."""
     backwards = Solid((r * cos(phi), r * sin(phi), z), {z: (0, h), phi: (0, 2 * pi), r: (0, R)}, mass=M)
     assert equal(general.cell_of(backwards).value, -r)
     wrong = general.Dot

@@ -46,7 +46,6 @@ def moving(left: Any, right: Expr | int = 0, case: str | None = None) -> Quantit
 
 
 def behind(found: Quantity) -> dict[str, Quantity]:
-    """The last part of the rule of each step that leads to the motion -> this step."""
     return {each.step.rule.rpartition(".")[2]: each for each in found.ancestors()}
 
 

@@ -178,7 +178,6 @@ def test_the_energy_identity_alone_refuses_a_wrong_equation(monkeypatch: pytest.
 
 
 def twisted() -> Quantity:
-    """A bar on a wire of torsion constant k, that a constant couple g turns."""
     theta = coordinate("theta")
     return given_lagrangian(m * theta.rate**2 / 2 - k * theta.symbol**2 / 2, couple(g, theta))
 
@@ -197,7 +196,6 @@ def test_another_rest_of_the_wire_is_refused(found: list[Expr], monkeypatch: pyt
 
 
 def test_a_force_that_comes_back_after_a_turn_is_counted_once_round() -> None:
-    """A pendulum that a couple holds aside: two places in one turn, and no more are told."""
     theta = coordinate("theta")
     pushed = given_lagrangian(m * theta.rate**2 / 2 + k * cos(theta.symbol), couple(k / 2, theta))
     assert {rest.value for rest in equilibria(pushed)} == {pi / 6, 5 * pi / 6}

@@ -39,7 +39,6 @@ def steps() -> Iterator[Any]:
 
 @pytest.fixture
 def unguarded(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The potential energy alone is asked."""
     monkeypatch.setattr(minima, "_check_nothing_else_holds_it", lambda *_: None)
 
 

@@ -56,14 +56,12 @@ def small(*parts: Any) -> tuple[Quantity, ...]:
 
 
 def on_table(energy: Callable[[Any, Any], Expr]) -> tuple[Quantity, ...]:
-    """A particle on a table that turns at the rate W, with a potential energy there."""
     x, y = plane()
     table = space.turned(Z, W * t)
     return small(Particle(m, table.place(x, y, 0)), potential(energy(x.symbol, y.symbol)))
 
 
 def foucault() -> tuple[Quantity, ...]:
-    """With the centrifugal force part of g."""
     return on_table(lambda x, y: m * (g / l + W**2) * (x**2 + y**2) / 2)
 
 
@@ -254,7 +252,6 @@ def test_a_wrong_condition_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_springs_keep_their_modes() -> None:
-    """Without forces linear in the rates nothing is as it was: the modes of two masses and three springs."""
     x, y = plane()
     linear = small(
         Particle(m, point(x, 0)),
@@ -265,7 +262,6 @@ def test_springs_keep_their_modes() -> None:
 
 
 def falling_along_the_field() -> tuple[Quantity, ...]:
-    """A charge that is bound across a field, and along it on a hill."""
     x, y = plane()
     z = coordinate("z", "length")
     hill = potential(k * (x.symbol**2 + y.symbol**2) / 2 - c * z.symbol**2 / 2)
@@ -280,7 +276,6 @@ def on_saddle() -> tuple[Quantity, ...]:
 
 
 def growing(found: tuple[Quantity, ...]) -> tuple[Expr, Any]:
-    """The rate of growth, and what grows with it, with that rate put in."""
     rate = next(each for each in found if each.step.outcome == "growing")
     mode = next(each for each in found if each.step.outcome == "departing")
     return explicit(rate.value), explicit(mode.value)

@@ -50,7 +50,6 @@ def a_run_of_its_own() -> Iterator[None]:
 
 
 def solved(impact: Impact, *coordinates: Coordinate) -> tuple[dict[str, Any], Quantity]:
-    """The rates and impulses by key, and the work of the impulses."""
     T = kinetic_energy_of(impact.system)
     jumps = [momentum_jump(impact, T, q) for q in coordinates]
     found = rates_after(impact, jumps, [meeting_condition(impact, i) for i in range(len(impact.meetings))])
@@ -160,7 +159,6 @@ def test_an_angular_impulse_turns_and_moves_nothing() -> None:
 
 
 def test_rates_that_are_there_before_are_taken_off() -> None:
-    """A particle at the speed v is struck across: v stays."""
     x, y = coordinate("x", "length"), coordinate("y", "length")
     at = point(x + 0, y + 0)
     found, _ = solved(Impact(System(Particle(m, at)), impulse((0, J), at), before={x: v}), x, y)
@@ -211,7 +209,6 @@ def test_too_few_conditions_determine_nothing() -> None:
 
 
 def test_an_impulse_may_have_a_part_that_moves_nothing() -> None:
-    """One downwards on a ball that stands on a table is no impulse along its angle where it acts above the centre."""
     x, phi = coordinate("x", "length"), coordinate("phi")
     system = System(Ball(R, M).placed(-phi, centre=point(x + 0, R)))
     top = point(x + R * sin(phi.symbol), R + R * cos(phi.symbol))
@@ -221,7 +218,6 @@ def test_an_impulse_may_have_a_part_that_moves_nothing() -> None:
 
 
 def test_an_impulse_on_the_wrong_one_of_two_is_refused() -> None:
-    """What acts on the end acts with the other sign on the start."""
     system, x, theta = hanging_rod()
     hit = point(b * sin(theta.symbol), -b * cos(theta.symbol))
     impact = Impact(system, collision(point(x + 0, -b), hit, (1, 0), 1), at={x: 0, theta: 0}, before={x: v})
@@ -232,7 +228,6 @@ def test_an_impulse_on_the_wrong_one_of_two_is_refused() -> None:
 
 
 def test_wrong_laws_of_an_impact_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A factor in the share of an impulse, a momentum before that is forgotten, a condition with a wrong sign."""
     system, x, theta = hanging_rod()
     hit = point(b * sin(theta.symbol), -b * cos(theta.symbol))
     impact = Impact(system, collision(point(x + 0, -b), hit), at={x: 0, theta: 0}, before={x: v})

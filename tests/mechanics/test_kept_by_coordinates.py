@@ -92,7 +92,6 @@ parts:
 
 
 def test_a_string_whose_length_changes_with_the_time_needs_its_length(tmp_path: Path) -> None:
-    """A bob on a string that is pulled in through a hole, at a known rate."""
     (found,) = messages(tmp_path / "without", PULLED)
     assert "the length l - t*u of the string changes with the time" in found
     edit = ("from: [0, 0], to: bob", "from: [0, 0], to: bob, length: l - u*t")

@@ -36,7 +36,6 @@ PENDULUM = (l * sin(q), -l * cos(q), THETA)
 
 
 def energies(*place: Any, **named: Any) -> tuple[Quantity, Quantity]:
-    """The two of which the Lagrangian is the difference."""
     L = of_system(*place, **named).parents
     return L[0], L[1]
 
@@ -56,7 +55,6 @@ def test_the_energies_of_a_pendulum_are_the_known_ones() -> None:
 
 
 def pulleys() -> Quantity:
-    """Three masses on the strings of two pulleys: x and y are depths, l is a constant length."""
     with recorded():
         down, inside = coordinate("x", "length"), coordinate("y", "length")
         heights = {M: -1 * down, m: down - l - inside, m_3: down - l + inside}
@@ -161,7 +159,6 @@ def test_a_coordinate_that_the_lagrangian_does_not_have_is_refused() -> None:
 
 
 def test_the_energy_of_the_slab_is_constant_along_its_motion() -> None:
-    """q_dot times the equation of motion is dE/dt."""
     found = known_slab()
     energy = found["kinetic_energy"].value + found["potential_energy"].value
     changes = energy.diff(q) * q_dot + energy.diff(q_dot) * q_ddot

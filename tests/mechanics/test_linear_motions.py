@@ -56,7 +56,6 @@ def run() -> Iterator[None]:
 
 
 def pendulum(*more: Any, push: Any = None) -> tuple[Quantity, Any]:
-    """The Lagrangian of a pendulum in a fluid, and its angle."""
     theta = coordinate("theta")
     at = point(l * sin(theta), -l * cos(theta))
     pushed = [force((push, 0), at)] if push is not None else []
@@ -229,7 +228,6 @@ def test_an_effective_potential_under_given_forces_is_refused() -> None:
 
 
 def test_what_is_known_at_one_moment_has_no_rate() -> None:
-    """T at the lowest point does not hold theta any more, but it changes all the same."""
     theta = coordinate("theta")
     at = point(l * sin(theta), -l * cos(theta))
     T = kinetic_energy_of(System(Particle(m, at), weight(g), potential(k * theta.symbol**2)))

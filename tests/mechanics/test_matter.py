@@ -22,7 +22,6 @@ A, C = symbols("A C", positive=True)
 
 
 def matter_of(part: Callable[[], Any]) -> Matter:
-    """The mass points of a system of one part, which moves with theta and x."""
     with recorded():
         for known in (THETA, X):
             coordinate_named(known.symbol, known.kind)
@@ -30,13 +29,10 @@ def matter_of(part: Callable[[], Any]) -> Matter:
 
 
 def body_in_a_plane(*place: Any) -> Matter:
-    """A body of mass m and moment I, turned by theta, with its centre of mass at that place."""
     return matter_of(lambda: RigidBody(m, I).placed(q, point(*place)))
 
 
 def top_of(*moments: Any) -> Matter:
-    """A body held at a point, with these moments about it: turned about the vertical, tilted, spinning."""
-
     def held() -> Any:
         precession, tilt, spin = euler_angles()
         axes = space.turned(Z, precession).turned(ACROSS, tilt).turned(Z, spin)

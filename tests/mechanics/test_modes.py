@@ -59,7 +59,6 @@ def motion(*parts: Any) -> tuple[Quantity, ...]:
 
 
 def double(*sizes: Expr) -> tuple[tuple[Quantity, ...], Any, Any]:
-    """The double pendulum, its masses and lengths; and its angles."""
     first, second, upper, lower = sizes or (m, m, l, l)
     theta, phi = coordinate("theta"), coordinate("phi")
     top = point(upper * sin(theta), -upper * cos(theta))
@@ -68,7 +67,6 @@ def double(*sizes: Expr) -> tuple[tuple[Quantity, ...], Any, Any]:
 
 
 def chain(masses: list[Expr], constants: list[Expr], walls: bool = True) -> tuple[Quantity, ...]:
-    """Masses in a row, joined by springs, the outer ones to walls if there are any."""
     at = [point(n * l + coordinate(f"x_{n}", "length"), 0) for n in range(1, len(masses) + 1)]
     ends = [point(0, 0), *at, point((len(masses) + 1) * l, 0)] if walls else at
     springs = (spring(each, a, b, l) for each, (a, b) in zip(constants, pairwise(ends), strict=True))
@@ -341,7 +339,6 @@ def cart() -> tuple[tuple[Quantity, ...], Any, Any]:
 
 
 def turning() -> tuple[Quantity, ...]:
-    """A mass on springs in axes that turn: its equations have terms with rates."""
     x, y = coordinate("x", "length"), coordinate("y", "length")
     at = space.turned(Z, w * t).place(x, y, 0)
     return motion(Particle(m, at), spring(k, 0 * Y.__class__((0, 0, 0)), at))
@@ -447,7 +444,6 @@ def test_letters_of_a_problem_are_not_those_of_a_check(name: str) -> None:
 
 
 def chain_in_numbers(masses: Sequence[int], springs: Sequence[int]) -> tuple[Quantity, ...]:
-    """The modes of masses between springs, with letters that have these numbers."""
     count = len(masses)
     inertia, stiffness = symbols(f"m_1:{count + 1}", positive=True), symbols(f"k_0:{count + 1}", positive=True)
     numbers = dict(zip((*inertia, *stiffness), map(Integer, (*masses, *springs)), strict=True))

@@ -61,7 +61,6 @@ def roles(quantity: Quantity) -> dict[str, Any]:
 def test_the_moment_about_the_own_axis_of_a_disc_has_the_letter_of_the_axis_of_the_whole(
     angle: Any, letter: str
 ) -> None:
-    """Turned a quarter about x, the axis of the disc is along y; turned by pi/4 it is along no axis of the whole."""
     disc = Disc(R, M).named("disc").turned("x", angle).at(0, 0, -l)
     whole = moment_of_inertia(Composite(Rod(l, m).at(0, 0, -l / 2), disc), "x", "origin", symbol="I_x")
     across = next(q for q in whole.parents if str(q.symbol) == "I_x_disc")
@@ -69,7 +68,6 @@ def test_the_moment_about_the_own_axis_of_a_disc_has_the_letter_of_the_axis_of_t
 
 
 def test_the_axis_of_a_part_is_named_in_its_own_coordinates_and_in_those_of_the_whole(tmp_path: Path) -> None:
-    """The rod of the pendulum is along its own z axis, over which the integral goes, and along y of the whole."""
     text = (ROOT / "problems" / "library" / "bodies" / "clock_pendulum.yaml").read_text(encoding="utf-8")
     integrated = edited(text, ("{shape: rod, length", "{derive: true, shape: rod, length"))
     root = course_with(tmp_path, integrated)
@@ -134,7 +132,6 @@ def test_the_axes_of_a_part_are_not_reflected() -> None:
 
 
 def test_a_quotient_comes_close_to_the_number_that_is_named() -> None:
-    """Of h/R near 1 it is h that comes close to R, and h/R to 1."""
     found = limiting_case(let("f", lambda: M * (R**2 / 4 + h**2 / 3)), h / R, to=1, order=1)
     assert found.step.outcome == "near"
     assert (roles(found)["letter"], roles(found)["place"]) == (h / R, 1)

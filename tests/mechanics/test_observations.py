@@ -170,7 +170,6 @@ def _uneven(facts: Judged) -> Judged:
 
 
 def _first(facts: Judged) -> ImmutableDenseMatrix:
-    """A further displacement of the first coordinate, which changes the length of each spring at it."""
     size = len(facts.quantities["shape"].value)
     return ImmutableDenseMatrix([Integer(n == 0) for n in range(size)])
 
@@ -247,7 +246,6 @@ def test_every_kind_of_observation_is_on_some_page() -> None:
 
 @pytest.mark.parametrize("problem_id", ["library/steady_precession", "library/two_balls", "library/pendulum_canonical"])
 def test_a_page_without_a_true_and_useful_observation_has_none(problem_id: str) -> None:
-    """A rate in terms of a conserved spin, a special case, and a simple pendulum."""
     assert not any(observed(problem_id)[0])
 
 

@@ -20,7 +20,6 @@ c = symbols("c", real=True)
 
 
 def bead(height: Expr) -> Quantity:
-    """The potential energy of a bead on the wire y(x)."""
     return potential(x, height, X)
 
 

@@ -250,7 +250,6 @@ def test_torque_obeys_the_equations_of_euler() -> None:
 
 
 def test_where_the_letters_decide_the_outcome_says_so() -> None:
-    """With sides a, b, c all may be equal, and then there is no torque."""
     assert outcomes(**GENERAL)["torque"] == "in_general"
     assert outcomes(**GENERAL)["angular_momentum"] == "in_general"
     assert outcomes()["torque"] == "generic"

@@ -83,7 +83,6 @@ def test_a_body_has_the_tensor_of_the_tables(body: Body, about: str, tabulated: 
 
 @pytest.mark.parametrize("body", BODIES, ids=named)
 def test_particles_have_the_mass_centre_and_second_moments_of_the_body(body: Body) -> None:
-    """By SymPy's integrator over the body's own limits."""
     region = body.region(body.point(body.reference)).with_section_put_in()
     x = region.position
 
@@ -244,7 +243,6 @@ def test_the_centre_of_a_ball_is_where_it_is_counted_from() -> None:
 
 
 def test_in_cylindrical_coordinates_a_ball_has_no_chords() -> None:
-    """The radius of its cross-section is a limit there, and the disc is integrated at once."""
     reasons = {
         coordinates: {
             form.because for q in inertia_tensor(Ball(R, M), coordinates=coordinates).parents for form in q.step.chain

@@ -108,7 +108,6 @@ def test_a_moment_of_a_hollow_ball_is_written_as_in_a_lecture() -> None:
 
 
 def test_what_stands_in_no_table_agrees_with_what_does() -> None:
-    """A tube of no hole, a shell of no hollow, a corner of a box by its tetrahedron, a square of two triangles."""
     assert inertia_tensor(Tube(a, b, h, M)).value.subs(a, 0) == M / 12 * diag(
         3 * b**2 + h**2, 3 * b**2 + h**2, 6 * b**2
     )

@@ -63,7 +63,6 @@ def given(value: Expr) -> Quantity:
 
 
 def told(found: Quantity) -> dict[str, str]:
-    """The conditions that its sentence has."""
     return {role: str(formula) for role, formula in found.step.roles if role in CONDITIONS}
 
 
@@ -354,7 +353,6 @@ def test_upside_down_it_falls(tmp_path: Path) -> None:
 
 
 def test_a_wrong_sign_is_refused(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    """The law takes the range for another; the words are judged by numbers of the range."""
     monkeypatch.setattr(oscillations, "_sort_of", lambda *_: "unstable")
     (message,) = messages(tmp_path, edited(TROUGH, ("[stability, normal_modes]", "normal_modes")))
     assert "disagrees" in message or "could not be confirmed" in message

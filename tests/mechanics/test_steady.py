@@ -66,7 +66,6 @@ def planet(symbol: str = "L") -> tuple[Quantity, Coordinate, Coordinate]:
 
 
 def conical() -> tuple[Quantity, Quantity]:
-    """The effective potential of the conical pendulum and its steady motion."""
     L, theta, phi = spherical_pendulum()
     steady = one(steady_motion(L, {phi: Omega}, {theta: alpha}))
     return effective_potential(L, conserved(L, phi, "l_z")), steady
@@ -182,7 +181,6 @@ def test_about_rest_the_mass_may_depend_on_the_place() -> None:
 
 
 def test_two_coordinates_that_stay_have_a_condition_each() -> None:
-    """A particle on a string through a table, and a second one that swings below it."""
     r, z, phi = coordinate("r", "length", positive=True), coordinate("z", "length"), coordinate("phi")
     springs = potential(G * (r - l) ** 2 / 2 + G * z**2 / 2)
     L = lagrangian(System(Particle(m, point(r * cos(phi), r * sin(phi), z)), springs, weight(g)))
@@ -255,7 +253,6 @@ def test_a_condition_that_forgets_the_turning_is_refused(monkeypatch: pytest.Mon
 
 
 def test_a_curvature_with_the_rate_held_in_place_of_the_momentum_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The commonest slip: the rate is not constant in the oscillation, the momentum is."""
     U, steady = conical()
     wrong = Omega**2 * (1 - cos(alpha) ** 2)  # that of a hoop driven at this rate
     monkeypatch.setattr(about_module, "by_one_square", lambda _: wrong)

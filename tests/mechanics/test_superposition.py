@@ -41,7 +41,6 @@ def run() -> Iterator[Run]:
 
 
 def carts(energy: Expr, *drag: Expr, other: Expr = m) -> tuple[Coordinate, Coordinate, tuple[Quantity, ...]]:
-    """Two masses on a line."""
     x, y = coordinate("x", "length"), coordinate("y", "length")
     places = (point(x.symbol, 0), point(y.symbol, 0))
     parts = [Particle(mass, at) for mass, at in zip((m, other), places, strict=True)]

@@ -82,7 +82,6 @@ def test_a_rotation_in_turning_axes_gives_the_angular_momentum_in_space() -> Non
 
 
 def in_a_helical_field() -> tuple[Quantity, Coordinate, Coordinate]:
-    """A particle on a cylinder; its potential energy depends on the angle less the height, as on a screw thread."""
     phi, z = coordinate("phi"), coordinate("z", "length")
     particle = Particle(m, point(l * cos(phi), l * sin(phi), z))
     return lagrangian(System(particle, potential(k * l**2 * cos(phi.symbol - 2 * z.symbol / h)))), phi, z

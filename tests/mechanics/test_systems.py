@@ -56,7 +56,6 @@ def left_sides(*parts: Any) -> list[Expr]:
 
 
 def same(found: list[Expr], *expected: Expr) -> bool:
-    """Each equation, whatever constant factor it is written with."""
     assert len(found) == len(expected)
     return all(
         equal(Relation(one, "=", 0), Relation(other, "=", 0)) for one, other in zip(found, expected, strict=True)

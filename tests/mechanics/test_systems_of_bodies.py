@@ -67,7 +67,6 @@ def same(found: list[Expr], *expected: Expr) -> bool:
 
 
 def energy(*parts: Any) -> Expr:
-    """Each on a page of its own."""
     with recorded() as page:
         page.coordinates.update(dict.fromkeys(symbols("phi theta psi x", real=True), "angle"))
         return explicit(kinetic_energy_of(System(*parts)).value)
@@ -195,7 +194,6 @@ def test_a_ball_rolls_on_a_plane_with_two_conditions() -> None:
 
 
 def test_a_slab_rocks_on_a_cylinder() -> None:
-    """The slab of problems/hw9 by the general model: its place is that of rotating axes."""
     q = coordinate("theta")
     centre = point((R + a / 2) * sin(q) - R * q * cos(q), (R + a / 2) * cos(q) + R * q * sin(q))
     slab = RigidBody(M, I_0).placed(-q, centre=centre)
@@ -222,7 +220,6 @@ def test_a_body_that_moves_freely_in_space_has_both_energies() -> None:
 
 
 def test_products_of_inertia_take_part() -> None:
-    """A block held at its corner: about an edge its products of inertia do not enter, about another axis they do."""
     phi = coordinate("phi")
     block = Cuboid((a, a, a), m)
     assert equal(energy(block.held(space.turned(Z, phi), at="corner")), m * a**2 * phi.rate**2 / 3)

@@ -19,7 +19,6 @@ a, b, c, M, t = symbols("a b c M t", positive=True)
 
 
 def put_in(theorem: Theorem, values: dict[str, Expr]) -> Expr:
-    """Left minus right, with values for letters by their names."""
     residual = explicit(theorem.formula.residual)
     return residual.xreplace({s: values[s.name] for s in residual.free_symbols if s.name in values})
 
@@ -46,7 +45,6 @@ def test_perpendicular_axes_hold_for_what_is_flat_and_for_nothing_else() -> None
 
 
 def test_the_rate_in_space_is_that_in_turning_axes_and_what_turning_adds() -> None:
-    """A vector known by its components in axes that turn about z, differentiated by its components in space."""
     w = Symbol("omega", positive=True)
     turned = Matrix([[cos(w * t), -sin(w * t), 0], [sin(w * t), cos(w * t), 0], [0, 0, 1]])
     inside = Matrix([t, t**2, 1])
@@ -59,7 +57,6 @@ def test_the_rate_in_space_is_that_in_turning_axes_and_what_turning_adds() -> No
 
 
 def in_coordinate(formula: Any, lagrangian: Expr, function: Expr = S.Zero) -> Expr:
-    """Left minus right of Lagrange's equation, with values for L and f_k."""
     q = scalar("q")
     put = {scalar("L"): lagrangian, scalar("f_k"): function, scalar("f"): function}
 

@@ -300,7 +300,6 @@ def greatest_tilt(spin: float, push: tuple[float, float], turns: int = 6000) -> 
 
 @pytest.mark.parametrize("change", [0, 1e-4, -1e-4])
 def test_at_the_border_the_upright_top_withstands_every_small_push(change: float) -> None:
-    """Also one that changes the momentum along the axis, and with it that of the precession."""
     assert greatest_tilt(2 + change, (1e-3, 0)) < 0.1
     assert greatest_tilt(2 + change, (1e-2, 0)) > greatest_tilt(2 + change, (1e-3, 0))
 

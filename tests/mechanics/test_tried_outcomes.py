@@ -30,7 +30,6 @@ def linear(stiffness: Any, turning: Any = ZERO, **more: Any) -> dict[str, Any]:
 
 
 def turning(stiffness: Any, **more: Any) -> dict[str, Any]:
-    """The matrices of two displacements with a Coriolis force."""
     eye, turn = ImmutableDenseMatrix([[1, 0], [0, 1]]), ImmutableDenseMatrix([[0, -S], [S, 0]])
     return {"stiffness": stiffness * eye, "turning": turn, "mass": m * eye, "conditions": ()} | more
 

@@ -172,7 +172,6 @@ def test_a_wrong_linear_equation_is_refused(monkeypatch: pytest.MonkeyPatch) -> 
 
 @pytest.mark.parametrize("points", [None, 1])
 def test_the_root_with_the_other_sign_is_refused(monkeypatch: pytest.MonkeyPatch, points: int | None) -> None:
-    """Also if the rate vanishes at all points that are tried first, where all moments are equal."""
     found, right = squared((A, B, C), "z"), wobble._root_of
     monkeypatch.setattr(wobble, "_root_of", lambda square: -right(square))
     if points is not None:

@@ -56,7 +56,6 @@ WRONG_NODES: list[tuple[Any, Callable[..., Any]]] = [
 def test_a_node_that_is_carried_out_wrongly_is_refused(
     node: Any, wrong: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Nodes serve law and second route alike, so this shows that the two do not stand on the same ones."""
     known_block()
     monkeypatch.setattr(node, "_evaluated", wrong)
     node_module._carried_out.cache_clear()

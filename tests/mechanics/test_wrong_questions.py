@@ -66,7 +66,6 @@ def of_block() -> Any:
 
 
 def slab(radius: Any = R, mass: Any = M, inertia: Any = k) -> Any:
-    """The Lagrangian of a slab that has rolled on a cylinder."""
     with recorded():
         theta, way = coordinate("theta"), coordinate("s", "length")
         body = RigidBody(mass, inertia)
@@ -76,7 +75,6 @@ def slab(radius: Any = R, mass: Any = M, inertia: Any = k) -> Any:
 
 
 def grown() -> Any:
-    """The equation of a pendulum of the length l + a t, near its lowest place."""
     length = l + a * TIME
     return motion(length * sin(THETA.symbol), -length * cos(THETA.symbol), THETA)
 

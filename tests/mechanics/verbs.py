@@ -7,6 +7,5 @@ from types import SimpleNamespace
 
 
 def verbs_as_imported() -> SimpleNamespace:
-    """The verbs of mechanics and of numbers, by name."""
     modules = [importlib.import_module(name) for name in ("derive.mechanics", "derive.steps.numeric")]
     return SimpleNamespace(**{name: v for module in modules for name, v in vars(module).items() if name[0] != "_"})

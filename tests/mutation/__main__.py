@@ -73,7 +73,6 @@ def main() -> int:
 
 
 def _ids_in(name: str) -> set[str]:
-    """The ids in a file, one a line or as `--out` writes them; none where there is no such file."""
     if not os.path.exists(name):
         return set()
     with open(name, encoding="utf-8") as file:

@@ -120,7 +120,6 @@ SOURCES = {module: path_of(module).read_text(encoding="utf-8") for module in MOD
 
 
 def mutants_of(module: str) -> tuple[ast.Module, list[Mutant]]:
-    """The tree of a module, and every mutant of it, in the order of the text."""
     importlib.import_module("derive.mechanics")
     tree = ast.parse(SOURCES[module])
     records = [rule for name, _, rule in rules() if name == module]
@@ -148,14 +147,11 @@ def _called(call: ast.Call) -> str:
 
 @functools.lru_cache(maxsize=1)  # as long as its mutants are asked for
 def _local_names(top: ast.stmt) -> set[str]:
-    """The names of a function, or of all functions of a class, that stand for something in it alone."""
     names = {n.arg for n in ast.walk(top) if isinstance(n, ast.arg)}
     return names | {n.id for n in ast.walk(top) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)}
 
 
 class _Maker:
-    """Walks a tree and says what can be changed at each node."""
-
     def __init__(self, module: str, tree: ast.Module, outcomes: dict[str, tuple[str, ...]]):
         self.module, self.tree, self.outcomes = module, tree, outcomes
         self.top: ast.stmt = tree.body[0]
@@ -185,7 +181,6 @@ class _Maker:
                 yield from self._below(statement.value, statement, "value", None)
 
     def _below(self, node: ast.AST, parent: ast.AST, name: str, index: int | None) -> Iterator[Mutant]:
-        """The mutants of a node and of all below it."""
         outer = self.spot
         if isinstance(node, ast.stmt | ast.Lambda):
             self.spot = node.lineno, node.col_offset
@@ -322,7 +317,6 @@ class _Maker:
         return made
 
     def _of_establishing(self, call: ast.Call) -> Iterator[Mutant]:
-        """Another law; two roles exchanged, so that a sentence tells one formula for another."""
         tables = [call.args[3]] if len(call.args) > 3 else []
         for what in ("2 * ({})(*given)", "({})(*given[::-1])") if len(call.args) > 3 else ():
             law = ast.parse(f"lambda *given: {what.format(ast.unparse(call.args[2]))}", mode="eval").body
@@ -336,7 +330,6 @@ class _Maker:
                     yield self._mutant_of_list(table, "keys", keys, "role", whole)
 
     def _of_telling(self, call: ast.Call) -> Iterator[Mutant]:
-        """Other words."""
         for keyword in call.keywords:
             if keyword.arg == "words" and isinstance(keyword.value, ast.Dict):
                 for i, value in enumerate(keyword.value.values):
@@ -345,7 +338,6 @@ class _Maker:
 
 
 def _neighbours(items: Iterable[Any]) -> Iterator[tuple[int, int]]:
-    """The places of two that stand side by side and are not alike."""
     told = [ast.unparse(item) if isinstance(item, ast.AST) else "" for item in items]
     for i in range(len(told) - 1):
         if told[i] and told[i + 1] and told[i] != told[i + 1] and "*" not in {told[i][0], told[i + 1][0]}:

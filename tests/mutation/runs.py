@@ -27,8 +27,6 @@ WORDS = phrases(templates_of(ROOT))
 
 @dataclass(frozen=True)
 class Solved:
-    """The steps and the numbers of a run; two that are equal print the same page."""
-
     derivation: Derivation
     values: dict[str, Step]
     problem: Problem
@@ -44,7 +42,6 @@ class Solved:
 
     @property
     def page(self) -> str:
-        """The whole page as text, in full detail."""
         document, faults = document_of(
             self.problem, self.derivation, self.values, WORDS, Level.FULL, drawings=self.drawings
         )
@@ -67,7 +64,6 @@ class Run:
 
     @cached_property
     def course(self) -> Path:
-        """The folder from which the problem is read; it lasts as long as the run."""
         name = self.name.partition("-")[0]
         return course_in(Path(self._folder.name), dict(self.edits), dict(self.script), problem=name)
 
@@ -76,7 +72,6 @@ class Run:
         return f"hw9/{self.name.partition('-')[0]}"
 
     def solved(self) -> Solved:
-        """Read the problem and solve it, with nothing remembered of an earlier solution."""
         forget()
         problem = load_problem(self.course, self.id)
         derivation, values, _, run = derived(problem)
@@ -85,8 +80,6 @@ class Run:
 
 @dataclass(frozen=True)
 class LibraryRun(Run):
-    """A problem of the library, unchanged."""
-
     @cached_property
     def course(self) -> Path:
         return ROOT
@@ -98,8 +91,6 @@ class LibraryRun(Run):
 
 @dataclass(frozen=True)
 class OwnRun(Run):
-    """A problem that is here for its verbs alone."""
-
     @cached_property
     def course(self) -> Path:
         course = Path(self._folder.name)
@@ -137,7 +128,6 @@ def _is_own(function: Any) -> bool:
 
 
 def _of_transcripts() -> dict[str, Run]:
-    """One run for each set of edits that some transcript has."""
     found: dict[tuple[str, tuple[tuple[str, str], ...]], Run] = {}
     for name, (edits, _) in PAGES.items():
         found.setdefault((name.partition("-")[0], tuple(edits.items())), Run(name, tuple(edits.items())))
@@ -145,7 +135,6 @@ def _of_transcripts() -> dict[str, Run]:
 
 
 def _body(name: str, made: str, start: str, axes: Sequence[int] = (), edits: Sequence[tuple[str, str]] = ()) -> Run:
-    """The problem of one body with another body, its tensor taken about a point and moved to the centre and back."""
     script = [
         ("mechanics.Ball(radius, mass)", f"mechanics.{made}"),
         ('start, about = "centre"', f'start, about = "{start}"'),

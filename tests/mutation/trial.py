@@ -42,8 +42,6 @@ LIMIT = 20  # seconds of processor time that a mutant may take beyond its run
 
 
 class Verdict(StrEnum):
-    """What became of a mutant."""
-
     REFUSED = "refused"  # a complaint of ours
     CRASHED = "crashed"  # another exception
     TIME = "time"
@@ -72,7 +70,6 @@ class Tried:
 
 
 def remember(module: types.ModuleType, name: str) -> None:
-    """Keep what a function of SymPy values has found; it is replaced wherever it was imported."""
     original = getattr(module, name)
     found: dict[Any, Any] = {}
 
@@ -105,8 +102,6 @@ class Recording:
 
 
 class _Marked(ast.NodeTransformer):
-    """Each statement and each lambda tells that it is carried out, each function that it is called."""
-
     def __init__(self, module: str, tree: ast.Module):
         self.module, self.tree = module, tree
 
@@ -147,13 +142,11 @@ class _Marked(ast.NodeTransformer):
 
 @functools.cache
 def _watching(module: str) -> dict[str, types.CodeType]:
-    """The codes of a module's functions that tell where they come to."""
     return _codes_of(module, _Marked(module, ast.parse(SOURCES[module])).functions())
 
 
 @contextlib.contextmanager
 def _watched(modules: Sequence[str], come_to: Callable[[str, str, int, int], None]) -> Iterator[None]:
-    """Within, the functions of the modules tell where they come to."""
     kept = []
     for name in modules:
         module = import_module(f"derive.{name}")
@@ -171,7 +164,6 @@ def _watched(modules: Sequence[str], come_to: Callable[[str, str, int, int], Non
 
 
 def recording(run: Run, modules: Sequence[str] = MODULES) -> Recording:
-    """Solve a run and watch."""
     spots: dict[str, set[tuple[int, int]]] = {module: set() for module in modules}
     first: dict[tuple[str, str], int] = {}
     count = 0
@@ -192,8 +184,6 @@ def recording(run: Run, modules: Sequence[str] = MODULES) -> Recording:
 
 @contextlib.contextmanager
 def each_step(then: Callable[[Any], None]) -> Iterator[None]:
-    """Call something after each step that is established."""
-
     class Watched(list[Any]):
         def append(self, quantity: Any) -> None:
             super().append(quantity)
@@ -216,7 +206,6 @@ def uses(recorded: Recording, mutant: Mutant) -> bool:
 
 
 def tried_on(recorded: Recording, mutants: Sequence[Mutant], trees: dict[str, Any]) -> Iterator[Tried]:
-    """Every mutant on one run."""
     waiting: dict[int, list[Mutant]] = {}
     for mutant in mutants:
         waiting.setdefault(_first_use(recorded, mutant), []).append(mutant)
@@ -238,7 +227,6 @@ def tried_on(recorded: Recording, mutants: Sequence[Mutant], trees: dict[str, An
 
 
 def _first_use(recorded: Recording, mutant: Mutant) -> int:
-    """After how many steps the changed function is called for the first time; 0 for what is not a function."""
     return recorded.first.get((mutant.module, mutant.where), 0)
 
 
@@ -307,7 +295,6 @@ def _report(pipe: int, tried: Tried) -> None:
 
 
 def _nature(before: Solved, after: Solved) -> str:
-    """In what two solutions differ: the least harmless of it."""
     pairs = []
     for one, other in ((before.by_key, after.by_key), (before.values, after.values)):
         if one.keys() != other.keys():
@@ -335,7 +322,6 @@ def _differing(one: str, other: str) -> list[str]:
 
 
 def take_over(mutant: Mutant, tree: Any) -> None:
-    """Let the functions of a module have the changed code, whoever has imported them."""
     mutant.make()
     module = import_module(f"derive.{mutant.module}")
     ast.fix_missing_locations(tree)
@@ -355,7 +341,6 @@ def take_over(mutant: Mutant, tree: Any) -> None:
 
 
 def _codes_of(module: str, tree: Any) -> dict[str, types.CodeType]:
-    """The code of every function and method of a tree."""
     compiled = compile(tree, str(path_of(module)), "exec")
     made = {code.co_qualname: code for code in _codes(compiled)}
     return {name: code for name, code in made.items() if not name.endswith(">") and code.co_flags & 1}
@@ -411,8 +396,6 @@ def _rank(mutant: Mutant, seed: int) -> bytes:
 
 @dataclass
 class Trials:
-    """The runs as they are, and the mutants of some modules."""
-
     runs: Sequence[str]
     modules: Sequence[str] = MODULES
     recordings: list[Recording] = field(default_factory=list)
@@ -427,7 +410,6 @@ class Trials:
 
     @property
     def mutants(self) -> list[Mutant]:
-        """Those of every module, in the order of the text."""
         return [mutant for _, found in self._made.values() for mutant in found]
 
     def prepare(self, note: Callable[[str], None] = lambda _: None) -> None:
@@ -444,12 +426,10 @@ class Trials:
         self.recordings.sort(key=lambda each: len(each.solved.derivation.steps))  # a short run is tried first
 
     def changed(self) -> set[str]:
-        """The functions in which something that is carried out can be changed: a sign, a number, a term, an order."""
         of_laws = {"sign", "number", "dropped", "order", "plus/minus", "name", "index", "side", "mark"}
         return {mutant.where for mutant in self.mutants if mutant.change in of_laws}
 
     def used(self) -> list[Mutant]:
-        """Those that some run comes to."""
         return [mutant for mutant in self.mutants if any(uses(each, mutant) for each in self.recordings)]
 
     def sample(self, size: int | None, seed: int) -> list[Mutant]:
@@ -461,7 +441,6 @@ class Trials:
         return [mutant for mutant in found if mutant.id in drawn]
 
     def verdicts(self, mutants: Iterable[Mutant], at_most: int = 3) -> Iterator[Tried]:
-        """What became of each: on every run that uses it, up to so many, until one refuses it."""
         so_far: dict[str, Tried] = {}
         left: dict[str, int] = {}
         planned: list[list[Mutant]] = [[] for _ in self.recordings]

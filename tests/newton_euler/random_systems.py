@@ -45,7 +45,6 @@ class _OnSurface:
 
     @property
     def is_held(self) -> bool:
-        """Whether friction keeps the points in contact together."""
         return self.friction in ("rolling", "static")
 
     @property
@@ -93,7 +92,6 @@ class _OnSurface:
         return ", across: z" if self.shape in ("disc", "hoop") else ""
 
     def _slip(self) -> tuple[str, str]:
-        """The direction of slip: with the free side on its left."""
         if self.is_circle:
             return ("y", "-x") if self.ground == "outside" else ("-y", "x")
         return ("1", "0") if self.ground == "floor" else ("cos(alpha)", "-sin(alpha)")
@@ -428,7 +426,6 @@ SYMBOLS = (
 
 
 def key_of(unknown: str) -> str:
-    """Return the name of the answer for an unknown."""
     return f"acceleration_{unknown.removesuffix('_ddot')}" if unknown.endswith("_ddot") else unknown
 
 

@@ -72,7 +72,6 @@ def test_a_reason_names_the_entries_of_a_vector_that_is_not_shown_but_only_those
 
 
 def test_a_reason_may_name_the_equation_of_a_role(tmp_path: Path) -> None:
-    """What is put into (I_zz - I_yy) omega_y omega_z are the tensor and the angular velocity, not L."""
     _, solved = solved_once(course_in(tmp_path, problem="centred"), "hw9/centred")
     numbers = {"inertia_tensor": 1, "spin": 2, "angular_momentum": 3}
     writer = ChainWriter(solved.derivation, solved.values, WORDS, {}, numbers)

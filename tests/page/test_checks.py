@@ -42,8 +42,6 @@ def told(outcome: str, erratum: Any = None, remark: Any = None) -> Any:
 
 
 class OwnWords:
-    """A route is told by its claim."""
-
     labels: ClassVar = {"motion": "followed"}
 
     def route(self, step: Step, claim: str) -> str:

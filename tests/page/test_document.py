@@ -43,7 +43,6 @@ def written(block: Block, level: Level = Level.STANDARD, **changed: object) -> t
 
 
 def in_other_words(block: Block, folder: Path, added: str) -> Block:
-    """The same steps, with more keys in the problem's file."""
     return load_problem(course_in(folder, {"parts:\n": f"{added}\nparts:\n"}), "hw9/block"), block[1]
 
 

@@ -14,7 +14,6 @@ from tests.courses import PINNED, ROOT, solved_once
 
 
 def pages(tmp_path_factory: pytest.TempPathFactory, name: str) -> tuple[Document, Document]:
-    """At standard and at full, the second with the numbers of the first."""
     from tests.courses import course_in
 
     problem, solved = solved_once(course_in(tmp_path_factory.mktemp(name), problem=name), f"hw9/{name}")

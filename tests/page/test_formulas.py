@@ -215,7 +215,6 @@ def test_a_note_that_remained_while_the_problem_changed_is_reported(
 
 
 def test_no_note_of_the_library_contradicts_its_page() -> None:
-    """With the formulas of three notes that name results by their symbols."""
     for name in ("power_law", "yoyo", "driven_oscillator"):
         assert not rendered_once(ROOT, f"library/{name}", only={"text"}).warnings
 

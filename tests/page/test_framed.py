@@ -23,7 +23,6 @@ Formula = tuple[str, str, str]
 
 
 def formulas(document: Document) -> list[tuple[bool, Formula]]:
-    """What stands in displays, and whether it is framed: left side, relation, right side."""
     found: list[tuple[bool, Formula]] = []
     for part in document.parts:
         for display in (block for block in part.blocks if isinstance(block, Display)):
@@ -38,7 +37,6 @@ def formulas(document: Document) -> list[tuple[bool, Formula]]:
 
 
 def repeated(document: Document) -> list[Formula]:
-    """Framed formulas that stand above already, framed or not."""
     found = formulas(document)
     return [formula for i, (framed, formula) in enumerate(found) if framed and formula in [f for _, f in found[:i]]]
 
@@ -54,7 +52,6 @@ def test_no_framed_formula_repeats_one_above_it(name: str, level: Level, tmp_pat
 
 
 def test_a_second_derivative_that_only_decides_stability_is_not_framed(tmp_path: Path) -> None:
-    """The answer is the sentence: the equilibrium is stable."""
     asked = edited(PENDULUM, ("answer: equations_of_motion", "answer: [equilibria, stability]"))
     page = rendered(course_with(tmp_path, asked), "trial/one", only={"text"}).texts["text"]
     assert page.count("  * ") == 2, "one frame for each equilibrium"

@@ -34,8 +34,6 @@ LIBRARY = tuple(f"library/{name}" for name in ("kepler", "turning_hoop", "bullet
 
 @pytest.fixture(scope="module")
 def courses(tmp_path_factory: pytest.TempPathFactory) -> Any:
-    """The root of the course that has a problem, by the name of the problem."""
-
     @cache
     def root(name: str) -> Path:
         folder, _, stem = name.partition("/")
@@ -54,14 +52,12 @@ def courses(tmp_path_factory: pytest.TempPathFactory) -> Any:
 
 @cache
 def of(courses: Any, name: str) -> tuple[Document, Document, Problem, Solved]:
-    """A page, its hints, and what both are made of."""
     problem, solved = solved_once(courses(name), name)
     page, _ = document_of(problem, solved.derivation, solved.values, WORDS, Level.STANDARD)
     return page, with_hints(page, problem, solved.derivation, solved.values, WORDS), problem, solved
 
 
 def told(hints: Document) -> Iterator[tuple[Folded, Equations, ChainLine]]:
-    """Each line with its rung and its equations; one that goes on with the left side of the first."""
     for part in hints.parts:
         for rung in (block for block in part.blocks if isinstance(block, Folded)):
             for block in (each for each in rung.blocks if isinstance(each, Display)):
@@ -69,7 +65,6 @@ def told(hints: Document) -> Iterator[tuple[Folded, Equations, ChainLine]]:
 
 
 def sides(value: Any) -> list[Any]:
-    """An equation and its sides, as far as they are formulas; no bare number or letter."""
     found = [value, value.left, value.right] if isinstance(value, Relation) else [value]
     return [each for each in found if isinstance(each, Basic | MatrixBase) and not getattr(each, "is_Atom", False)]
 
@@ -124,7 +119,6 @@ def test_the_first_hint_is_one_sentence_and_a_number_has_no_law(courses: Any, na
 
 
 def test_the_words_of_the_author_for_an_answer_are_no_hint(courses: Any) -> None:
-    """The answer of part (b) is in them: in the body frame, no."""
     _, hints, _, _ = of(courses, "hw9/euler")
     words = [node.text for part in hints.parts for rung in part.blocks for block in rung.blocks
              if isinstance(block, Paragraph) for node in block.nodes if isinstance(node, Text)]  # fmt: skip

@@ -18,7 +18,6 @@ PAGE = (PHRASES / "page.yaml").read_text(encoding="utf-8")
 
 
 def with_page(folder: Path, text: str) -> Path:
-    """A folder of templates whose `page.yaml` is this text, the other phrases as they are."""
     own = folder / "phrases" / "en"
     own.mkdir(parents=True)
     for file in PHRASES.iterdir():

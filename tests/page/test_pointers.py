@@ -45,7 +45,6 @@ def page(known: Known, level: Level) -> Document:
 
 
 def displayed(document: Document) -> dict[str, int]:
-    """The steps with lines, and how many of them are framed."""
     blocks = [block for part in document.parts for block in part.blocks if isinstance(block, Display)]
     return {group.key: group.framed for block in blocks for group in block.groups}
 

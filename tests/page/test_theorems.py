@@ -45,7 +45,6 @@ def test_a_theorem_is_told_once(level: Level) -> None:
 
 
 def held_bob() -> Step:
-    """Lagrange's equation for the distance of a bob from the pivot, with the tension of its string."""
     (m, l, gravity), tension = symbols("m l g", positive=True), "S"
     with recorded():
         r, theta = coordinate("r", "length", positive=True), coordinate("theta")

@@ -43,12 +43,10 @@ def library(name: str) -> str:
 
 
 def page(folder: Path, text: str) -> str:
-    """The page in one line, without the marks of answers."""
     return in_one_line(rendered(course_with(folder, text), "trial/one", only={"text"}))
 
 
 def library_page(name: str) -> str:
-    """The page of a problem of the library, which is derived once for all tests."""
     return in_one_line(rendered_once(ROOT, f"library/{name.partition('/')[2]}", only={"text"}))
 
 

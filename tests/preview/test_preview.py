@@ -31,8 +31,6 @@ def course(tmp_path: Path) -> Path:
 
 
 class Preview:
-    """The command while it runs, and where it serves."""
-
     def __init__(self, root: Path):
         command = [sys.executable, "-P", "-m", "derive", "--root", str(root), "preview", "hw9/block", "--port", "0"]
         pipe = subprocess.PIPE
@@ -42,7 +40,6 @@ class Preview:
         self.port = int(self.address.split(":")[2].partition("/")[0])
 
     def asked(self) -> socket.socket:
-        """Somebody who waits for the page."""
         connection = socket.create_connection(("127.0.0.1", self.port), timeout=30)
         connection.sendall(b"GET /block.html HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n")
         return connection
@@ -70,7 +67,6 @@ def preview(course: Path) -> Iterator[Preview]:
 
 
 def endless(course: Path) -> None:
-    """Let the script of the problem write the file `begun`, and then do nothing for ever."""
     script = course / "problems" / "hw9" / "block.py"
     lines = f"    open({str(course / 'begun')!r}, 'w').close()\n    while True:\n        pass\n"
     script.write_text(

@@ -25,8 +25,6 @@ FAULT = Shown(complaints=("block.yaml:3:1: error[wrong-kind]",))
 
 
 class StandIn:
-    """A worker that answers at once, as a test says."""
-
     def __init__(self) -> None:
         self.shown = Shown("<h1>first</h1>")
         self.asked: list[str] = []
@@ -165,7 +163,6 @@ def opened(served: Server, said: bytes = b"") -> socket.socket:
 
 
 def busy(served: Server) -> int:
-    """How many are connected."""
     return MOST - served._free._value
 
 

@@ -20,7 +20,6 @@ _BESIDE = "⎡⎢⎣⎧⎨⎩⎛⎜⎝"
 
 
 def braced(tex: str, command: str) -> Iterator[tuple[str, int]]:
-    """What stands between the braces behind a command, wherever that stands, and where it ends."""
     for found in re.finditer(re.escape(command) + r"\{", tex):
         depth, end = 1, found.end()
         while depth:
@@ -34,21 +33,18 @@ def boxed(tex: str) -> list[str]:
 
 
 def framed(tex: str) -> list[str]:
-    """In a document of ours: rows that are framed as a whole, rows of a frame, and frames within rows."""
     rows = [(end, next(braced(tex[end:], ""))[0]) for _, end in braced(tex, r"\framedrow")]
     rows += [(end, f"{left} {next(braced(tex[end:], ''))[0]}") for left, end in braced(tex, r"\listrow")]
     return [inside for _, inside in sorted([*rows, *((end, inside) for inside, end in braced(tex, r"\inframe"))])]
 
 
 def of_html(page: str) -> list[str]:
-    """The formulas that a reader copies."""
     return [
         inside for tex in re.findall(r'data-tex="([^"]*)"', without_folded(page)) for inside in boxed(unescape(tex))
     ]
 
 
 def shown_in_html(page: str) -> str:
-    """The characters of what stands in frames, one after the other."""
     page, found = without_folded(page), ""
     for start in re.finditer('<span class="answer">', page):
         depth, end = 1, start.end()
@@ -75,7 +71,6 @@ def of_notebook(text: str) -> list[str]:
 
 
 def bare(formulas: list[str]) -> str:
-    """Formulas one after the other, without signs of equality, spaces and breaks, by which formats differ."""
     tex = " ".join(formulas)
     for written, same in _SAME.items():
         tex = tex.replace(written, same)
@@ -83,7 +78,6 @@ def bare(formulas: list[str]) -> str:
 
 
 def characters(text: str) -> str:
-    """Letters and digits alone."""
     return "".join(c for c in unicodedata.normalize("NFKD", unescape(text)) if c.isalnum())
 
 
@@ -92,7 +86,6 @@ def characters_of_tex(tex: str) -> str:
 
 
 def framed_in_text(page: str) -> tuple[str, str]:
-    """The lines of what is framed one after the other; and with those above and below where these are a matrix."""
     lines = page.splitlines()
     at = [i for i, line in enumerate(lines) if line.startswith(FRAMED)]
     beside = {i + step for i in at for step in (-2, -1, 0, 1, 2) if set(lines[i]) & set(_BESIDE) or not step}

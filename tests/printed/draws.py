@@ -124,7 +124,6 @@ def _value(kind: str, source: random.Random, plain: bool) -> str:
 
 
 def yaml_of(variant: Variant) -> dict[str, str]:
-    """The edits that make the pinned problem this variant."""
     text = (PINNED / f"{variant.problem}.yaml").read_text(encoding="utf-8")
     edits = {}
     used = set(re.findall(r"[A-Za-z]\w*", " ".join(value for _, value in variant.givens)))
@@ -139,7 +138,6 @@ def yaml_of(variant: Variant) -> dict[str, str]:
 
 
 def steps_of(variant: Variant) -> tuple[list[Step], Notation]:
-    """Every step of a variant, shown or not, and how its page prints."""
     with tempfile.TemporaryDirectory() as folder:
         root = course_in(Path(folder), yaml_of(variant), problem=variant.problem)
         problem = load_problem(root, f"hw9/{variant.problem}")
@@ -150,7 +148,6 @@ def steps_of(variant: Variant) -> tuple[list[Step], Notation]:
 
 
 def check_variant(variant: Variant, count: Count) -> int:
-    """Read back every line of a variant; how many there are."""
     steps, notation = steps_of(variant)
     lines = 0
     for step in steps:

@@ -46,8 +46,6 @@ UNITS = [("cm", Rational(1, 100)), ("kg m^2", Integer(1)), ("rad/s", Integer(1))
 
 
 class Draw:
-    """Draws from one seed; `depth` is how much deeper a draw may go."""
-
     def __init__(self, seed: object):
         self.source = random.Random(f"{seed}")
 
@@ -79,7 +77,6 @@ class Draw:
         return self.source.choice([sin, cos, tan])(self.angle())
 
     def scalar(self, depth: int) -> Any:
-        """A scalar expression; numbers and letters at the bottom."""
         if depth <= 0:
             return self.one(self.letter, self.letter, self.letter, self.number, self.function)
         inner = lambda: self.scalar(depth - 1)  # noqa: E731
@@ -115,7 +112,6 @@ class Draw:
         return value if meaning(value) != 0 else self.letter()
 
     def node(self, depth: int) -> Any:
-        """A scalar with a node at its top that takes in what follows."""
         theta = LETTERS["theta"]
         inner = lambda: self.scalar(depth - 1)  # noqa: E731
         named = lambda: Symbol("U", real=True)  # noqa: E731

@@ -190,7 +190,6 @@ def read_printed(
     bound: set[Any] = frozenset(),  # type: ignore[assignment]
     positions: list[Any] | None = None,
 ) -> tuple[list[list[Any]], list[str]]:
-    """The sides of a printed chain, in each branch of its signs, and the marks between them."""
     text = RATE_OF_ALL.sub(r"\\frac{d}{dt}(\g<of>)", text)
     text = DERIVATIVE.sub(r"\\tfrac{\g<above>}{\g<below>}", text)
     units: list[str] = []

@@ -59,8 +59,6 @@ PART_OF_A_NAME = re.compile("[^\\W⁰¹²³⁴⁵⁶⁷⁸⁹]|['\u0307\u0308\u2
 
 
 class TextReader:
-    """Reads one line; `sign` is what ± stands for."""
-
     def __init__(
         self,
         text: str,
@@ -380,7 +378,6 @@ def _in_body(letter: Any) -> Any:
 
 
 def in_one_line(box: TextBox) -> str:
-    """Matrices of several lines as `⟦a;b\\nc;d⟧` in the line that goes on, tall brackets as brackets."""
     lines = [_columns(line) for line in box.lines]
     line = lines[box.middle]
     result, at = "", 0
@@ -402,14 +399,12 @@ def in_one_line(box: TextBox) -> str:
 
 
 def _columns(line: str) -> list[str]:
-    """What stands in each column: a character with the marks above it."""
     return re.findall("[^\u0300-\u036f\u20d0-\u20ff][\u0300-\u036f\u20d0-\u20ff]*", line)
 
 
 def read_text(
     box: TextBox, names: Mapping[str, Any], units: Iterable[str] = (), bound: Iterable[Any] = (), positions: Any = None
 ) -> tuple[list[list[Any]], list[str]]:
-    """The sides of a printed chain, in each branch of its signs, and the marks between them."""
     text = in_one_line(box)
     branches, marks = [], []
     for sign in (1, -1) if "±" in text else (1,):

@@ -31,14 +31,11 @@ NARROW = 24.0  # characters: what is longer is broken
 
 @dataclass
 class Count:
-    """How many lines were read back, by format, and what was found."""
-
     read: Counter[str] = field(default_factory=Counter)
     misprints: dict[str, str] = field(default_factory=dict)
 
 
 def read_back(expr: Any, layout: Any, notation: Notation) -> Iterator[tuple[str, str, list[list[Any]], list[str]]]:
-    """Format, the line as printed, and what a reader takes it for; raises `Misprint` where it cannot be read."""
     names = names_in(expr, notation)
     bound, positions = bound_in(expr), [letters_of(r.name, r.shape) for r in positions_in(expr)]
     printed_apart(names, latex)
@@ -60,7 +57,6 @@ def read_back(expr: Any, layout: Any, notation: Notation) -> Iterator[tuple[str,
 
 
 def meant(expr: Any) -> tuple[list[list[Any]], list[str]]:
-    """The sides of what was derived, in each branch of its sign."""
     value = meaning(expr)
     sides, marks = ([value[0], value[2]], [value[1]]) if isinstance(value, tuple) else ([value], [])
     has_sign = any(_has_sign(side) for side in sides)

@@ -52,14 +52,12 @@ def meaning(value: Any) -> Any:
 
 
 def letters_of(name: str, shape: tuple[Any, Any]) -> ImmutableDenseMatrix:
-    """The letters that a vector's or a tensor's name stands for."""
     rows, columns = (int(n) for n in shape)
     marks = [[f"{AXES[i]}{AXES[j]}" for j in range(columns)] if columns > 1 else [AXES[i]] for i in range(rows)]
     return ImmutableDenseMatrix([[_letter(f"{name} {mark}") for mark in line] for line in marks])
 
 
 def differentiated(value: Any, by: str) -> Any:
-    """The derivative of what is named: every letter in it has one of its own."""
     if isinstance(value, MatrixBase):
         return value.applyfunc(lambda entry: differentiated(entry, by))
     letters = sorted(value.free_symbols, key=str)
@@ -67,13 +65,11 @@ def differentiated(value: Any, by: str) -> Any:
 
 
 def taken_at(value: Any, letter: Any, place: Any) -> Any:
-    """The value where a letter has a value: a letter of its own for every letter in it."""
     where = f"{letter} = {cancel(place)}"  # a b/(2 (a + b)) is the same place as a b/(2 a + 2 b)
     return value.xreplace({s: _letter(f"{s} at {where}") for s in value.free_symbols})
 
 
 def over_the_mass(value: Any, position: ImmutableDenseMatrix) -> Any:
-    """The integral of a function of a position over a body: linear, and its position is nobody else's."""
     own = {component: _letter(f"own {component}") for component in position}
     return value.xreplace(own) * _letter("dm")
 

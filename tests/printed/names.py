@@ -23,7 +23,6 @@ class Misprint(Exception):
 
 
 def names_in(expr: Any, notation: Notation) -> dict[Name, Any]:
-    """Every name of a line by its layout."""
     found: dict[Name, Any] = {}
     for part in _parts(expr):
         if isinstance(part, Symbol) and part != PLUS_MINUS:
@@ -42,7 +41,6 @@ def names_in(expr: Any, notation: Notation) -> dict[Name, Any]:
 
 
 def printed_apart(names: Mapping[Name, Any], shown: Callable[[Layout], str]) -> dict[str, Any]:
-    """The names as one format prints them."""
     found: dict[str, Any] = {}
     for name, value in names.items():
         text = shown(name)
@@ -53,12 +51,10 @@ def printed_apart(names: Mapping[Name, Any], shown: Callable[[Layout], str]) -> 
 
 
 def bound_in(expr: Any) -> set[Any]:
-    """What is put in between limits."""
     return {part.args[1] for part in _parts(expr) if isinstance(part, ex.Bracket)}
 
 
 def positions_in(expr: Any) -> list[Any]:
-    """The positions that run over a body."""
     return [part.args[1] for part in _parts(expr) if isinstance(part, ex.MassIntegral)]
 
 

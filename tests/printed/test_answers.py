@@ -60,7 +60,6 @@ def test_a_browser_shows_what_is_framed_on_paper(name: str) -> None:
 
 @pytest.mark.parametrize("name", ANSWERS)
 def test_the_answers_of_the_json_stand_in_the_frames_of_paper_and_of_text(name: str) -> None:
-    """Of an answer with a number in units this is framed; its formula stands in a line above."""
     found = page(name)
     answers = json.loads(found.texts["json"])["answers"]
     on_paper = "".join(map(characters_of_tex, framed(found.latex)))
@@ -77,7 +76,6 @@ def test_the_answers_of_the_json_stand_in_the_frames_of_paper_and_of_text(name: 
 
 
 def significant(number: str) -> str:
-    """Its digits from the first that counts: 0.0065 may be written with a power of ten."""
     return number.replace(".", "").lstrip("0")
 
 

@@ -34,7 +34,6 @@ def page(known: tuple[Problem, Solved], level: Level) -> Document:
 
 
 def steps_of(problem_id: str) -> tuple[Problem, Solved]:
-    """Its steps; those that JSON cannot hold are derived each time."""
     rendered_once(ROOT, problem_id, only=())
     problem = load_problem(ROOT, problem_id)
     kept_steps = Solved.from_data(kept().get_data(steps_key(problem)))
@@ -45,7 +44,6 @@ def steps_of(problem_id: str) -> tuple[Problem, Solved]:
 
 
 def lines(document: Document) -> int:
-    """The lines of displays, and the theorems: a brief page has the line of a law in place of a theorem."""
     blocks = [block for part in document.parts for block in part.blocks]
     groups = [group for block in blocks if isinstance(block, Display) for group in block.groups]
     theorems = [node for block in blocks for node in getattr(block, "nodes", ()) if isinstance(node, ToldOnce)]
@@ -57,7 +55,6 @@ def shown(document: Document) -> tuple[object, ...]:
 
 
 def equated(document: Document) -> set[object]:
-    """The letters that a line or a sentence says the value of: what stands before a sign of equality."""
     displays = [block for part in document.parts for block in part.blocks if isinstance(block, Display)]
     groups = [group for display in displays for group in display.groups]
     lefts = [line.left for group in groups for line in group.lines if line.left is not None]
@@ -82,7 +79,6 @@ def equated(document: Document) -> set[object]:
 
 @pytest.mark.parametrize("problem_id", PROBLEMS)
 def test_every_letter_of_a_page_is_introduced_and_a_higher_level_has_no_fewer_lines(problem_id: str) -> None:
-    """By the left sides and clauses of the page itself, apart from how the selection goes about it."""
     known = steps_of(problem_id)
     problem, solved = known
     moving = {q for step in solved.derivation.steps for q, _ in step.coordinates}

@@ -37,7 +37,6 @@ NUMBERS = {"mass": 1, "energy": 2}
 
 
 def page(*blocks: Any, **changed: Any) -> Document:
-    """A page with one part, of these blocks."""
     part = PartPage("a", (Text("Find "), Math(T), Text(" as in "), Ref("energy")), Fraction(5, 2), blocks)
     known: dict[str, Any] = {
         "strategy": (),

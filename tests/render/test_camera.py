@@ -48,7 +48,6 @@ def test_the_usual_stance_is_a_rotation() -> None:
 
 
 def test_a_view_is_chosen_in_which_the_angle_is_open() -> None:
-    """Two vectors that look like one from the usual stance are seen from another."""
     usual = stance_from(25, 18)
     one = column(*(Rational(x) for x in usual.right))
     other = column(*(Rational(x + y) for x, y in zip(usual.right, usual.eye, strict=True)))

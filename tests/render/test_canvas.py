@@ -47,7 +47,6 @@ def test_what_a_drawing_says_is_set_in_letters_once() -> None:
 
 @pytest.fixture
 def shapes(monkeypatch: pytest.MonkeyPatch) -> list[Shape]:
-    """What is on the sheets."""
     found: list[Shape] = []
 
     def noted(on_it: list[Shape], *size: object) -> Sheet:

@@ -49,7 +49,6 @@ def test_equations_and_figures_have_labels_and_the_numbers_of_the_document() -> 
 
 @pytest.mark.parametrize("name", ["block", "cone", "euler", "slab", "top"])
 def test_a_plain_article_with_these_packages_typesets_it(tmp_path: Path, name: str) -> None:
-    """The small TeX of the wheel has the fonts of lmodern alone; another needs none of it."""
     found = rendered_once(ROOT, f"hw9/{name}", draws=True, only={"fragment"})
     text = found.texts["fragment"]
     packages = [r"\usepackage{lmodern}", *needed(text)]

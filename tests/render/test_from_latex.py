@@ -92,7 +92,6 @@ def test_all_that_the_homework_says_of_its_source_is_told_without_commands() -> 
 
 
 def _texts(node: Tree) -> list[str]:
-    """Every quotation, remark and reason."""
     if isinstance(node, Sequence):
         return [text for item in node.items for text in _texts(item)]
     if not isinstance(node, Mapping):

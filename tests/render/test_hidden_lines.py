@@ -27,7 +27,6 @@ def pens(pieces: list[Piece]) -> list[str]:
 
 
 def test_the_three_edges_that_meet_behind_a_tetrahedron_are_hidden() -> None:
-    """One looks at the face between the ends of the axes, and the origin is behind it."""
     pieces = PAPER.polyhedron(TETRAHEDRON, FACES, ())
     hidden = [piece for piece in pieces if isinstance(piece, Stroke) and piece.pen == "hidden"]
     assert pens(pieces) == ["edge"] * 3 + ["hidden"] * 3

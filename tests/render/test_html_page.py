@@ -23,8 +23,6 @@ VOID = {"meta", "br", "hr", "img", "link", "mspace", "path", "input", "wbr"}
 
 
 class Tags(HTMLParser):
-    """The tags of a page that are open, and what it has of each."""
-
     def __init__(self) -> None:
         super().__init__()
         self.open: list[str] = []

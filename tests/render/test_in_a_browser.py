@@ -27,7 +27,6 @@ PHONE = 360
 
 @pytest.fixture(scope="module")
 def pages(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
-    """The pages of the pinned problems and of their set, as addresses of files."""
     folder = tmp_path_factory.mktemp("pages")
     solved = []
     for name in PROBLEMS:
@@ -44,7 +43,6 @@ def pages(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
 
 
 def documents_of(name: str) -> tuple[str, ...]:
-    """The documents of two problems, and of one alone where every line is on it."""
     return ON_A_PAGE if name == "block" else (SHEET, RUBRIC) if name == "top" else ()
 
 

@@ -28,7 +28,6 @@ def fragments(document: Document) -> Fragments:
 
 
 def chain(tex: str) -> list[str]:
-    """The rows of the first display, and what stands between them."""
     return re.split(r"\\chain(?:goeson)?\{\n", tex)[1].partition("\n}\n")[0].splitlines()
 
 
@@ -105,7 +104,6 @@ def test_a_page_may_end_in_the_middle_of_a_long_step_but_not_before_its_last_row
 
 
 def test_a_left_side_that_takes_two_rows_is_not_aligned_at_a_relation() -> None:
-    """The law above it then begins where the long sum does; an equation of one row is aligned as ever."""
     long = sum((a**i * T for i in range(1, 40)), T)
     line = ChainLine(long, "equals", Integer(0))
     rows = chain(solution(page(replace(display("mass"), groups=(Equations("mass", (line,), 1),)))))

@@ -26,7 +26,6 @@ def test_the_box_of_a_text_is_what_its_curves_fill(text: str) -> None:
 
 
 def test_a_curve_ends_where_the_font_has_its_end() -> None:
-    """Each curve of the second degree became one of the third, and passes the same middle."""
     (contour, _), *_ = letters_of(["$o$"]).values()
     path = TextPath((0, 0), "$o$", size=LETTERS, prop=FontProperties(math_fontfamily="cm"))
     curves = [(before[-1], *spots) for (_, before), (letter, spots) in pairwise(contour) if letter == "C"]

@@ -19,7 +19,6 @@ Known = dict[str, Quantity]
 
 
 def known_of(name: str, folder: Path) -> Known:
-    """Every quantity of a pinned problem, by key."""
     problem = load_problem(course_in(folder, problem=name), f"hw9/{name}")
     return with_ancestors(returned_quantities(run_solve(problem)))
 
@@ -40,12 +39,10 @@ def slab(tmp_path_factory: pytest.TempPathFactory) -> Known:
 
 
 def clashes(folder: Path, name: str, known: Known, edits: dict[str, str]) -> list[Complaint]:
-    """What is said of a problem whose letters were changed; the names that its steps bring in are the same."""
     return letter_clashes(load_problem(course_in(folder, edits, problem=name), f"hw9/{name}"), known)
 
 
 def called(letter: str) -> dict[str, str]:
-    """Edits of the block that call its mass by another letter."""
     return {"M: mass": f"{letter}: mass", "mass: M": f"mass: {letter}"}
 
 
@@ -130,7 +127,6 @@ def test_what_is_compared_is_what_is_printed() -> None:
 
 
 def test_a_coordinate_is_no_variable_of_integration(tmp_path: Path) -> None:
-    """A body that is described before the coordinates are named may take one of their letters."""
     named = "    phi, theta, psi = euler_angles()\n"
     late = {named: "", "    axes = space": f"{named}    axes = space"}
     problem = load_problem(course_in(tmp_path, problem="top", script=late), "hw9/top")

@@ -119,7 +119,6 @@ def test_equations_of_one_left_side_go_on_along_the_line() -> None:
 
 
 def test_of_an_inequality_the_frame_holds_its_left_side_and_its_sign() -> None:
-    """A number after a formula has the left side and the sign of the formula again."""
     S, c = Symbol("S"), LETTERS[2]
     for relation, sign in (("greater", "greater"), ("at_most", "at_most"), ("equals", "approx")):
         formula = ChainLine(S, relation, LONG)

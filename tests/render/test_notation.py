@@ -243,7 +243,6 @@ def test_a_command_in_a_text_is_not_a_command() -> None:
 
 
 def value_on_paper(layout: Any, values: dict[Any, float]) -> float:
-    """What a reader computes from the layout: products by standing side by side, signs, fractions, powers."""
     match layout:
         case on_paper.Digits(digits):
             return float(digits)
@@ -392,5 +391,4 @@ def test_every_letter_of_a_formula_is_printed(expr: Expr) -> None:
 
 
 def test_a_product_of_numbers_alone_is_a_fraction() -> None:
-    """As it stands before a matrix, where nothing else is left of the common factor."""
     assert plain(NOTATION.layout(Mul(Rational(1, 2), Rational(1, 3), evaluate=False))) == "1/6"

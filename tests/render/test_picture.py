@@ -45,7 +45,6 @@ def test_the_lines_fill_the_room_and_do_not_leave_it(found: Drawing, room: tuple
 
 
 def test_a_body_in_front_is_drawn_after_the_one_behind() -> None:
-    """Towards the eye is along x here, whatever the order in the script."""
     near, far = (Revolved(((0, R), (1, R)), column(x, 0, 0), column(0, 0, 1)) for x in (5, -5))
     for order in ((near, far), (far, near)):
         patches = [piece for piece in pieces_of(drawing("one", *order)) if isinstance(piece, Patch)]

@@ -32,7 +32,6 @@ POINT |= {f"{name}_{axis}": Rational(n, 11) for name in ("omega", "n") for n, ax
 
 
 def meanings(quantity: Quantity) -> dict[Any, Any]:
-    """What the names in a step's lines stand for, read from the strings of the steps it rests on."""
     found: dict[Any, Any] = {}
     for parent in quantity.parents:
         value = sympy_reads(sympy_text(parent.value))
@@ -44,7 +43,6 @@ def meanings(quantity: Quantity) -> dict[Any, Any]:
 
 
 def number(text: str, names: dict[Any, Any]) -> list[Any]:
-    """The entries of a line at a point, all by SymPy."""
     value = sympy_reads(text)
     matrices = {name: meaning for name, meaning in names.items() if isinstance(name, MatrixSymbol)}
     value = value.subs(matrices).subs({name: m for name, m in names.items() if name not in matrices}).doit()

@@ -48,7 +48,6 @@ def plot_of(expr: Expr, lower: Expr = -pi / 2, upper: Expr = pi / 2, of: str = "
 
 
 def curves(plot: Plot, *cases: int, panels: str | None = "apart") -> Curves:
-    """One curve, or one for each number of `a`."""
     problem: Any = SimpleNamespace(amounts={}, measured=(), place_of=lambda _: None)
     numbers = tuple((Measured(a, Integer(n), "m", Integer(n)),) for n in cases)
     placement = Placement("potential", Place("one.yaml", 9), cases=numbers, panels=panels)
@@ -133,7 +132,6 @@ def test_the_numbers_of_a_case_stand_over_its_panel() -> None:
 
 @pytest.fixture
 def drawn(monkeypatch: pytest.MonkeyPatch) -> list[Shape]:
-    """What is on the sheets."""
     found: list[Shape] = []
 
     def noted(shapes: list[Shape], extent: Extent, alt: str) -> Sheet:
@@ -450,7 +448,6 @@ def test_the_surfaces_of_a_path_are_in_its_panel() -> None:
 
 
 def force_of(expr: Expr, *others: Expr, upper: Expr = pi) -> Curves:
-    """A force, and possibly other forces, for angles up to `upper`."""
     further = tuple(Further(Symbol(f"F_{i}"), each, f"force_{i}") for i, each in enumerate(others))
     plot = Plot("force", V, expr, theta, Integer(0), upper, "force", "angle", unit="N", others=further)
     problem: Any = SimpleNamespace(amounts={}, measured=(), place_of=lambda _: None)

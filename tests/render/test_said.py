@@ -17,8 +17,6 @@ from tests.courses import course_in, rendered_once
 
 
 class Page:
-    """Of a document what its words need."""
-
     numbers = {"spin": Number(7), "torque": Number(12)}  # noqa: RUF012
 
 

@@ -205,7 +205,6 @@ def test_trigonometry_in_a_line_is_decided_exactly() -> None:
 
 
 def test_a_name_that_stands_for_itself_is_let_be() -> None:
-    """A general omega has components omega_x, omega_y, omega_z, which are just names."""
     open_components = column(*symbols("w_x w_y w_z", real=True))
     w = establish(made_up("test.w"), vector("w"), lambda: open_components, {})
     size = establish(

@@ -106,7 +106,6 @@ def test_every_line_of_the_block_is_homogeneous(variant: dict[str, Any]) -> None
 
 
 def test_wrong_dimensions_of_what_is_given_are_found_at_the_step() -> None:
-    """A rate that is declared a time."""
     _, complaints = dimension_table({**DECLARED, omega: TIME}, steps_of(*known_block().values()))
     assert "`spin`: its dimension is T, but an angular speed must have T^-1" in [c.message for c in complaints]
 
@@ -116,7 +115,6 @@ SLAB = {slab.R: LENGTH, slab.a: LENGTH, slab.M: MASS, slab.I: MASS * LENGTH**2, 
 
 @pytest.mark.parametrize("variant", [{}, {"radius": slab.a / 4}, {"radius": slab.a / 2}])
 def test_every_line_about_a_motion_is_homogeneous(variant: dict[str, Any]) -> None:
-    """Rates, derivatives by a coordinate, multipliers, conditions and the broken-off series among them."""
     found = slab.known_slab(**variant)
     table, complaints = dimension_table(SLAB, steps_of(*found.values()))
     assert complaints == []

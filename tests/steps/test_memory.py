@@ -42,8 +42,6 @@ class Texts(dict[str, str]):
             yield run
 
     def called(self, verb: Callable[..., Any], *given: Any) -> Any:
-        """What a verb of these tests gives, by the memory of the run."""
-
         def make() -> Any:
             self.made.append(verb.__name__)
             return verb(*given)

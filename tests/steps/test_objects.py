@@ -22,7 +22,6 @@ theta = Symbol("theta", real=True)
 
 
 def again(value: Any, known: Objects | None = None) -> Any:
-    """The value as other objects read it from text."""
     here, there = Objects(), known or Objects()
     data, names = here.described(value)
     for name, text in json.loads(json.dumps(here.texts(here.below(names)))):

@@ -76,7 +76,6 @@ def solved(folder: Path, text: str, calls: Calls | None = None) -> dict[str, Qua
 
 
 def complaints(folder: Path, text: str, calls: Calls | None = None) -> list[Any]:
-    """What is wrong with it, however far one comes."""
     with pytest.raises(DeriveError) as refused:
         solved(folder, text, calls)
     return list(refused.value.complaints)

@@ -106,7 +106,6 @@ def test_principal_axes_of_a_cube_about_its_corner(tmp_path: Path) -> None:
 
 
 def test_a_wire_whose_density_grows(tmp_path: Path) -> None:
-    """Density proportional to x along a rod: its centre of mass at two thirds."""
     grows = "{position: [x, 0, 0], limits: {x: [0, h]}, mass: M, density: x}"
     text = edited(CONE, (CONE_IS, grows), ("  about: apex\n", ""), ("answer: inertia_tensor", "answer: centre_of_mass"))
     assert equal(solved(tmp_path, text)["centre_of_mass"].value, ImmutableDenseMatrix([2 * h / 3, 0, 0]))

@@ -19,13 +19,11 @@ TEXT = (ROOT / "docs" / "yaml-alone.md").read_text(encoding="utf-8")
 
 
 def section(name: str) -> set[str]:
-    """The words in code of one section."""
     found = TEXT.split(f"\n## `{name}`")[1].split("\n## ")[0]
     return set(re.findall(r"`([a-z_]+)`", found))
 
 
 def without_axes(name: str) -> str:
-    """One axis stands for the others, and one pair of axes too."""
     return re.sub(r"_(xx|xy|xz|yy|yz|zz)$", "_xy", re.sub(r"_[xyz]$", "_z", name))
 
 

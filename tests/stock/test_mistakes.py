@@ -192,7 +192,6 @@ MISTAKES = [
 
 
 def told(folder: Path, text: str) -> list[tuple[int, str]]:
-    """The line of each complaint or warning, with what it says."""
     try:
         found = rendered(course_with(folder, text), "trial/one", only=("text",)).warnings
     except DeriveError as error:

@@ -86,7 +86,6 @@ lagrangian: sqrt(r_dot**2/sin(alpha)**2 + r**2*phi_dot**2)
 
 @pytest.mark.long
 def test_a_disc_that_rolls_on_waves_has_equations_of_motion(tmp_path: Path) -> None:
-    """On a flat road what moves the centre by F turns the disc by R F."""
     given = """\
 coordinates: {x: length, phi: angle}
 bodies:

@@ -98,7 +98,6 @@ def test_displacements_from_the_natural_length_keep_one_side_and_the_page_says_s
 
 
 def test_springs_that_balance_keep_one_side_though_they_are_stretched(tmp_path: Path) -> None:
-    """Walls at 0 and 2 d, natural length l: 2 k x about the middle."""
     balanced = edited(
         WALL,
         ("at: [x, 0]}", "at: [d + x, 0]}"),

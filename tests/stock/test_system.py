@@ -163,7 +163,6 @@ BEATING = """\
 
 
 def test_a_place_of_a_cyclic_coordinate_asks_for_all_equations(tmp_path: Path) -> None:
-    """Of a pendulum on a free cart also the mode of no frequency."""
     cart = (
         ("theta: angle", "x: length, theta: angle"),
         ("[l*sin(theta),", "[x + l*sin(theta),"),

@@ -27,8 +27,6 @@ esac
 
 
 class Checkout:
-    """A tree with what the bootstrap reads."""
-
     def __init__(self, root: Path):
         self.root = root
         (root / "tools").mkdir()

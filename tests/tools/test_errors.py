@@ -36,7 +36,6 @@ def test_every_golden_complaint_is_an_example_of_a_code_that_is_raised() -> None
 
 @pytest.mark.parametrize("path", MODULES, ids=lambda path: str(path.relative_to(ROOT)))
 def test_a_code_beside_its_message_is_told_of_whatever_function_takes_it(path: Path) -> None:
-    """Beside what `tools/errors.py` looks for: a word with hyphens, and next to it words with spaces."""
     for call in (n for n in ast.walk(ast.parse(path.read_text(encoding="utf-8"))) if isinstance(n, ast.Call)):
         for code, message in zip(call.args, call.args[1:], strict=False):
             if isinstance(code, ast.Constant) and re.fullmatch(r"[a-z]+(-[a-z]+)+", str(code.value)):

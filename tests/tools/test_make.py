@@ -29,8 +29,6 @@ touch build/$5/.built
 
 
 class Tree:
-    """The Makefile in a tree of its own, with two sets."""
-
     def __init__(self, root: Path):
         self.root = root
         shutil.copy(HERE / "Makefile", root)
@@ -57,7 +55,6 @@ class Tree:
         return path
 
     def age(self) -> None:
-        """Everything there is becomes a minute older, so that what is written next is newer."""
         for path in [*self.root.rglob("*"), self.root]:
             os.utime(path, (time.time() - 60, path.stat().st_mtime - 60), follow_symlinks=False)
 
@@ -239,7 +236,6 @@ def test_a_set_with_the_name_of_a_target_is_left_out_with_a_warning(tree: Tree, 
 
 
 def python_that_is(tree: Tree, name: str, version: str, new_enough: bool) -> None:
-    """A stand-in on PATH that says its version, and notes what else it is started for."""
     cases = f'--version*) echo {version} ;; "-I -c"*) exit {int(not new_enough)} ;; *) echo "{name} $*" ;;'
     tree.write(f"bin/{name}", f'#!/bin/sh\ncase "$*" in {cases} esac\n').chmod(0o755)
 

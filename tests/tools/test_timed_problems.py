@@ -26,7 +26,6 @@ WRITTEN = sorted(file.stem for file in FOLDER.glob("*.yaml") if file.stem != "se
 
 @pytest.fixture(scope="module")
 def course(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The course that is timed, and with it a chain and a body that are derived at once."""
     root = tmp_path_factory.mktemp("timed")
     timed_problems(root)
     (root / "problems" / "timed" / "chain.yaml").write_text(chain_of_rods(2))

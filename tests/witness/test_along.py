@@ -56,7 +56,6 @@ def on_a_string() -> Quantity:
 
 
 def judged(judge, quantity: Quantity, value=None, of=PENDULUM):  # type: ignore[no-untyped-def]
-    """What a judge says of a step, or of the same step with another value."""
     if value is not None:
         step = replace(quantity.step, chain=(Form(value, "result"),))
         quantity = replace(quantity, value=value, step=step)

@@ -77,7 +77,6 @@ def test_a_motion_that_meets_a_singularity_is_not_seen() -> None:
 
 
 def tension(start_rate: Expr) -> Quantity:
-    """The tension of a string by conservation of energy, for a start at the lowest point."""
     L = lagrangian(System(Particle(m, point(r * sin(q), -r * cos(q))), weight(g), constraint(l - r, force="S")))
     motions = equations_of_motion(L)
     held = {r: l, rate(r): Integer(0)}

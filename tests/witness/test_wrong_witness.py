@@ -45,7 +45,6 @@ def _run() -> Iterator[None]:
 
 
 def systems() -> Iterator[System]:
-    """In which every kind of force, of motion and of constraint takes part."""
     x, y, theta = coordinate("x"), coordinate("y"), coordinate("theta", "angle")
     here = point(x.symbol, y.symbol)
     acting = (weight(g), spring(k, point(0, 0), here, l), damping(b, here), charge(q, here, B=B), force((F, 0), here))
@@ -59,7 +58,6 @@ def systems() -> Iterator[System]:
 
 
 def pages() -> None:
-    """Right equations of motion of all of them."""
     for number in range(5):
         with recorded():
             system = list(systems())[number]

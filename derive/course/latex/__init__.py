@@ -1,7 +1,7 @@
 """Reads LaTeX formulas as SymPy expressions with dimensions. Each error has its exact place in the text.
 
     vocabulary  the LaTeX commands that are read; every other command is rejected
-    strict      the tokens of a formula, or the first thing in it that is not recognized
+    strict      the tokens of a formula, or the first error in it
     reading     `read_latex`, the entry point: the sides of a chain, and left sides that only name the answer
     values      the values of the nodes that the parser of documents finds in a side
     grids       sums and products of scalars, vectors and matrices

@@ -47,8 +47,7 @@ def each(value: TermOrGrid, change: Callable[[Term], Term]) -> TermOrGrid:
 
 
 def spanning(value: TermOrGrid, start: int, end: int) -> TermOrGrid:
-    """Return the value with the start and end, in the text, of the brackets or command around it; its entries are
-    unchanged."""
+    """Return the value with the place of the brackets or the command around it."""
     return replace(value, start=start, end=end)
 
 
@@ -56,8 +55,7 @@ class Grids(Arithmetic, ABC):
     """The operations of `Arithmetic`, extended to columns and matrices.
 
     Zero fits every dimension, because a document writes `0` in any matrix. Dimensions are compared only if
-    `homogeneous` is true. It is false if numbers replace letters, if the document is known to be wrong, and after a
-    letter that is not declared.
+    `homogeneous` is true.
     """
 
     max_terms = 20_000
@@ -98,7 +96,7 @@ class Grids(Arithmetic, ABC):
         return spanning(each(value, lambda term: self.negated(term, term.start)), start, value.end)
 
     def product_of(self, left: TermOrGrid, right: TermOrGrid, sign: str) -> TermOrGrid:
-        """Multiply two adjacent values, with or without a dot or a cross between them."""
+        """Multiply two values, with or without a dot or a cross between them."""
         if sign and all(isinstance(each, Grid) and each.is_vector or self.has_vector(each) for each in (left, right)):
             if isinstance(left, Term) or isinstance(right, Term):
                 components = "write their components, `\\{a_1, a_2, a_3\\}`"

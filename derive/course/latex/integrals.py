@@ -20,8 +20,7 @@ MAX_WAVES = 24
 
 @dataclass
 class Sign:
-    r"""An integral sign in a product: its limits, its place in the text, and, after its differential is read, its
-    variable.
+    r"""An integral sign in a product, with its limits; its variable is known after its differential is read.
 
     The sign applies to all later factors of its product: in `\int_0^h z dz \int_0^z dx` the second integral is inside
     the first.
@@ -36,7 +35,6 @@ class Sign:
 
 
 def differential_of(reader: Grids, signs: list[Sign], variable: Term) -> None:
-    """Pair a differential with the innermost sign that still lacks a differential."""
     sign = next(sign for sign in reversed(signs) if sign.variable is None)
     if any(other.variable and other.variable.expr == variable.expr for other in signs):
         message = f"`{reader.shown(variable)}` is already the variable of another integral here"
@@ -53,8 +51,7 @@ def _has(value: TermOrGrid, letter: Expr) -> bool:
 
 
 def integrated(reader: Grids, inside: TermOrGrid, signs: list[Sign], outside: list[TermOrGrid]) -> TermOrGrid:
-    """Return a product with its integrals, which are formed but not evaluated. The last of `signs` belongs to the
-    innermost integral."""
+    """Return a product with its integrals, which are formed but not evaluated. The last of `signs` is the innermost."""
     for position in range(len(signs) - 1, -1, -1):
         sign = signs[position]
         if sign.variable is None:
@@ -76,7 +73,6 @@ def integrated(reader: Grids, inside: TermOrGrid, signs: list[Sign], outside: li
 
 
 def _one(reader: Grids, inside: TermOrGrid, sign: Sign, variable: Term) -> TermOrGrid:
-    """Return the integral of the value between the limits of the sign; a new letter replaces the variable."""
     check_limits(reader, variable, sign.lower, sign.upper)
 
     def integral(term: Term) -> Term:
@@ -111,8 +107,8 @@ def check_limits(reader: Grids, variable: Term, *limits: Term) -> None:
 def _is_elementary(function: Expr, limits: Limits) -> bool:
     """Return whether the integral can be evaluated by `definite`, or by SymPy with elementary rules.
 
-    If the integrand or a limit contains a root, the integral always counts as elementary. If `definite` cannot evaluate
-    such an integral, the integral is undefined, and its comparison with any value fails.
+    An integral with a root always counts as elementary; if it cannot be evaluated, it is undefined, and its comparison
+    fails.
     """
     variables = {x for x, *_ in limits}
     ends = [end for _, *both in limits for end in both]
@@ -126,9 +122,7 @@ def _is_elementary(function: Expr, limits: Limits) -> bool:
 
 
 def _is_short(product: Expr, x: Symbol) -> bool:
-    """Return whether SymPy integrates the product quickly: a power of x, or up to 24 sines and cosines of one argument.
-    A product of powers and sines, or of sines of different arguments, must contain at most two sines or cosines and no
-    power above x^3."""
+    """Return whether SymPy integrates the product of powers of x and of sines and cosines quickly."""
     power, waves, arguments = 0, 0, set()
     for factor in Mul.make_args(product):
         base, exponent = factor.as_base_exp() if isinstance(factor, Pow) else (factor, Integer(1))
@@ -147,8 +141,7 @@ def _is_short(product: Expr, x: Symbol) -> bool:
 
 
 def bracket_of(reader: Grids, inner: TermOrGrid, lower: Term, upper: Term, variable: Term | None, end: int) -> Term:
-    """Return an antiderivative between limits. If `variable` is None, the variable is the only letter of the
-    antiderivative for which the limits can be substituted."""
+    """Return an antiderivative between limits. If `variable` is None, the variable must be clear from the limits."""
     term = reader.scalar_in(inner, "an antiderivative")
     limits = (lower.expr, upper.expr)
     x = variable.expr if variable else _only_letter(reader, term, lower, upper)
@@ -170,8 +163,7 @@ def grown(term: Term, x: Expr, lower: Term, upper: Term) -> tuple[int, int]:
 
 
 def _degree(expr: Expr, x: Expr, most: int) -> int:
-    """Return the highest power of x after multiplying out; if this power cannot be computed, return the bound
-    `most`."""
+    """Return the highest power of x after multiplying out, or the bound `most`."""
     if not expr.has(x):
         return 0
     if expr.is_Add:
@@ -189,8 +181,7 @@ def _degree(expr: Expr, x: Expr, most: int) -> int:
 
 
 def _only_letter(reader: Grids, term: Term, lower: Term, upper: Term) -> Symbol:
-    """Return the only letter of the antiderivative that the limits do not contain. If dimensions are compared, letters
-    whose dimension differs from the dimension of the limits do not count."""
+    """Return the only letter of the antiderivative that the limits may replace."""
     outside = lower.expr.free_symbols | upper.expr.free_symbols
     limit = upper if upper.expr != 0 else lower
     free = (s for s in term.expr.free_symbols - outside if s in reader.dimensions)

@@ -1,9 +1,8 @@
 """Quotations of a document in its own letters: prose with formulas between dollar signs.
 
-A quotation is data and never reaches TeX unchanged. Each formula of a quotation is split into commands and signs. The
-formula is written again from these pieces if each piece is known and all pieces are correctly nested. Anything unknown
-is rejected at its place in the text. A quotation may contain commands that the grammar does not read, because
-the quoted formula may be garbled.
+A quotation is data and never reaches TeX unchanged: each formula is split into commands and signs and written again
+from these pieces. Anything unknown is rejected at its place. A quotation may contain commands that the grammar does not
+read, because the quoted formula may be garbled.
 """
 
 from __future__ import annotations
@@ -33,7 +32,7 @@ class Quoted:
 
 
 class Unquotable(ValueError):
-    """The reason why something cannot be quoted; `at` is its position in the text."""
+    """A text cannot be quoted; `at` is the position of the reason."""
 
     def __init__(self, why: str, at: int):
         super().__init__(why)
@@ -55,8 +54,7 @@ def quoted(text: str) -> tuple[Quoted, ...]:
 
 
 def quoted_formula(text: str, offset: int = 0) -> str:
-    """Return the TeX of a formula, rewritten with known signs and commands. A formula with rows is put into
-    `aligned`."""
+    """Return the TeX of a formula, rewritten with known signs and commands."""
     pieces, rows = "".join(_pieces(text, offset)).strip(), False
     depth = 0
     for word in re.findall(r"\\begin|\\end|\\\\|\\&|&", pieces):

@@ -35,8 +35,7 @@ Entries: TypeAlias = tuple[tuple[Expr, Dimension], ...]
 
 @dataclass(frozen=True)
 class Side:
-    """One side of a chain: its entries row by row, separately for each branch; shape () is a scalar, (3, 1) a
-    vector."""
+    """One side of a chain: its entries row by row for each branch; shape () is a scalar, (3, 1) a vector."""
 
     branches: tuple[Entries, ...]
     shape: tuple[int, ...]
@@ -46,8 +45,7 @@ class Side:
 
 @dataclass(frozen=True)
 class ReadMath:
-    """The sides of a chain, and the relation sign before each side. The first sign is "" unless the formula begins with
-    a relation sign."""
+    """The sides of a chain, and the relation sign before each side."""
 
     sides: tuple[Side, ...]
     marks: tuple[str, ...]
@@ -93,7 +91,6 @@ def _read(scalar: Scalar, declared: tuple[tuple[str, Declared], ...], homogeneou
 
 
 def node_of(reader: Values, tokens: list[Token]) -> Node:
-    """Return the node of one side."""
     try:
         return parsed(tokens)
     except Unreadable as error:
@@ -103,7 +100,7 @@ def node_of(reader: Values, tokens: list[Token]) -> Node:
 def is_title(node: Node) -> bool:
     r"""Return whether a first side only names the next side: `U(\theta) =`, `U'' =`, `\frac{1}{2} \frac{d}{dt} L^2 =`.
 
-    Such a name has no value to compare; the `answer` of the entry says which step it names.
+    Such a name has no value to compare.
     """
     if isinstance(node, Mul):
         *numbers, (_, node) = node.factors

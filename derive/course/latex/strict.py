@@ -1,7 +1,7 @@
 r"""The tokens of a formula that an author wrote, or the reason why the formula is rejected before it is parsed.
 
-The parser of documents reads whatever others wrote. An author can correct a formula, so unknown commands, brackets that
-do not match and characters that are not part of a formula are errors here, each at its place.
+An author can correct a formula, so unknown commands, brackets that do not match and odd characters are errors here,
+each at its place.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ _ENVIRONMENT = re.compile(r"\\(?P<which>begin|end)\s*(?:\{(?P<name>[^{}]*)\})?")
 
 
 def checked_tokens(reader: Arithmetic) -> list[Token]:
-    """Return every token of the reader's text, or reject the first thing that is not recognized."""
+    """Return the tokens of the reader's text, or reject it at its first error."""
     text = reader.text
     if not text.strip():
         reader.refuse("latex", "a formula is missing", 0)
@@ -91,7 +91,7 @@ class _Check:
             self.refuse(f"this `{shown}` is never closed", token, end)
 
     def one(self, at: int) -> int:
-        """Check one token, and return the position of the next one to check."""
+        """Check one token, and return the position of the next one."""
         token = self.tokens[at]
         if token.kind is Kind.MARK:
             self.mark(token)

@@ -1,8 +1,7 @@
 r"""The value of a formula: its nodes as terms with dimensions, in the letters that are declared.
 
 A formula with two possible readings is rejected: `a/2b`, `\sin x^2`, `2\frac12`, `U(\theta)`, and `\sin a b` if both
-letters are dimensionless. The help of the error shows how to write the formula clearly. Without brackets, an argument
-is the shortest run of factors that is an angle or a number and contains a letter, `\pi` or degrees.
+letters are dimensionless. The help of the error shows how to write the formula clearly.
 """
 
 from __future__ import annotations
@@ -63,7 +62,7 @@ COMPONENTS = (("x", "y", "z"), ("1", "2", "3"))
 
 
 class Letters:
-    """The declared names. A name is found by its letter and its subscript; `_` and `,` in the subscript are ignored."""
+    """The declared names. A name is found by its letter and its subscript."""
 
     def __init__(self, declared: Mapping[str, Declared]):
         self.declared = declared
@@ -101,8 +100,7 @@ class _Unit:
 
 
 class _Parts:
-    """The factors of a product: factors without a sign between them are multiplied first, then dot and cross products
-    are taken from left to right."""
+    """The factors of a product; dot and cross products are taken last."""
 
     def __init__(self, reader: Grids):
         self.reader = reader
@@ -247,7 +245,7 @@ class Values(Grids):
     def unit_of(self, node: Node, after_number: bool) -> _Unit | None:
         r"""Return the unit that a node is, `\mathrm{m/s^2}` or `\text{ kg}`; None if the node is not a unit.
 
-        Units are read only in prose. An upright word that is also a declared letter is a unit only after a number.
+        Units are read only in prose.
         """
         inner, power = (node.base, self.written(node.exponent)) if isinstance(node, Pow) else (node, "")
         if not self.in_prose or not isinstance(inner, Letter | Text | Open):
@@ -300,8 +298,7 @@ class Values(Grids):
         return parts.product()
 
     def check_side_by_side(self, before: Node, mark: str, factor: Node) -> None:
-        """Reject two adjacent numbers, which may be one number, a mixed number or an error, `a2`, which may have lost
-        its subscript mark, and factors after a `/`."""
+        """Reject adjacent factors that are unclear, such as two numbers, or a factor after a `/`."""
         span = before.span.to(factor.span)
         if _is_slashed(before, self.text):
             self.unclear_slash(before)
@@ -348,7 +345,6 @@ class Values(Grids):
         return spanning(self.quotient_of(self.of(node.top), below), node.span.start, node.span.end)
 
     def braces(self, node: Node) -> tuple[int, int]:
-        """Return where the braces around an argument begin and end."""
         start, end = node.span.start, node.span.end
         before, after = self.text[:start].rstrip(), self.text[end:].lstrip()
         if before.endswith("{") and after.startswith("}"):
@@ -375,7 +371,7 @@ class Values(Grids):
         return self.power_of(self.of(base), place)
 
     def is_euler(self, node: Letter) -> bool:
-        """Return whether the base of a power is the number e and not a letter."""
+        """Return whether the base of a power is the number e."""
         return self.written(node) == "e" and self.declared(node) is None
 
     def of_root(self, node: Root) -> TermOrGrid:
@@ -463,7 +459,7 @@ class Values(Grids):
         self.refuse("ambiguous", message, argument.span.start, end, help_line)
 
     def open_argument(self, node: Open) -> TermOrGrid:
-        r"""Read a function whose argument has no brackets: the shortest run that is an angle or a number."""
+        r"""Read a function whose argument has no brackets: the shortest run of factors that is an angle or a number."""
         shortest_first = list(reversed(node.alternatives))
         for number, alternative in enumerate(shortest_first):
             fun, rest = _function_first(alternative)
@@ -583,7 +579,7 @@ class Values(Grids):
         return integrals.bracket_of(self, inner, lower, upper, named, end)
 
     def limits(self, lower: Node | None, upper: Node | None, node: Node) -> tuple[Term, Term, Term | None]:
-        """Return the lower limit, the upper limit, and the variable if the lower limit names it: `_{z=0}^{z=h}`."""
+        """Return the two limits, and the variable if the lower limit names it: `_{z=0}^{z=h}`."""
         if lower is None or upper is None:
             missing = "_" if lower is None else "^"
             self.at(node, "integral", f"the limit after `{missing}` is missing")
@@ -652,7 +648,7 @@ class Values(Grids):
 
 
 def _with_power_at_the_end(node: Node, exponent: Node) -> Node:
-    """Return `{ab}^2` as `ab^2`: braces that only group are not printed."""
+    """Return `{ab}^2` as `ab^2`, because braces that only group are not printed."""
     if isinstance(node, Mul):
         mark, last = node.factors[-1]
         return replace(node, factors=(*node.factors[:-1], (mark, _with_power_at_the_end(last, exponent))))
@@ -663,7 +659,6 @@ def _with_power_at_the_end(node: Node, exponent: Node) -> Node:
 
 
 def _is_slashed(node: Node, text: str) -> bool:
-    """Return whether a fraction is written with `/`."""
     return isinstance(node, Frac) and "/" in text[node.top.span.end : node.bottom.span.start]
 
 

@@ -44,7 +44,6 @@ RELATIONS: Mapping[str, str] = {
     "\\simeq": "~",
 }
 
-# Prose may also say that a letter is much less or much greater than another letter, or that a letter tends to a value.
 RELATIONS_IN_PROSE: Mapping[str, str] = {**RELATIONS, "\\ll": "<<", "\\gg": ">>", "\\to": "->"}
 FRACTIONS = frozenset(["frac", "tfrac", "dfrac", "cfrac"])
 DOTS: Mapping[str, int] = {"dot": 1, "ddot": 2}
@@ -57,7 +56,7 @@ WORDS = frozenset(["text", "textrm", "textit", "mbox"])
 MATRICES = frozenset(["pmatrix", "bmatrix", "matrix", "array", "Bmatrix", "smallmatrix"])
 ALIGNMENTS = frozenset(["aligned", "align", "align*", "split", "equation", "equation*", "gathered", "alignedat"])
 
-# Commands that are ignored, because they change only the spacing, the size, the font or the numbering.
+# commands that are ignored, because they change only the look of a formula
 SPACES = frozenset(
     [",", "!", ";", ":", " ", ">", "quad", "qquad", "thinspace", "enspace", "limits", "nolimits", "displaystyle"]
     + ["textstyle", "scriptstyle", "mathopen", "mathclose", "mathord", "nonumber", "notag", "rm", "it", "\n", "/"]
@@ -103,13 +102,13 @@ REFUSED: Mapping[str, tuple[str, str | None]] = {
     "dots": ("an ellipsis cannot be read", "write out what the ellipsis stands for"),
 }
 
-# Commands that prose and quotations may contain, although the grammar does not read them.
+# commands that prose and quotations may contain, although the grammar does not read them
 ONLY_PRINTED = frozenset(
     ["iint", "iiint", "oint", "sum", "prod", "cdots", "ldots", "min", "max", "lim", "propto", "equiv", "sim", "in"]
     + ["Rightarrow", "perp", "parallel", "angle", "nabla", "langle", "rangle", "bar", "tilde"]
 )
 
-# The arguments of a command: `{` is an argument in braces, `[` is an optional argument in brackets.
+# the arguments of a command: `{` in braces, `[` optional in brackets
 ARGUMENTS: Mapping[str, str] = {
     "sqrt": "[{",
     **dict.fromkeys(FRACTIONS, "{{"),

@@ -33,10 +33,7 @@ def given_values(problem: Problem) -> dict[str, Any]:
 
 
 def verdict_on(statement: Statement, step: Quantity, entry: Entry, pinned: Problem) -> Verdict:
-    """Compare a statement with a step: a relation as a whole, a value entry by entry and branch by branch.
-
-    The verdict is only as certain as the least certain of these comparisons.
-    """
+    """Compare a statement with a step: a relation as a whole, a value entry by entry and branch by branch."""
     derived = explicit(step.value)
     meanings = _meanings(statement, entry.times, step, derived, pinned)
     if entry.times is not None and not isinstance(derived, Relation):
@@ -113,7 +110,7 @@ def _of_relation(
     statement: Statement, derived: Relation, entry: Entry, pinned: Problem, meanings: Table[Symbol, Expr]
 ) -> Verdict:
     """Compare the document's relation with the derived relation. If the entry states a factor, the derived equation is
-    multiplied by this factor, or by its negative, before the comparison."""
+    first multiplied by it."""
     sides = statement.sides
     if any(side.shape for side in sides):
         return Verdict(Grade.REFUTED, f"{_named_shape(sides[0].shape)} against a relation")
@@ -148,16 +145,14 @@ def _of_relation(
 
 
 def _in_its_unit(expr: Expr, dimension: Dimension, entry: Entry) -> tuple[Expr, Dimension]:
-    """Return an expression and its dimension. A nonzero number, such as a side of a relation, is multiplied by the unit
-    of the entry."""
+    """Return an expression and its dimension. A nonzero number is multiplied by the unit of the entry."""
     if entry.unit is None or not expr.is_number or expr == 0:
         return expr, dimension
     return expr * entry.unit.factor, dimension * entry.unit.dimension
 
 
 def _bound_to_figures(stated: Relation, ours: Relation, entry: Entry) -> Verdict:
-    """Compare the decimal in a relation such as `S > 28` with the derived number. The left sides and the comparison
-    signs must be the same."""
+    """Compare the decimal in a relation such as `S > 28` with the derived number."""
     if stated.left != ours.left or stated.operator != ours.operator or stated.right.free_symbols:
         return Verdict(Grade.REFUTED, f"`{stated}` against `{ours}`")
     factor = entry.unit.factor if entry.unit else Integer(1)
@@ -173,8 +168,7 @@ def _entries_of(value: Any) -> list[Expr]:
 
 
 def _numbers(pinned: Problem, kept: set[Symbol], entry: Entry) -> dict[Symbol, Expr]:
-    """Return the numbers to substitute for letters that the statement lacks, and for letters that the document replaced
-    by numbers."""
+    """Return the numbers to substitute for letters that the statement lacks or replaces by numbers."""
     return {m.symbol: m.si for m in pinned.measured if m.symbol not in kept or m.symbol.name in entry.put_in}
 
 
@@ -194,10 +188,7 @@ def _named_entry(i: int, shape: tuple[int, ...]) -> str:
 def _meanings(
     stated: Statement, times: Statement | None, step: Quantity, derived: Any, pinned: Problem
 ) -> dict[Symbol, Expr]:
-    """Return the meaning of each letter of a statement: the same letter, or the result of an earlier step.
-
-    A letter that is not in the derivation is only known to be real, whatever its kind.
-    """
+    """Return the meaning of each letter of a statement: the same letter, or the result of an earlier step."""
     own = {letter.name: letter for letter in derived.free_symbols}
     given = {
         letter.name: letter for expr in _expressions(given_values(pinned).values()) for letter in expr.free_symbols
@@ -216,8 +207,7 @@ def _meanings(
 
 
 def _letters_of(steps: Iterable[Quantity]) -> dict[str, Symbol]:
-    """Return the letters in the values of steps, by name; of two letters with the same name, the one with fewer
-    assumptions."""
+    """Return the letters in the values of steps, by name."""
     letters = {letter for step in steps for letter in getattr(explicit(step.value), "free_symbols", ())}
     return {letter.name: letter for letter in sorted(letters, key=lambda x: (not x.is_nonzero, x.name))}
 
@@ -227,8 +217,7 @@ def _expressions(values: Any) -> list[Expr]:
 
 
 def _found_before(steps: Iterable[Quantity]) -> dict[str, list[Any]]:
-    """Map each name to its distinct values in these steps. A value that is only the symbol with this name is left
-    out."""
+    """Map each name to its distinct values in these steps."""
     found: dict[str, list[Any]] = {}
     for quantity in steps:
         names: tuple[Symbol, ...] = (quantity.symbol,) if isinstance(quantity.symbol, Symbol) else ()
@@ -242,16 +231,15 @@ def _found_before(steps: Iterable[Quantity]) -> dict[str, list[Any]]:
 
 
 def _of_kind(dimension: Dimension, value: Expr, kind: str | None) -> Verdict | None:
-    """Return a refutation if the dimension is wrong, for example because of a wrong unit or an extra letter; else
-    None."""
+    """Return a refutation if the dimension is wrong; else None."""
     if kind is None or value == 0 or dimension == dimension_of_kind(kind):
         return None
     return Verdict(Grade.REFUTED, f"{named(dimension)} against {kind_with_article(kind)}")
 
 
 def _to_figures(stated: Expr, derived: Expr, figures: int) -> Verdict:
-    """Judge whether each printed decimal agrees with the derived number within half a unit of the decimal's last digit.
-    Both expressions must contain the same products of letters."""
+    """Judge whether each printed decimal agrees with the derived number within half a unit of the decimal's last
+    digit."""
     printed, exact = _coefficients(stated), _coefficients(derived)
     if printed.keys() != exact.keys():
         return Verdict(Grade.REFUTED, f"{stated} against {derived}")
@@ -263,8 +251,7 @@ def _to_figures(stated: Expr, derived: Expr, figures: int) -> Verdict:
 
 
 def _coefficients(expr: Expr) -> dict[Expr, Expr]:
-    """Map products of letters to their coefficients; a letter that is a factor of every term under a root is taken out
-    of the root."""
+    """Map products of letters to their coefficients."""
     found: dict[Expr, Expr] = {}
     opened = expr.replace(
         lambda e: isinstance(e, Pow) and not e.exp.is_Integer, lambda e: factor_terms(e.base) ** e.exp

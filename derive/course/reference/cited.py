@@ -1,8 +1,7 @@
 r"""The formulas of a document that a reference cites by their lines.
 
 A line belongs to the rows of displays that cover it, or to the only formula of a sentence that makes a statement there.
-Rows that begin with a relation go on from the row before them: the sides of several rows are one chain. A row that
-begins with an inequality states it for the first side of its chain.
+Rows that begin with a relation continue the row before them.
 """
 
 from __future__ import annotations
@@ -33,7 +32,7 @@ _LAYOUT = re.compile(r"\\(?:begin|end)\s*\{array\}(?:\{[lcr|\s]*\})?|\\\\|\s+|[&
 
 @dataclass(frozen=True)
 class Formula:
-    """A chain of the document: its text, the places of its first side and of the rest, and the unit of its last side.
+    """A chain of the document, and the unit of its last side.
 
     head    the name before the chain, such as `T` in `T = ... = ...`; empty if the chain begins with a value
     """
@@ -44,7 +43,6 @@ class Formula:
 
     @property
     def without_head(self) -> Formula:
-        """The chain without its name and the `=` after the name."""
         begins = len(self.head) + len(" = ") if self.head else 0
         return Formula(self.scalar.piece(begins, len(self.scalar.text) - begins), "", self.unit)
 
@@ -62,7 +60,7 @@ class Cited:
         self.file = Source(document.source.path, document.source.written)
 
     def formula(self, lines: Iterable[tuple[int, int]], wanted: tuple[int, ...], place: Place) -> Formula:
-        """Return the chain at these lines; with `wanted`, only its sides with these numbers, counted from 1."""
+        """Return the chain at these lines, or only its sides with the numbers `wanted`, counted from 1."""
         sides: list[tuple[str, Side]] = []
         others: list[Side] = []  # further values of the last side: `x = a or b`
         for first, last in lines:
@@ -213,7 +211,7 @@ class Cited:
 
 @lru_cache(maxsize=4)
 def _plain(file: Source) -> tuple[str, list[int]]:
-    """Return the text without what belongs to its layout, and the line of each of its characters."""
+    """Return the text without its layout, and the line of each of its characters."""
     kept: list[str] = []
     lines: list[int] = []
     starts = [0, *(found.end() for found in re.finditer("\n", file.text))]
@@ -230,7 +228,7 @@ _NUMBER = re.compile(r"\d+(?:\.\d+)*(?=[\s.:)]|$)")
 
 
 def _numbers(document: Document) -> list[str]:
-    """Return the number of each heading: the one that it begins with, or in TeX the one that LaTeX prints."""
+    """Return the number of each heading, as it is written or as LaTeX prints it."""
     found: list[str] = []
     counts: dict[int, int] = {}
     for heading in document.headings:
@@ -267,7 +265,7 @@ def _parsed(side: Side) -> Node | None:
 
 
 def _lone_letter(side: Side) -> Letter | None:
-    r"""Return the letter if a side is nothing but a letter, also `\left(I_z\right)_{\text{disk}}`."""
+    r"""Return the letter if a side is only a letter, also in brackets."""
     node = _parsed(side)
     while isinstance(node, Group | EvalBar):
         node = node.inner
@@ -289,7 +287,7 @@ def cited(root: Path, set_id: str, name: str) -> Cited | None:
 
 
 def is_a_file(root: Path, set_id: str, name: str) -> bool:
-    """Return whether the name is that of a document in the folder of a set, and not of a file elsewhere."""
+    """Return whether the name is that of a document in the folder of a set."""
     folder = root / "problems" / set_id
     path = folder / name
     if Path(name).name != name or path.suffix.lower() not in {*SUFFIXES} - {""} or not path.is_file():

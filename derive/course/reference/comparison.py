@@ -1,8 +1,8 @@
 """The comparison of the statements of a document, in `problems/<set>/reference.yaml`, with the derived steps.
 
 The file is a list of groups. A group names a problem and fixes the problem's input by its own `symbols:`, `given:` and
-`values:`. An edit of the problem's input therefore does not break the comparison. A problem's own file can also have
-entries, under `reference:`; they are compared for the problem's input. An entry usually states a value of
+`values:`. So an edit of the problem's input does not break the comparison. A problem's own file can also have entries,
+under `reference:`; they are compared for the problem's input. An entry usually states a value of
 one step. Its comparison has one of these outcomes:
 
     agrees               equal, with the grade of the evidence
@@ -91,8 +91,7 @@ Steps = Table[str, Quantity]
 def comparisons(problem: Problem, known: Steps, memory: Memory | None = None) -> tuple[Comparison, ...]:
     """Compare every entry about this problem. `known` are the steps for the input in the problem's file.
 
-    If the input of a group of entries differs from the input in the problem's file, the steps for the input of the
-    group are derived. Results of calls that are stored in `memory` are reused.
+    The steps for a group with a different input are derived, with the stored results of `memory`.
     """
     with within(problem.ranges):
         return _comparisons(problem, known, memory)
@@ -115,15 +114,11 @@ def _comparisons(problem: Problem, known: Steps, memory: Memory | None) -> tuple
 
 
 def _what_is_given(problem: Problem) -> object:
-    """Return the input of a derivation: the system that the problem describes, or the values that its script asks
-    for."""
     return problem.described or given_values(problem)
 
 
 def _pinned_steps(pinned: Problem, problem: Problem, memory: Memory | None) -> Steps:
-    """Return the steps for the input of a group. Steps from an earlier comparison in this process are reused if their
-    input is the same. This helps a preview, which compares after each edit: an edit of the problem's givens does not
-    change the input that a group fixes."""
+    """Return the steps for the input of a group. They are cached, because a preview compares after each edit."""
     depends = (_text_of(pinned.script), _what_is_given(pinned), pinned.symbols, pinned.ranges, problem.ranges)
     found = next((steps for other, steps in _pinned_before if other == depends), None)
     if found is None:
@@ -155,8 +150,7 @@ def _derived_again(pinned: Problem, memory: Memory | None) -> Steps:
 
 
 def _one_by_one(entry: Entry, steps: Steps) -> list[Entry]:
-    """Return the sides of a chain as separate entries. An entry is not split if its step is a relation or is
-    unknown."""
+    """Return the sides of a chain as separate entries."""
     step = steps.get(entry.answer)
     if step is None or entry.states is None or isinstance(step.value, Relation):
         return [entry]
@@ -174,8 +168,8 @@ def _by_key(entry: Entry, steps: Steps, pinned: Problem) -> list[Comparison]:
 
 
 def _by_symbol(entry: Entry, steps: Steps, pinned: Problem) -> list[Comparison]:
-    """Compare a chain with the steps that have its first letter as their symbol: a side may be the value of any of
-    these steps, for example of the energy before and after numbers are substituted."""
+    """Compare a chain with the steps that have its first letter as their symbol; a side may be the value of any of
+    them."""
     keys = [key for key, step in steps.items() if getattr(step.symbol, "name", "") == entry.symbol]
     if not keys:
         message = f"no step has the symbol `{entry.symbol}`"
@@ -228,8 +222,7 @@ def _difference(entry: Entry, step: Quantity, verdict: Verdict, pinned: Problem,
 
 
 def _fault(code: str, message: str, place: Place, *notes: str, help: str | None = None) -> Complaint:
-    """Return an error as a warning, because the derivation has its own evidence; `derive check` fails on this
-    warning."""
+    """Return an error as a warning, because the derivation has its own evidence."""
     return Complaint(code, message, place, notes, help, severity="warning")
 
 

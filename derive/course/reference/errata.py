@@ -19,9 +19,8 @@ class Erratum:
     """`printed` and `right` are the wrong and the right value of the step `answer`; decimals keep their stated figures.
 
     `quote` and `instead` are what the document prints and what is right, in the document's own letters: prose with
-    formulas between dollar signs. `quote` is empty if the entry has neither `quote:` nor `latex:`; `instead` is empty
-    if the value is under `states:`. `line` is the line of the document. If a formula is garbled in print, `answer` is
-    empty, and `printed` and `right` are None.
+    formulas between dollar signs. Either may be empty. If a formula is only quoted, `answer` is empty, and `printed`
+    and `right` are None.
     """
 
     answer: str
@@ -47,8 +46,7 @@ class Erratum:
 
 
 def erratum_of(entry: Entry, letters: Mapping[str, Symbol]) -> Erratum:
-    """Return the erratum that an entry of the reference states. The letters in its values become the problem's letters
-    with the same names."""
+    """Return the erratum that an entry of the reference states."""
     assert entry.right is not None and entry.states is not None
     printed, right = (_shown(statement, entry, letters) for statement in (entry.states, entry.right))
     return Erratum(entry.answer, entry.part, entry.why, printed, right, entry.line, entry.quote, entry.instead)
@@ -60,7 +58,7 @@ def quoted_erratum(entry: Entry) -> Erratum:
 
 
 def _shown(statement: Statement, entry: Entry, letters: Mapping[str, Symbol]) -> Any:
-    """Return a value, a relation, or both branches of a value in one expression."""
+    """Return a value or a relation as a page shows it."""
     if len(statement.sides) == 2:  # only a side that is a number has the unit of the entry
         bare = replace(entry, unit=None)
         numbers = [not side.letters for side in statement.sides]
@@ -86,8 +84,7 @@ def _value(stated: Stated, entry: Entry, letters: Mapping[str, Symbol]) -> Any:
 
 
 def _renamed(expr: Expr, letters: Mapping[str, Symbol]) -> Expr:
-    """Rewrite an expression in the problem's own letters. An integral is not evaluated, and its brackets are
-    removed."""
+    """Rewrite an expression in the problem's own letters."""
     opened = expr.replace(lambda e: isinstance(e, Group) and isinstance(e.args[0], Integral), lambda e: e.args[0])
     return opened.xreplace({x: letters.get(x.name) or Symbol(x.name, real=True) for x in opened.atoms(Symbol)})
 

@@ -108,15 +108,14 @@ class GroupKeys(Record):
 
 @dataclass(frozen=True)
 class DocumentKeys(Record):
-    """The first item of the list in `reference.yaml`, if this item names the document. Each erratum and remark
-    then needs `line`."""
+    """The first item of the list in `reference.yaml`, if it names the document."""
 
     document: Word | None = key("the name of the document whose values the groups below state", TEXT, required=True)
 
 
 @dataclass(frozen=True)
 class OwnKeys(Record):
-    """The keys of `reference:` in a problem's own file; the letters and givens of the problem hold for the entries."""
+    """The keys of `reference:` in a problem's own file."""
 
     source: Word | None = key("the book and its section, or the document", TEXT, required=True)
     symbols: dict[Word, SortOfLetter] = key("letters that steps introduce, and their kinds", SYMBOLS)

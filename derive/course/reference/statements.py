@@ -47,7 +47,7 @@ _VALUE = "an expression, a list of 3, or 3 rows of 3"
 class Stated:
     """A value as the document states it: its entries with their dimensions, and its original text.
 
-    A value with `\\pm` has two branches. If `homogeneous` is false, the dimensions of the entries have no meaning.
+    A value with `\\pm` has two branches. If `homogeneous` is false, the dimensions are unknown.
     """
 
     branches: tuple[tuple[tuple[Expr, Dimension], ...], ...]
@@ -67,8 +67,7 @@ class Stated:
 
 @dataclass(frozen=True)
 class Statement:
-    """A value, a chain of values, or a relation: the sides, and the sign before each side, such as `=` or `<`. The sign
-    before the first side is usually ""."""
+    """A value, a chain of values, or a relation: the sides, and the sign before each side, such as `=` or `<`."""
 
     sides: tuple[Stated, ...]
     marks: tuple[str, ...]
@@ -148,10 +147,10 @@ def read_ahead(root: Path, set_id: str) -> None:
 
 
 def stated_groups(problem: Problem) -> list[tuple[Problem, list[Entry]]]:
-    """Return, for each group about this problem, the problem with the group's input, and the entries of the group;
-    raise `Rejected` on errors.
+    """Return the groups about this problem: the problem with the group's input, and the entries. Raise `Rejected` on
+    errors.
 
-    The contents of groups for other problems are not read here, so their errors do not concern this problem.
+    Errors in groups for other problems do not matter here.
     """
     faults = Faults()
     own = [_own_group(problem, faults)] if problem.reference else []
@@ -173,7 +172,7 @@ def stated_groups(problem: Problem) -> list[tuple[Problem, list[Entry]]]:
 
 
 def _own_group(problem: Problem, faults: Faults) -> tuple[Problem, list[Entry]]:
-    """Return the statements of a source in the problem's own file, which are compared for the input in that file."""
+    """Return the statements in the problem's own file."""
     node = mapping_in(problem.root, problem.path, "a problem").get("reference")
     assert isinstance(node, Mapping)
     group = read_record(OwnKeys, node, "`reference`", faults)
@@ -198,7 +197,7 @@ def _group(
         faults.error("no-such-problem", f"no problem of this set is called `{name}`", name.place, help=help_line)
     elif f"{problem.set_id}/{name}" == problem.id:
         group = read_record(GroupKeys, node, "a group", faults)
-        # The group replaces the input of the problem; the parts and the words of the problem are not used.
+        # The group replaces the input of the problem.
         script = problem.script if "given" in group.places else None
         pins = pinned_by(group.symbols, group.values, group.given, group.places, script, faults)
         pinned = replace(problem, places=group.places, **vars(pins))
@@ -209,8 +208,7 @@ def _group(
 def _entries(
     group: GroupKeys | OwnKeys, pinned: Problem, document: str, faults: Faults, has_lines: bool = True
 ) -> list[Entry]:
-    # A letter is assumed only to be real, because a component that steps introduce may be negative. The assumptions
-    # of the derivation are restored when the statement is compared.
+    # A letter is assumed only to be real, because a component that steps introduce may be negative.
     known_to_all = {TIME.name: Declared(TIME.name, TIME, "time"), **pinned.symbols}
     letters = {name: replace(known, symbol=Symbol(name, real=True)) for name, known in known_to_all.items()}
     numbers = {measured.symbol.name for measured in pinned.measured}
@@ -270,15 +268,14 @@ def _components(name: Word, vector: Sequence, letters: Table[str, Declared], fau
 
 
 def is_quoted_only(written: EntryKeys) -> bool:
-    """Return whether an entry quotes a misprint without stating a value, so that there is nothing to compare."""
+    """Return whether an entry only quotes a misprint, so that there is nothing to compare."""
     states = (written.answer, written.latex, written.states, written.remark)
     quotes = written.quote is not None or written.lines is not None
     return written.erratum is not None and quotes and all(each is None for each in states)
 
 
 class _EntryReader:
-    """Reads the entries of one group: `letters` are the problem's letters, `printed` the letters that the document's
-    formulas may use."""
+    """Reads the entries of one group; `printed` are the letters that the document's formulas may use."""
 
     def __init__(
         self,
@@ -298,7 +295,7 @@ class _EntryReader:
         self.lacks_document = False
 
     def entries(self, written: EntryKeys) -> list[Entry]:
-        """Return one entry, or for a section an entry for each of its chains that begins with a letter."""
+        """Return one entry, or several for a section."""
         if written.lines is None or not written.lines.section:
             entry = self.entry(written)
             return [entry] if entry else []
@@ -393,7 +390,7 @@ class _EntryReader:
         return None
 
     def no_document(self, written: EntryKeys) -> None:
-        """Report, once for all entries, that the document that they cite is not a file of the set."""
+        """Report once that the cited document is not a file of the set."""
         if not self.lacks_document:
             self.lacks_document = True
             name = written.document or self.document
@@ -425,7 +422,7 @@ class _EntryReader:
         return stated or printed
 
     def slip(self, written: EntryKeys, formula: Formula | None) -> Entry | None:
-        """Read an erratum that is quoted and corrected, but is not a value of a step: a formula garbled in print."""
+        """Read an erratum that is only quoted and corrected."""
         assert written.erratum is not None
         right, place = written.erratum.right, written.places.get("quote") or written.places[""]
         instead = right.text if isinstance(right, Scalar) else ""
@@ -441,9 +438,7 @@ class _EntryReader:
     def quotes(self, entry: EntryKeys, formula: Formula | None, unit: Unit | None) -> tuple[str, str]:
         """Return what the document prints, and what it should print.
 
-        The first text is the value of `quote:`, or else the formula of `latex:` or of the document between dollar
-        signs. The second is the right formula between dollar signs, for an erratum with such a formula. Both are empty
-        for an entry that is neither an erratum nor a remark.
+        Both are empty for an entry that is neither an erratum nor a remark.
         """
         if entry.erratum is None and entry.remark is None:
             return "", ""
@@ -468,8 +463,7 @@ class _EntryReader:
         return read
 
     def statement(self, entry: EntryKeys, put_in: tuple[str, ...], formula: Formula | None) -> Statement | None:
-        """Read the value that an entry states under `states:` or `latex:`, or in the document. In LaTeX, the dimensions
-        of the terms are not compared for an erratum or after numbers have been substituted."""
+        """Read the value that an entry states under `states:` or `latex:`, or in the document."""
         plain, printed, keys = entry.states, entry.latex, keys_of(EntryKeys)
         homogeneous = "erratum" not in entry.values_at and not put_in
         if plain is not None and printed is not None:
@@ -477,7 +471,7 @@ class _EntryReader:
         elif formula is not None and entry.answer is not None and plain is None and printed is None:
             return self.of_document(formula, homogeneous, entry.places[""])
         elif plain is None and printed is None and entry.remark is None:
-            # An unknown key, or a `states` or `latex` that could not be read, already has an error of its own.
+            # A key that could not be read already has an error of its own.
             if entry.values_at.keys() <= keys.keys() - {"states", "latex"}:
                 message = f"an entry needs `states` or `latex`: {keys['states'].meaning}"
                 self.faults.error("missing-key", message, entry.places[""])
@@ -486,7 +480,7 @@ class _EntryReader:
         return self.one(plain, "`states`", False, True) if plain is not None else None
 
     def of_document(self, formula: Formula, homogeneous: bool, place: Place) -> Statement | None:
-        """Read a chain of the document. A first letter that is not declared can only be a name of the value."""
+        """Read a chain of the document. A first letter that cannot be read is a name of the value."""
         named = bool(formula.head)
         if named:
             try:
@@ -527,8 +521,7 @@ class _EntryReader:
         return written.why or "", self.one(written.right, "`right`", printed, not put_in)
 
     def put_in(self, node: Tree | None) -> tuple[str, ...]:
-        """Return the letters whose numbers the document has substituted; each letter must have a number in the
-        group."""
+        """Return the letters whose numbers the document has substituted."""
         names = []
         for item in _items(node) if node is not None else ():
             name = item.text.strip() if isinstance(item, Scalar) else ""
@@ -595,6 +588,5 @@ def _figures(node: Tree | None, states: Statement | None, faults: Faults) -> tup
 
 
 def _values(value: Stated) -> tuple[tuple[Expr, Dimension], ...]:
-    """Return the values to which a list of figures refers: the entries of a vector or tensor, or the branches of a
-    scalar."""
+    """Return the values to which a list of figures refers."""
     return value.entries if value.shape else tuple(entries[0] for entries in value.branches)

@@ -213,9 +213,8 @@ def compared(squared: bool) -> Predicate:
 
 
 def always(wanted: bool) -> Predicate:
-    """Judge whether, at all trial numbers, the difference has the stated sign or satisfies the relation of the result.
-    The stated sign must satisfy the requested comparison if `wanted` is true, and must violate this comparison
-    otherwise."""
+    """Judge whether, at all trial numbers, the difference has the stated sign or satisfies the relation of the
+    result."""
 
     def is_so(facts: Judged) -> bool:
         held = facts.inputs["sign"] in ALLOWED[MARK_OF[facts.words["comparison"]]]
@@ -370,9 +369,7 @@ def _discriminant(facts: Judged) -> Expr:
 
 
 def roots(discriminant: int | None, product: int | None = 1) -> Predicate:
-    """Judge whether the discriminant has the sign `discriminant`; None requires that the sign is unknown. For a
-    positive sign, the product of the roots must also be negative if `product` is -1, and must not be negative
-    otherwise."""
+    """Judge whether the discriminant has the sign `discriminant`; None requires that the sign is unknown."""
 
     def is_so(facts: Judged) -> bool:
         q = facts.inputs["quadratic"]
@@ -406,11 +403,7 @@ def slope_vanishes_by(facts: Judged, letter: Any) -> bool:
 
 def names_put_in(facts: Judged, value: Any) -> bool:
     """Whether the substitution of all stated values in the original gives the result or an equivalent equation. For a
-    rate with the opposite sign, `turned_first` judges the sign.
-
-    This is tested only if each value replaces a symbol, no value contains a replaced symbol, no other result is
-    substituted, and the original contains no rate of a replaced coordinate. Otherwise the substitution is accepted.
-    """
+    rate with the opposite sign, `turned_first` judges the sign."""
     told = {v.left: v.right for role, v in facts.inputs.items() if role.rpartition("_")[0] == "value"}
     others = [role for role in facts.quantities if role.rpartition("_")[0] == "other"]
     if value.operator != "=" or value.left.could_extract_minus_sign():
@@ -512,11 +505,7 @@ def as_asked(facts: Judged, outcome: str) -> bool:
 
 
 def word_of_its_mark(facts: Judged, outcome: str) -> bool:
-    """Whether the word fits the comparison sign of the first line, such as "at most" for <=.
-
-    The sentence must compare the quantity with the bound, not the bound with the quantity. A sentence on real roots
-    must be about a discriminant.
-    """
+    """Whether the word fits the comparison sign of the first line, such as "at most" for <=."""
     difference = explicit(facts.inputs["quantity"]) - explicit(facts.inputs["bound"])
     mark = str(facts.inputs["mark"])
     right_word = MARK_OF.get(facts.words["comparison"]) == mark
@@ -536,9 +525,8 @@ def there_where_told(facts: Judged, outcome: str) -> bool:
 
 
 def _between_the_ends_just_where_told(facts: Judged) -> bool:
-    """Judge whether the place lies between the ends of the interval if and only if the conditions in the sentence hold.
-    Trial numbers are used only if they satisfy the assumptions and make the width of the interval positive and the
-    place real."""
+    """Judge whether the place lies between the ends of the interval if and only if the conditions in the sentence
+    hold."""
     if "within" not in facts.inputs:
         return True
     place, ends = explicit(facts.result), facts.inputs["within"]

@@ -64,7 +64,6 @@ def combination(expression: Expr, values: Mapping[Symbol, Quantity], key: str, s
 
 
 def _cancelled(value: Expr) -> Expr:
-    """Write a formula in its usual form; also cancel factors under roots if this shortens the formula."""
     plain = presented(value)
     if plain.count_ops() > LARGEST:
         return plain
@@ -76,9 +75,7 @@ def _cancelled(value: Expr) -> Expr:
 
 
 def _number(quantity: Quantity) -> Quantity | Expr:
-    """Return the quantity if its symbol is a letter or an absolute value such as |x_dot|. If the symbol is another
-    expression, such as x_dot^2, return the value. For an equation that is solved for a symbol, return the right
-    side."""
+    """Return the quantity if its symbol is a letter or an absolute value such as |x_dot|."""
     value = quantity.value
     if not isinstance(value, Relation | MatrixBase):
         return quantity if isinstance(quantity.symbol, Symbol | Abs) else explicit(value)

@@ -215,16 +215,7 @@ def _in_steps(difference: Expr, result: Relation, excluded: Relation | None) -> 
 
 
 def _beside(found: Relation, difference: Expr, mark: str) -> tuple[Any, Any]:
-    """Return two vectors that are equal if the solved relation is right.
-
-    The bound is the right side of the solved relation. The first vector begins with the difference for an unknown at
-    the bound, and for an unknown at any distance d > 0 above the bound. Its last three entries are 1 or 0: whether the
-    solved relation holds above, at and below the bound. The second vector has the values that the sign of the
-    difference requires.
-
-    If this sign is unknown above the bound, return the difference at the bound, and 0. If a positive symbol would have
-    a negative bound, return 1 and 0, so that the check fails.
-    """
+    """Return two vectors that are equal if the solved relation is right."""
     alone, place = found.sides
     d = Dummy("d", positive=True)
     if alone.is_positive and sign_known(place) == -1:  # a positive symbol is never the negative root of x^2 = a

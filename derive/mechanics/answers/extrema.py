@@ -179,8 +179,6 @@ def _range_as_interval(x: Symbol) -> Within | None:
 
 
 def _conditions(real: Relation | None, room: Sequence[Relation]) -> dict[str, Relation]:
-    """Return the conditions for the place to be real and to lie inside the interval, each with the name of its
-    placeholder in the phrase."""
     found = {} if real is None else {"condition": real}
     return {**found, **{f"inside_{n}": each for n, each in enumerate(dict.fromkeys(room), 1)}}
 
@@ -224,7 +222,6 @@ def _places(slope: Expr, x: Symbol, within: Within | None) -> list[Zero]:
 
 
 def _with_numbers_beside(expr: Expr, x: Symbol) -> Expr:
-    """Substitute the numbers of all symbols except the one that varies."""
     varied = Dummy("x", **x.assumptions0)
     return with_numbers(expr.xreplace({x: varied})).xreplace({varied: x})
 

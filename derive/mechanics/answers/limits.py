@@ -239,7 +239,6 @@ def _close_to(aim: Expr, point: Mapping[Any, Any]) -> tuple[Expr, ...]:
 
 
 def _added_up(series: Sequence[Series], value: Any, x: Symbol, place: Expr) -> Any:
-    """Return the sum of the terms of the series, entry by entry."""
     added = [tidied_terms(each, x, place) for each in series]
     return ImmutableDenseMatrix(*value.shape, added) if isinstance(value, MatrixBase) else added[0]
 

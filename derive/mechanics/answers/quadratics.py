@@ -126,8 +126,7 @@ def roots_together(
 def _coefficients(equation: Quantity, x: Symbol, values: Sequence[Quantity]) -> tuple[Roots, Expr]:
     """Return the coefficients of a quadratic or linear equation in x, both in letters and with values substituted.
 
-    The second result is the value of the factor of the left side that does not contain x. The signs of the
-    coefficients are chosen so that the first coefficient has no minus sign.
+    The second result is the value of the factor of the left side that does not contain x.
     """
     factors = Mul.make_args(presented(equation.value.residual)) if isinstance(equation.value, Relation) else ()
     apart = Mul(*(f for f in factors if x not in f.free_symbols))
@@ -214,7 +213,6 @@ def character(of: Quadratic) -> str:
 
 
 def _linear_formula(of: Quadratic) -> Expr:
-    """Return -c/b, with as few minus signs as possible."""
     return Ratio(of.c, -of.b) if of.b.could_extract_minus_sign() else Ratio(-of.c, of.b)
 
 
@@ -224,11 +222,7 @@ def _formula(of: Quadratic) -> Expr:
 
 def _arranged(of: Quadratic, found: Expr) -> Expr:
     """Write the roots as k (u +- sqrt(u^2 - w)). Here u is the product of the factors of -b that contain symbols, but
-    no symbol of a or c.
-
-    For example, u is S if -b = m l^2 S and the other coefficients contain m and l. If the sign of -b/u is unknown, the
-    roots have their tidy form.
-    """
+    no symbol of a or c."""
     own = [
         f
         for f in Mul.make_args(-of.b)
@@ -247,8 +241,6 @@ def _arranged(of: Quadratic, found: Expr) -> Expr:
 
 
 def _by_size(quadratic: Quadratic, real: int | None) -> tuple[str, str]:
-    """Return the outcomes of the two roots: "nearer" and "farther" for opposite signs, "smaller" and "larger" for equal
-    signs, and "..._where_real" for roots that are not known to be real."""
     if real is None:
         return "smaller_where_real", "larger_where_real"
     return ("nearer", "farther") if sign_known(quadratic.a * quadratic.c) == -1 else ("smaller", "larger")
@@ -322,8 +314,6 @@ def with_index(name: str, index: str | int) -> str:
 
 
 def _of_sign(both: Expr, sign: int) -> Expr:
-    """Return the formula of both roots with +1 or -1 in place of the double sign; its factors are not multiplied
-    out."""
     factors = [factor.xreplace({PLUS_MINUS: Integer(sign)}) for factor in Mul.make_args(both)]
     return Mul(*factors, evaluate=False) if len(factors) > 1 else factors[0]
 
@@ -362,8 +352,6 @@ def _by_resultant(of: Roots) -> Expr:
 
 
 def _resultant(here: Quadratic) -> Expr:
-    """Return the resultant of the polynomial and its derivative by Sylvester's determinant. The coefficients of the
-    polynomial come from its values at three points."""
     at_none, at_one, at_other = (here.at(Integer(n)) for n in (0, 1, -1))
     second, first = (at_one + at_other) / 2 - at_none, (at_one - at_other) / 2
     slope = [2 * here.a, here.b]

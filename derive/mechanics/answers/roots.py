@@ -281,13 +281,11 @@ def _asked(equation: Quantity) -> str:
 
 
 def _common_factor(polynomial: Poly, every: Sequence[RootOf]) -> Expr:
-    """Return the common factor of all coefficients, such as P in P (R u - r)."""
     found = {root.coefficients: root.times for root in every}
     return tidied(polynomial.LC() / Mul(*(c[0] ** times for c, times in found.items())))
 
 
 def _is_out_of_reach(root: RootOf, unknown: Expr) -> bool:
-    """Whether it is known that no angle has the root as its sine or cosine."""
     return isinstance(unknown, sin | cos) and root.value not in (1, -1) and within_one(root.value)[1]
 
 
@@ -341,7 +339,6 @@ def _polynomial(equation: Quantity, left: Expr, x: Symbol, unknown: Expr) -> Pol
 
 
 def _factors(polynomial: Poly, equation: Quantity, unknown: Expr) -> list[tuple[Poly, int]]:
-    """Return the factors that contain the unknown, with their multiplicities."""
     x = polynomial.gen
     _, parts = factor_list(polynomial.as_expr(), x) if _is_plain(polynomial) else (1, [(polynomial.as_expr(), 1)])
     found = [(part.as_poly(x), times) for part, times in parts if part.has(x)]
@@ -357,8 +354,6 @@ def _is_plain(polynomial: Poly) -> bool:
 
 
 def _not_doubled(polynomial: Poly) -> list[tuple[Poly, int]]:
-    """Write a quadratic polynomial that is a square as a linear factor with multiplicity two; return any other
-    polynomial with multiplicity one."""
     if polynomial.degree() == 2:
         a, b, c = polynomial.all_coeffs()
         if is_zero(b**2 - FOUR * a * c):
@@ -442,7 +437,6 @@ CHOICES: Mapping[str, Callable[[Quantity, Sequence[Quantity]], bool]] = {
 
 
 def _chosen(found: Sequence[Quantity], which: str) -> Quantity:
-    """Return the root that the author chose."""
     if any(isinstance(root.value, Relation) for root in found):
         raise Rejected(Complaint("no-root", f"there is no root that could be `{which}`", argument="root"))
     if which.isdigit():

@@ -50,7 +50,6 @@ def _state(force: Quantity) -> Any:
 
 
 def _beside(friction: Quantity, letter: Symbol) -> Quantity:
-    """Return the normal force that was derived together with the friction."""
     state = _state(friction)
     for each in established():
         if each.symbol == letter and _state(each) == state:
@@ -75,7 +74,6 @@ def _in_state(force: Quantity, results: Sequence[Quantity], values: Mapping[str,
 def _with_effect(
     force: Quantity, results: Sequence[Quantity], values: Mapping[str, Expr]
 ) -> tuple[list[Quantity], dict[str, Expr]]:
-    """Return the results and values that change a force."""
     value, kept = explicit(force.value), []
     for each in results:
         if (changed := with_unknown(value, *_replaced_by(each))) != value:
@@ -86,7 +84,6 @@ def _with_effect(
 
 
 def _replaced_by(result: Quantity) -> tuple[Expr, Expr]:
-    """Return the expression that a result replaces, and the replacement."""
     momentum = result.fact(KeptMomentum)
     if momentum is not None:
         return rate(momentum.coordinate), momentum.turning

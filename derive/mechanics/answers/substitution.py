@@ -247,9 +247,7 @@ def _replacements(quantity: Quantity, of: Quantity) -> list[Replacement]:
 
 
 def _letter_replaced(quantity: Quantity, of: Quantity) -> Any:
-    """Return the symbol that a result replaces. This is the symbol of the result, if the original contains it.
-    Otherwise a root replaces the unknown of its equation, and a limit or a series replaces the symbol of the result
-    that was expanded."""
+    """Return the symbol that a result replaces. This is the symbol of the result, if the original contains it."""
     root, own = quantity.fact(ValueOf), quantity.symbol
     whole = root.unknown if root is not None else quantity.step.approximates
     is_there = isinstance(own, Expr) and own.free_symbols <= explicit(of.value).free_symbols
@@ -437,7 +435,7 @@ def _means(name: Any, result: Any) -> dict[Any, Any]:
     """Return a mapping from the symbol in the name of the result to the value of this symbol: from theta_dot, if the
     name is theta_dot^2.
 
-    For the name |q_dot|, q_dot has the value of the result. The mapping is empty if the name is only a symbol.
+    For the name |q_dot|, q_dot has the value of the result.
     """
     if isinstance(name, Abs):
         return {name.args[0]: result}

@@ -104,7 +104,6 @@ def _check_same_kind(general: Quantity, particular: Quantity) -> None:
 
 
 def _put_in(value: Expr, values: dict[Any, Any]) -> Expr:
-    """Substitute the values for the names in an expression, and keep the terms of each sum separate."""
     sums = [f for f in Mul.make_args(value) if isinstance(f, Add)]
     outside = bound(Mul(*(f for f in Mul.make_args(value) if not isinstance(f, Add))), values)
     kept = [Terms(*_nonzero(bound(term, values) for term in f.as_ordered_terms())) for f in sums]
@@ -112,7 +111,6 @@ def _put_in(value: Expr, values: dict[Any, Any]) -> Expr:
 
 
 def _nonzero(terms: Iterable[Expr]) -> list[Expr]:
-    """Return the terms that do not vanish, or a single zero if all terms vanish."""
     kept = [term for term in terms if explicit(term) != 0]
     return kept or [Integer(0)]
 
@@ -331,7 +329,5 @@ def _sort_of(is_equation: bool, has_reason: bool) -> str:
 
 
 def _facts_of(quantities: Sequence[Quantity]) -> list[Fact]:
-    """Return the mass points and forces of all quantities together; an empty list if they are unknown for one
-    quantity."""
     known = [matter for q in quantities if (matter := q.fact(Matter)) is not None]
     return [sum(known[1:], known[0])] if known and len(known) == len(quantities) else []

@@ -335,6 +335,7 @@ class Hollow(Body):
     """A round body with a concentric cavity of the same shape.
 
     inner, outer   the radius of the cavity, and the outer radius of the body
+
     Errors: the inner radius is known to be greater than the outer radius, or equal to it.
     """
 
@@ -432,6 +433,7 @@ def density(body: Body, symbol: str | None = None, key: str = "density", part: s
 
     body    a body with the mass M and the volume V, area A or length l
     part    the name of the body, if the page has several bodies
+
     Check: the integral of the density over the body gives M back.
     Outcomes: along_edges (a cuboid); volume, area, length (what the mass fills); derived (a step derives the size).
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 4.
@@ -490,6 +492,7 @@ def centre_of_mass(
     body         a body with a mass and a region
     origin       the name of the point from which to measure; by default the point at the origin of the body axes
     coordinates  "cartesian" or "cylindrical", for a body whose limits are known in both systems
+
     For a round solid, one step derives the component along the axis. For any other body without inversion symmetry, a
     step derives each component that is not zero.
     Second route: the mean position of the body's equimomental particles.

@@ -133,8 +133,7 @@ def of_map(place: ImmutableMatrix, limits: Bounds) -> Boundary | None:
     """The boundary of a position map if it is a straight line, the closed edge of a flat body in the plane of x and y,
     or an ellipsoid.
 
-    Return None for every other map. For a flat body, also return None if it has a hole, or if a limit contains a
-    variable. An ellipsoid is recognised only if the map scales a ball of radius 1.
+    Return None for every other map.
     """
     if len(limits) == 1 and is_zero(place.diff(limits[0][0], 2)):
         u, *ends = limits[0]
@@ -176,7 +175,6 @@ def _reversed(curve: Curve) -> Curve:
 
 
 def _is_long(curve: Curve) -> bool:
-    """Whether a curve is more than a single place."""
     return len(set(_along(curve, 3))) > 1
 
 

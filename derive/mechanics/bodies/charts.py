@@ -160,8 +160,7 @@ def _determinant(m: Sequence[Sequence[float]]) -> float:
 def draws(letters: set[Symbol], limits: Sequence[Bounds]) -> Iterator[dict[Symbol, Expr]]:
     """Values of the symbols for which each lower limit is below the upper limit.
 
-    A symbol whose number the problem states has this number. Any other symbol has a random value; several such symbols
-    have values on different scales.
+    A symbol whose number the problem states has this number.
     """
     source = Random(len(letters))
     ordered = sorted(letters, key=str)

@@ -88,6 +88,7 @@ def centre_component(
     axis         "x", "y" or "z": the body axis of the component
     origin       the name of the point from which to measure; by default the point at the origin of the body axes
     coordinates  "cartesian" or "cylindrical", for a body whose limits are known in both systems
+
     Second route: the mean position of the body's equimomental particles.
     Check: for a body defined by a position map, a numerical sum over cells takes the place of the second route.
     Outcomes: on_axis (the body is a solid that is round about this axis), generic.

@@ -177,6 +177,7 @@ class Triangle(Cornered):
 
     corners_at   the positions (x, y) of the three corners, in units of length
     mass         the mass of the body
+
     `Triangle.on_base(b, h, mass)` has its base along x from the origin. Its top is at the height h, above the middle of
     the base or, if `foot` is given, above x = foot. `Triangle.equilateral(a, mass)` has three sides of length a.
     Points: first corner, second corner, third corner; centre.
@@ -269,6 +270,7 @@ class Tetrahedron(Cornered):
 
     corners_at   the positions (x, y, z) of the four corners, in units of length
     mass         the mass of the body
+
     Points: first corner, ..., fourth corner; centre.
     """
 
@@ -328,6 +330,7 @@ class Wedge(Cornered):
     face     the triangular base, a `Triangle`
     length   the length along z, from z = 0
     mass     the mass of the body
+
     Points: first corner, second corner, third corner (of the face at z = 0); centre.
     """
 

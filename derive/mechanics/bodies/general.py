@@ -266,6 +266,7 @@ def cell_of(body: GeneralBody, key: str = "cell") -> Quantity:
     """Size of a cell: r_u . (r_v x r_w) for a solid; its square |r_u x r_v|^2 for a surface and |r_u|^2 for a curve.
 
     body   a body defined by its position map
+
     Second route: the square of the size is det(r_i . r_j), with scalar products from squared distances of neighbouring
     points.
     Check: for a solid, the size agrees numerically with the signed volume that small edges span.
@@ -328,6 +329,7 @@ def size_by_integration(body: GeneralBody) -> Quantity:
     """Length, area or volume of a body: the integral over its cells.
 
     body   a body defined by its position map
+
     Check: a numerical sum over cells; the size of each cell comes from the scalar products of its edges.
     Outcomes: length, area, volume.
     Source: Apostol, *Calculus*, volume 2, sections 11.32 and 12.5.
@@ -361,6 +363,7 @@ def mass_by_integration(body: GeneralBody, key: str = "mass") -> Quantity:
     """Mass of a body with a given density, M = integral of the density over the body.
 
     body   a body defined by its position map and its density
+
     Check: a numerical sum over cells; the size of each cell comes from the scalar products of its edges.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 4.
     """
@@ -397,6 +400,7 @@ def normalised_density(body: GeneralBody, key: str = "density") -> Quantity:
     """Density of a body of given mass, proportional to a function p of the position: rho = M p/(integral of p dV).
 
     body   a body defined by its position map, its mass and the function p
+
     Check: a numerical sum of the density times the size of each cell gives the mass back.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 4.
     """
@@ -422,11 +426,7 @@ def _cells(body: GeneralBody) -> list[Quantity]:
 
 
 def _variables_of(body: GeneralBody) -> dict[Symbol, str]:
-    """The variables of a body with their kinds.
-
-    A variable in a sine or cosine is an angle. Any other variable is a length if one of its limits contains a symbol;
-    otherwise it is a number.
-    """
+    """The variables of a body with their kinds."""
     position, limits = body.map()
     angles = {s for f in position.atoms(sin, cos) for s in f.free_symbols}
     kinds = {}

@@ -28,10 +28,7 @@ OneVariable = tuple[Symbol, Expr, Expr]
 
 @dataclass(frozen=True)
 class Nested:
-    """An integral that is a factor of a term: its integrand and its limits, outermost first.
-
-    No other factor of the term contains a variable of these limits.
-    """
+    """An integral that is a factor of a term: its integrand and its limits, outermost first."""
 
     integrand: Expr
     limits: tuple[OneVariable, ...]
@@ -68,8 +65,7 @@ class Nested:
 
     def _parts(self, depth: int) -> list[Expr]:
         """The factors of the integrand, multiplied together for each variable of integration, the outermost variable
-        first. A factor belongs to the innermost variable that it contains.
-        """
+        first."""
         found = [Integer(1)] * depth
         for part in Mul.make_args(self.integrand):
             place = max((i for i, limit in enumerate(self.limits) if part.has(limit[0])), default=0)
@@ -153,7 +149,6 @@ def _outwards(terms: list[Separated], front: Expr) -> list[Form]:
 
 
 def _lasting(values: list[Expr]) -> list[Expr]:
-    """The values without zeros; a single zero if all values are zero."""
     return [value for value in values if value != 0] or values[:1]
 
 
@@ -166,7 +161,6 @@ def _one_further(part: Nested | Expr) -> Nested | Expr:
 
 
 def _collected(term: Separated) -> Separated:
-    """The term, with constant factors moved in front of the integrals that remain."""
     front: Expr = Integer(1)
     rest: list[Nested | Expr] = []
     for part in term:

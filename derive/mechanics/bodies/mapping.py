@@ -76,10 +76,6 @@ def _varied(variables: Sequence[Symbol], extents: Sequence[Any]) -> tuple[list[E
 def from_point(point: Point, position: ImmutableMatrix, limits: Bounds, weight: Expr) -> Region:
     """The region of a map, with positions relative to a point.
 
-    A variable may itself be a coordinate along a body axis. Such a variable is also measured from the point if three
-    conditions hold: the limits of the variable are constant; an axis of the point is parallel to this body axis;
-    the other coordinates, the weight, and the limits of other such variables do not depend on the variable.
-
     weight   size of a cell, times the density up to a constant factor
     """
     seen = point.seen(position)

@@ -181,7 +181,6 @@ class Placeable:
 
 
 def _point_of(body: Any, components: Any) -> Point:
-    """Return a point of a body by its name, or by its components along the body axes."""
     if isinstance(components, str):
         by_name = getattr(body, "point_called", None) or body.point
         named: Point = by_name(components)

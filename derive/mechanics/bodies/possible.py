@@ -111,12 +111,7 @@ def check_parts(parts: Sequence[Any]) -> None:
 
 
 def _faults(pieces: Sequence[Piece], charts: Sequence[Chart]) -> dict[Fault, None]:
-    """Return the faults of the parts for one draw of the symbols, each as a key; empty if the parts can form a body.
-
-    At each sampled place, the number of parts minus the number of holes must be 0 or 1. There is a fault if at least
-    two places violate this condition in the same way. If there is no such fault, but the holes leave nothing of the
-    parts at any sampled place, the fault is "empty".
-    """
+    """Return the faults of the parts for one draw of the symbols, each as a key; empty if the parts can form a body."""
     found: dict[Fault, int] = {}
     left = False
     boxes = [_box(chart) for chart in charts]
@@ -226,7 +221,6 @@ def _has_twin(chart: Chart, at: Place) -> bool:
 
 
 def _signs(density: Expr, chart: Chart, at: Mapping[Symbol, Expr]) -> set[int]:
-    """The signs of a density at sampled points of the body."""
     value = lambdify(chart.names, explicit(density).xreplace(dict(at)), "math")
     try:
         found = [value(*point) for point in chart.points(POINTS, Random(4))]

@@ -111,6 +111,7 @@ class Cone(Conical, RoundSolid):
     radius   the radius of the base, a length
     height   the height, a length
     mass     the mass of the body
+
     Points: apex, base (the centre of the base; the z axis of this point has the opposite direction, towards the apex),
     centre.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
@@ -153,6 +154,7 @@ class Cylinder(Cylindrical, RoundSolid):
     radius   the radius, a length
     height   the height, a length
     mass     the mass of the body
+
     Points: base (the centre of the base, at the origin), centre.
     """
 
@@ -196,6 +198,7 @@ class Hemisphere(Ball):
 
     radius   the radius, a length
     mass     the mass of the body
+
     Points: base (the centre of the base), centre.
     """
 
@@ -222,6 +225,7 @@ class Tube(Hollow):
     inner, outer   the radius of the cavity and the outer radius, both lengths
     height         the height, a length
     mass           the mass of the body
+
     Points: base (the centre of the base, at the origin), centre.
     """
 
@@ -272,6 +276,7 @@ class HalfCylinder(OfHeight):
     radius   the radius, a length
     height   the height, a length
     mass     the mass of the body
+
     Points: circle_centre (the centre of the circle at z = 0, the origin), centre.
     """
 
@@ -383,6 +388,7 @@ def volume(body: Cone) -> Quantity:
     """Volume of a cone, V = integral of dV.
 
     body    radius R, height h
+
     Second route: by the theorem of Pappus, the area of half the axial section times the path length of the centroid of
     this half.
     Outcomes: cylindrical (the coordinates of the integral).

@@ -57,6 +57,7 @@ class Rod(RoundBody):
 
     length   the length of the rod
     mass     the mass of the body
+
     Points: end (at the origin), far_end, centre. All of the mass is on the axis of the rod, so the moment of inertia
     about this axis is zero.
     """
@@ -123,6 +124,7 @@ class Arc(Body):
     radius       the radius, a length
     half_angle   the angle from the x axis to either end, between 0 and pi; pi/2 for half a circle
     mass         the mass of the body
+
     Points: circle_centre (the origin), centre.
     """
 
@@ -183,6 +185,7 @@ class Annulus(Hollow):
 
     inner, outer   the radius of the hole and the outer radius, both lengths
     mass           the mass of the body
+
     Points: centre, rim (a point of the outer circle).
     """
 
@@ -210,6 +213,7 @@ class HalfDisc(OfRadius):
 
     radius   the radius, a length
     mass     the mass of the body
+
     Points: circle_centre (the middle of the diameter, the origin), centre.
     """
 
@@ -267,6 +271,7 @@ class HemisphericalShell(SphericalShell):
 
     radius   the radius, a length
     mass     the mass of the body
+
     Points: circle_centre (the centre of the rim), centre.
     """
 
@@ -295,6 +300,7 @@ class CylindricalShell(Cylindrical):
     radius   the radius, a length
     height   the height, a length
     mass     the mass of the body
+
     Points: circle_centre (the centre of the rim at z = 0), centre.
     """
 
@@ -316,6 +322,7 @@ class ConicalShell(Conical):
     radius   the radius of the rim, a length
     height   the height, a length
     mass     the mass of the body
+
     Points: tip (the apex), centre.
     """
 

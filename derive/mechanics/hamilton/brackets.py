@@ -62,6 +62,7 @@ def poisson_bracket(
     coordinates   all coordinates; not needed if f or g is a Hamiltonian, or a result derived from a Hamiltonian
     among         steps; if the bracket is a number times the value of such a step, the last line is written with the
                   symbol of this step
+
     Second route: if g is a Hamiltonian, the bracket plus the partial derivative of f with respect to time is the rate
     of f along every motion. This rate is the derivative of f as a function of t, with accelerations from d'Alembert's
     principle.
@@ -137,7 +138,6 @@ def _letters(coordinates: Sequence[Coordinate]) -> dict[Symbol, str]:
 
 
 def _called(of: Any) -> str:
-    """Return the part of a key that names a function: the key of its step, its symbol, or "formula"."""
     name = of.key if isinstance(of, Quantity) else str(getattr(of, "symbol", of))
     return name if name.isidentifier() else "formula"
 

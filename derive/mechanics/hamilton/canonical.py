@@ -45,6 +45,7 @@ def hamiltonian(of: Quantity, symbol: str | None = None, key: str = "hamiltonian
     """Hamiltonian, H(q, p, t) = sum of p q_dot - L, with the rates q_dot in terms of the momenta.
 
     of   the Lagrangian, J
+
     Steps derive the momenta, and the rates in terms of the momenta.
     Second route: H is T_2 - T_0 + U, where T_2 and T_0 are the parts of T of degree 2 and 0 in the rates. With the
     momenta as functions of the rates, dH/dp is q_dot, and -dH/dq is the sum of F . dr/dq + m v . d(dr/dq)/dt. Here F
@@ -123,6 +124,7 @@ def hamilton_equations(of: Quantity) -> tuple[Quantity, ...]:
     f = 0.
 
     of   the Hamiltonian, J
+
     Keys: canonical_x for the coordinate x, and canonical_p_x for its momentum p_x.
     Second route: with the momenta as functions of the rates, the second equation is d'Alembert's principle, sum of
     (m a - F) . dr/dq = 0.
@@ -237,6 +239,7 @@ def in_momenta(quantity: Quantity, of: Quantity, key: str | None = None) -> Quan
 
     quantity   a scalar in coordinates and rates
     of         the Hamiltonian of the same system, J
+
     Check: with the momenta as functions of the rates, the result is the original quantity.
     Errors: the quantity contains no rate of a coordinate of this Hamiltonian, or belongs to another system.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.1.

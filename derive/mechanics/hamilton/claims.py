@@ -47,13 +47,7 @@ def conserved(kind: str | None) -> Predicate:
 
 
 def seen_by_the_rest(constants: bool, driven: bool | None) -> Predicate:
-    """Judge whether the result uses constant momenta if and only if `constants` is true.
-
-    If `driven` is true, T must also differ from zero where all rates vanish, and the result must differ from U. If
-    `driven` is false, T must vanish where all rates vanish, and the result must be U. If `driven` is None, T and U are
-    not tested. For a given L, whose T and U are unknown, the result must use constant momenta, and `constants` must be
-    true.
-    """
+    """Judge whether the result uses constant momenta if and only if `constants` is true."""
 
     def is_so(facts: Judged) -> bool:
         kept = [role for role in facts.quantities if role.startswith("constant_")]

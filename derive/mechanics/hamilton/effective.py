@@ -59,6 +59,7 @@ def conserved(of: Quantity, q: Coordinate, value: str | Expr | None = None, key:
     q       a coordinate that L does not contain
     value   the symbol of the constant, by default p_q; or the initial value of the momentum, such as I_z*S. An initial
             value makes the result an equation for the rates, p_q = I_z*S, which `put_in` substitutes in other equations
+
     Second route: the sum of m v . dr/dq over the mass points, and of e A . dr/dq over charges e in magnetic fields.
     The time derivative of this sum, as a function of t, is the sum of (m a - F) . dr/dq, which vanishes by d'Alembert's
     principle.
@@ -109,15 +110,12 @@ def conserved(of: Quantity, q: Coordinate, value: str | Expr | None = None, key:
 
 
 def _pushed(matter: Matter, q: Coordinate) -> Expr:
-    """Return the generalized force along a coordinate, from all forces that the Lagrangian does not contain."""
     return tidied(explicit(matter.other_force_along(q.symbol)))
 
 
 def _put_aside(of: Quantity, constants: Sequence[Quantity], verb: str) -> list[Coordinate]:
     """Return the coordinates of the Lagrangian except the coordinates of the constant momenta. At least one coordinate
-    must remain. Reject momenta of another Lagrangian, momenta that are given twice, and forces outside L that act along
-    the remaining coordinates. For an effective potential energy, only forces that act where all rates vanish are
-    rejected."""
+    must remain."""
     found = coordinates_of(of)
     for each in constants:
         q = each.needed(Constant).coordinate
@@ -323,6 +321,5 @@ def _without_constants(of: Quantity) -> str:
 
 
 def _is_driven(of: Quantity) -> bool:
-    """Whether T has a part without rates."""
     kinetic = explicit(of.needed(Energies).kinetic.value)
     return bool(tidied(bound(kinetic, {q.rate: ZERO for q in coordinates_of(of)})) != 0)

@@ -60,6 +60,7 @@ def rates_by_momenta(
     of        the Lagrangian, J
     given     momenta of some coordinates of the Lagrangian; the results contain the symbols of these momenta
     varying   whether these symbols vary in time, as in a Hamiltonian; otherwise they are constant
+
     Keys: rate_x for the coordinate x, if `key` is "rate"; for constant momenta p_x and p_y, rate_x_by_p_x_p_y.
     Check: the rates substituted in the momenta give the symbols of the momenta.
     Outcomes: alone (one rate), together (several).
@@ -136,7 +137,6 @@ def _solved(momenta_of: Mapping[Symbol, Expr], rates: Sequence[Symbol]) -> dict[
 
 
 def _coupled(matrix: Matrix) -> list[list[int]]:
-    """Return the sets of indices that are coupled by off-diagonal entries of the matrix."""
     blocks: list[set[int]] = []
     for i in range(matrix.rows):
         tied = {i, *(j for j in range(matrix.cols) if matrix[i, j] != 0)}

@@ -51,6 +51,7 @@ def momentum_jump(impact: Impact, kinetic: Quantity, q: Coordinate, key: str | N
     impact    the system, its state and the impulses
     kinetic   the kinetic energy T of the system, J, from `kinetic_energy_of`
     q         a coordinate of the system
+
     Second route: p - p_before is the sum of m (v - v_before) . dr/dq over mass points, and the right side is the
     derivative of the power J . v with respect to q_dot.
     Outcomes: struck (an impulse acts along q), free (no impulse acts along q).
@@ -121,6 +122,7 @@ def meeting_condition(impact: Impact, number: int, key: str | None = None) -> Qu
 
     impact   the system, its state and the collisions; e is the coefficient of restitution of the collision
     number   the index of the condition, from 0; the conditions of constraints come last
+
     Check: the velocities come from the places as functions of time, with each coordinate as its Taylor series.
     Outcomes: together (equal velocities), elastic, rebound (0 < e < 1), kept (a constraint).
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapters 4 and 6.
@@ -166,6 +168,7 @@ def rates_after(impact: Impact, jumps: Sequence[Quantity], conditions: Sequence[
     impact       the system, its state and the impulses
     jumps        the results of `momentum_jump`, one for each coordinate
     conditions   the results of `meeting_condition`, one for each unknown impulse
+
     Keys: x_dot_after for the coordinate x, and the symbol of each impulse.
     Check: as `solved_for`.
     Errors: a jump or a condition is missing.
@@ -189,6 +192,7 @@ def energy_after(
     impact    the system, its state and the impulses
     kinetic   the kinetic energy T of the system, J
     after     the rates just after the impact, from `rates_after`
+
     Check: as `put_in`.
     Source: none needed: substitution.
     """
@@ -214,6 +218,7 @@ def work_of_impulses(
     impact   the system, its state and the impulses
     energy   the kinetic energy T just after the impact, J, from `energy_after`
     after    the rates just after the impact and the unknown impulses, from `rates_after`
+
     Second route: the work of each impulse is J . (v + v_before)/2, where v is the velocity of its point of action.
     Outcomes: zero (T does not change), lost (T decreases), gained (T increases), generic (the sign is unknown).
     Source: Routh, *Dynamics of a System of Rigid Bodies*, elementary part, section 346.

@@ -127,6 +127,7 @@ def momentum_law(impact: Impact, q: Coordinate, key: str | None = None) -> Quant
 
     impact   the system, its state and the impulses
     q        a coordinate that moves the centre of mass of one body
+
     Second route: the integral of Lagrange's equations over the time of the impact, for a displacement of this body
     only.
     Outcomes: struck (impulses along the direction change the momentum), kept (no impulse changes it).
@@ -180,6 +181,7 @@ def angular_momentum_law(impact: Impact, q: Coordinate, key: str | None = None) 
 
     impact   the system, its state and the impulses
     q        a coordinate that rotates one body
+
     Second route: the integral of Lagrange's equations over the time of the impact, for the rotation of these bodies.
     Outcomes: kept (about a fixed axis, and the impulses have no torque about it), struck (about a fixed axis),
     about_centre.

@@ -10,12 +10,7 @@ from derive.steps.rule import Judged, handed_on_by
 
 
 def of_its_coordinate(facts: Judged, fact: OfCoordinate) -> bool:
-    """Whether the fact names the coordinate of the result.
-
-    A partial derivative must be with respect to this coordinate or its rate; an acceleration must be the acceleration
-    of this coordinate. Any other result has the right coordinate if its input `coordinate` is this coordinate, or if
-    there is no such input.
-    """
+    """Whether the fact names the coordinate of the result."""
     q, symbol = fact.coordinate.symbol, facts.symbol
     if isinstance(symbol, Partial):
         return symbol.args[1] in (q, rate(q))

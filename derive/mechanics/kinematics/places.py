@@ -82,10 +82,7 @@ def point(*components: Any) -> Location:
 
 def angle_of(direction: Location) -> Expr | None:
     """Return the angle of a unit vector in a plane, measured counterclockwise from the first axis; None if the angle is
-    unknown.
-
-    The result is a number, or a multiple of a right angle plus or minus an angle that the components contain.
-    """
+    unknown."""
     x, y = direction.components
     if x.is_number and y.is_number:
         return atan2(y, x)

@@ -95,6 +95,7 @@ def dissipation_function(system: WithForces, symbol: str = "D", key: str = "diss
 
     system   the system with the dampers; c is the force per velocity or, for a damped coordinate, the generalized force
              per rate
+
     Second route: the power of the drag forces, sum of F . v, is -2 D.
     Errors: the system has no dampers.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.5.
@@ -168,6 +169,7 @@ def applied_force(of: Quantity, q: Coordinate, key: str | None = None) -> Quanti
 
     of   the Lagrangian, J, of a system with given forces, couples or damping
     q    one of the coordinates of the system
+
     Second route: Q is the derivative of the power of all these forces, sum of F . v, with respect to q_dot, with F held
     constant.
     Outcomes: generic, zero.
@@ -269,6 +271,7 @@ def forced_equation(of: Quantity, q: Coordinate, derivatives: Sequence[Quantity]
     of            the Lagrangian, J
     q             a coordinate of this Lagrangian
     derivatives   the steps for dL/dq, dL/dq_dot and the rate of dL/dq_dot, if there are such steps
+
     If forces without a potential energy act on the system, a step derives their generalized force Q.
     Second route: d'Alembert's principle, sum of (m a - F) . dr/dq = 0, from positions and forces. For a given L, a
     further route is the energy identity.
@@ -327,8 +330,7 @@ def forced_equation(of: Quantity, q: Coordinate, derivatives: Sequence[Quantity]
 def with_derivatives(derivatives: Sequence[Quantity], right: Expr, moving: Sequence[Symbol]) -> list[Form]:
     """Return the line with the derivatives of L, d/dt (m r^2 theta_dot) + m g r sin(theta) = right.
 
-    The line is left out if it is as short as the equation. This is so if the momentum is one term without coordinates,
-    such as m x_dot, and dL/dq is at most one term.
+    The line is left out if it is as short as the equation.
     """
     if not derivatives:
         return []
@@ -360,8 +362,7 @@ def _between(constraints: Sequence[Constraint]) -> str:
 def _functions_told(constraints: Sequence[Constraint]) -> dict[str, tuple[Relation, Relation]]:
     """Return the functions that vanish where the constraints hold, such as f_x = x - R sin(theta).
 
-    The index of f is the index of the multiplier, here lambda_x. For multipliers without an index, the functions are
-    f_1, f_2 and so on, or f if there is only one constraint. If the gradient of f does not have the length 1, the
+    The index of f is the index of the multiplier, here lambda_x. If the gradient of f does not have the length 1, the
     multiplier of the force N is also stated, lambda = N/sqrt(1 + x^2/b^2).
     """
     found = {}
@@ -380,8 +381,7 @@ def _functions_told(constraints: Sequence[Constraint]) -> dict[str, tuple[Relati
 
 def _multipliers_told(constraints: Sequence[Constraint]) -> dict[str, Symbol]:
     """Return the multipliers of the first four constraints, because a sentence names at most four. The key
-    `multiplier_2` belongs to `function_2`. If the gradient does not have length 1, the multiplier is not a force and is
-    omitted."""
+    `multiplier_2` belongs to `function_2`."""
     return {f"multiplier_{i}": each.force for i, each in enumerate(constraints[:4], 1) if each.gradient == 1}
 
 
@@ -393,7 +393,6 @@ def _multiplier_by_work(of: Constraint) -> Expr:
 
 
 def _sides(found: Relation, moving: Sequence[Symbol], constraints: Sequence[Constraint]) -> Relation:
-    """Write terms with constraint forces, and terms without coordinates, rates and accelerations, on the right side."""
     whole = explicit(found.left) - explicit(found.right)
     whole = whole.expand()
     letters = [c.force for c in constraints]

@@ -77,14 +77,12 @@ def _is_conserved(facts: Judged) -> bool:
 
 
 def _is_energy(facts: Judged) -> bool:
-    """Whether the result is the kinetic energy of the mass points plus the potential energy."""
     L = facts.quantities["lagrangian"]
     whole = L.needed(Matter).kinetic_energy() + explicit(L.needed(Energies).potential.value)
     return bool(equal(_in_rates(facts), whole))
 
 
 def _is_worked_on(facts: Judged) -> bool:
-    """Whether the power of the forces outside L is not zero; the rate of the result is then not only -dL/dt."""
     L = facts.quantities["lagrangian"]
     matter, kept = L.needed(Matter), L.fact(Constrained)
     power = Add(*(rate(q) * matter.other_force_along(q) for q in matter.coordinates))
@@ -189,9 +187,7 @@ def free_bodies(facts: Judged) -> int:
 
 
 def parts_of_the_kinetic_energy(facts: Judged, _: str) -> bool:
-    """Whether the word `made` fits the system. Every word except "any" requires a single body and no particle. The word
-    "both" requires a rotation, and a centre of mass that moves. "axis", for motion in a plane, and "point", for motion
-    in space, require that the body turns about a point at rest."""
+    """Whether the word `made` fits the system."""
     system, made = facts.subject.body, facts.words["made"]
     if made == "any":
         return True
@@ -247,10 +243,7 @@ def is_stretched(facts: Judged) -> bool:
     """Whether the symbol of the result is a multiplier that differs from the constraint force.
 
     The symbol is the force if the gradient of the condition f with respect to the position r of the particle has the
-    length `gradient`. This length is 1 except for curves. Virtual work gives the gradient (J J^T)^-1 J a. Here J
-    contains the derivatives of r with respect to the coordinates, and a contains the derivatives of f. The length of
-    this gradient is computed numerically. If the position or the condition is not given, the symbol is taken to be the
-    force.
+    length `gradient`.
     """
     place, condition = (facts.inputs.get(role) for role in ("place", "condition"))
     if not place or condition is None:
@@ -303,11 +296,6 @@ def functions_of_its_constraints(facts: Judged, outcome: str) -> bool:
     """Whether the factors of the constraint forces in the equation agree with the functions that the sentence states.
 
     The factor of each force must be the derivative of a stated function with respect to the coordinate of the equation.
-    If the function contains rates, the rate of this coordinate replaces the coordinate. If the sentence also states a
-    multiplier in terms of a force, the factor is this derivative times the ratio of the multiplier to the force.
-    Friction terms in the generalized force, which are proportional to a constraint force, are not counted. The word
-    under `between` must be "coordinates", "rates" or "both", as the stated functions require, and for one function
-    "coordinates_once" or "rates_once".
     """
     told = {role[9:]: explicit(value.right) for role, value in facts.inputs.items() if role.startswith("function_")}
     stated = {role[11:]: v for role, v in facts.inputs.items() if role.startswith("multiplier_")}
@@ -334,11 +322,7 @@ def _slope(function: Expr, q: Any) -> Expr:
 
 
 def multiplier_of(i: int) -> Naming:
-    """Return the predicate for the multiplier of the i-th function in a sentence.
-
-    The factor of this multiplier in the equation must be the derivative of the function with respect to the coordinate
-    of the equation, or with respect to the rate of this coordinate.
-    """
+    """Return the predicate for the multiplier of the i-th function in a sentence."""
 
     def is_so(facts: Judged, letter: Any) -> bool:
         q = facts.inputs["coordinate"]
@@ -362,7 +346,6 @@ noether_with_gain: Predicate = negated(noether_symmetry)
 
 
 def _has_speed(facts: Judged, places: list[tuple[Expr, ...]]) -> bool:
-    """Whether the result is the square of the speed of one of these points."""
     moving = list(facts.subject.body.coordinates)
     return any(equal(facts.result, Add(*(by_functions_of_time(c, moving) ** 2 for c in place))) for place in places)
 
@@ -436,8 +419,7 @@ acceleration_without_constraints: Predicate = both(lasts, negated(_is_constraine
 def follows_from_these_equations(facts: Judged, outcome: str) -> bool:
     """Whether the named equations and the earlier unknowns give the result; true if the sentence names no equations.
 
-    With trial numbers for the other symbols, these equations are linear in the unknowns. They are solved for the
-    unknown of the step, without the formula of the step.
+    With trial numbers for the other symbols, these equations are linear in the unknowns.
     """
     equations = [q for role, q in facts.quantities.items() if role.startswith("equation_")]
     if not equations:

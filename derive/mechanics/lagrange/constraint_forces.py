@@ -76,7 +76,6 @@ class _Problem:
 
     @property
     def solved(self) -> list[Symbol]:
-        """The coordinates whose accelerations are unknowns."""
         return [q for q in self.moving if q not in self.keeping]
 
     @property
@@ -115,7 +114,6 @@ class _Problem:
 
     @property
     def residuals_known(self) -> list[Expr]:
-        """The residuals with the values of the coordinates that constraints determine."""
         return [row.xreplace(self.known) for row in self.residuals]
 
 
@@ -150,6 +148,7 @@ def accelerations(*equations: Quantity) -> tuple[Quantity, ...]:
     """Accelerations q_ddot, from the equations of motion, and from the constraints if there are any.
 
     equations   the equations of motion, one for each coordinate of one Lagrangian
+
     Keys: acceleration_x for the coordinate x.
     Outcomes: generic (with constraints), unconstrained, isolated (from the equations that the sentence names),
     eliminated (from these equations, after other unknowns are eliminated), zero.
@@ -170,6 +169,7 @@ def multipliers(*equations: Quantity, keeping: Sequence[Coordinate] = ()) -> tup
 
     equations   the equations of motion, one for each coordinate of one Lagrangian
     keeping     coordinates whose accelerations remain in the forces; the equations of these coordinates are not used
+
     Keys: the symbols of the forces.
     Second route: d'Alembert's principle, as for `accelerations`.
     Outcomes: generic (the multiplier is the constraint force), negative (the multiplier is the constraint force on a
@@ -239,6 +239,7 @@ def constraint_rate(of: Quantity, number: int = 0, key: str | None = None) -> Qu
 
     of       the Lagrangian of a system with constraints
     number   the index of the constraint, 0 for the first
+
     Outcomes: in_rates, in_coordinates, constant (the constraint is y = a, with one coordinate).
     Check: differentiate with each coordinate as its Taylor series in t.
     Errors: there is no constraint with this index.
@@ -345,8 +346,7 @@ class _Isolation:
     @property
     def _constant(self) -> dict[Quantity, Relation]:
         """Return each equation q_ddot = 0 of a constraint q = constant, with this constraint. The sentence states both
-        in words, "with r = l and r_ddot = 0". The mapping is empty if one equation is substituted in another, or if
-        there are no other equations."""
+        in words, "with r = l and r_ddot = 0"."""
         constraints = self.problem.constraints
         first = len(self.problem.used)
         numbers = [i - first for i in self.found.equations if i >= first]
@@ -371,7 +371,6 @@ class _Isolation:
 
     @property
     def _in_use(self) -> list[Quantity]:
-        """Return the equations in the order of their use: those of the substitutions, then the last one."""
         used = [each.equation for each in self._substituted]
         order = [*used, *(i for i in range(len(self.equations)) if i not in used)]
         return [self.equations[i] for i in order]
@@ -557,7 +556,6 @@ def _check_one_sided(each: Constraint, value: Expr | None) -> None:
 
 
 def _places(problem: _Problem) -> tuple[Expr, ...]:
-    """Return the position of the only mass point; empty if there is not exactly one."""
     points = problem.lagrangian.needed(Matter).points
     return points[0].place if len(points) == 1 else ()
 
@@ -584,6 +582,7 @@ def constraint_force(
     forces   results of `multipliers` for one system
     along    coordinate -> its change per unit of the displacement: `{x: sin(theta), y: cos(theta)}`
     symbol   the symbol of the component, which is a force if the displacement is a length
+
     Second route: by Newton's law along the displacement, N is the sum of m a . dr over the mass points, minus the work
     of all other forces.
     Outcomes: generic, zero.
@@ -676,7 +675,6 @@ def _kind_of_acceleration(kind: str) -> str | None:
 
 
 def _solution(problem: _Problem) -> dict[Symbol, Expr]:
-    """Return the accelerations and the multipliers; reject a force that a surface or a string cannot exert."""
     found = _solved(problem)
     kept = problem.lagrangian.fact(Constrained)
     for each in kept.constraints if kept is not None else ():
@@ -686,7 +684,6 @@ def _solution(problem: _Problem) -> dict[Symbol, Expr]:
 
 @lru_cache(maxsize=16)
 def _solved(problem: _Problem) -> dict[Symbol, Expr]:
-    """Solve the linear equations for the accelerations and the multipliers."""
     unknowns = problem.unknowns
     rows = [row.xreplace(problem.known) for row in problem.residuals]
     matrix = ImmutableDenseMatrix([[derivative(row, u) for u in unknowns] for row in rows])
@@ -722,7 +719,6 @@ def _has_no_inverse(matrix: DomainMatrix, names: Mapping[Expr, Dummy]) -> bool:
 
 
 def _undetermined(problem: _Problem, matrix: ImmutableDenseMatrix) -> Rejected:
-    """Return the error for equations without a unique solution."""
     count = len(problem.solved)
     held = matrix[count:, :count]
     if len(problem.constraints) and _is_singular(ImmutableDenseMatrix(held * held.T)):

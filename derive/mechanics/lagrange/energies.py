@@ -78,11 +78,7 @@ class Mover:
 
 
 def movers(system: System, lagrangian: str = "") -> list[Mover]:
-    """Return the particles and bodies with a term (1/2) M v^2, with the indices of their speeds: v, or v_1, v_2, ...
-
-    If a body has a name, the first word of this name replaces the number. If the system has a name or the Lagrangian
-    has an index, the first word of this name and this index follow.
-    """
+    """Return the particles and bodies with a term (1/2) M v^2, with the indices of their speeds: v, or v_1, v_2, ..."""
     found = [Mover(particle.mass, particle.at, "", False) for particle in system.particles]
     found += [
         Mover(placed.body.mass, placed.centre, placed.body.called.partition(" ")[0], True)
@@ -223,7 +219,6 @@ def _factored(component: Expr) -> Expr:
 
 
 def _turnings(system: System) -> list[Turning]:
-    """Return the rotations of the bodies of a system; identical bodies have one common step for their inertia."""
     found: list[Turning] = []
     known: list[tuple[PlacedBody, Any]] = []
     for i, placed in enumerate(system.bodies):
@@ -319,8 +314,7 @@ def kinetic_energy_of(system: System, symbol: str | None = None, key: str = "kin
 
 def _made_of(system: System, moved: Sequence[Mover], turnings: Sequence[Turning]) -> str:
     """Return the word for the parts of the kinetic energy of a single body: "both" for the motion of the centre of mass
-    and the rotation about the centre of mass, "axis" or "point" for the rotation about a fixed axis or point alone. For
-    any other system, the word is "any"."""
+    and the rotation about the centre of mass, "axis" or "point" for the rotation about a fixed axis or point alone."""
     if system.particles or len(system.bodies) != 1 or len(turnings) != 1:
         return "any"
     if moved:
@@ -349,7 +343,6 @@ def _level_of_values(turnings: list[Turning]) -> Level | None:
 
 
 def _behind(system: System) -> list[Quantity]:
-    """Return the steps that derived the values of bodies; later quantities contain the symbols of these steps."""
     return [lettered(value) for placed in system.bodies for value in getattr(placed.body, "values", ())]
 
 
@@ -358,11 +351,7 @@ LITTLE_LONGER = 2
 
 
 def _terms_together(value: Expr, moving: Sequence[Symbol]) -> Expr:
-    """Simplify term by term, or expand if terms of several bodies then combine: -(M + m) g l cos(theta).
-
-    Terms with the same coordinate are put together if this makes the energy only a little longer: (M - m) g x - M g l,
-    not M g (x - l) - m g x.
-    """
+    """Simplify term by term, or expand if terms of several bodies then combine: -(M + m) g l cos(theta)."""
     collected = with_constants_together(value.expand(), moving)
     forms = [by_terms(value), by_terms(value.expand()), collected]
     shortest = min(forms, key=length)
@@ -374,7 +363,6 @@ def _terms_together(value: Expr, moving: Sequence[Symbol]) -> Expr:
 
 
 def _count(value: Expr, letters: Collection[Symbol]) -> int:
-    """Return how often the letters occur in an expression."""
     return sum(part in letters for part in preorder_traversal(value))
 
 
@@ -395,8 +383,8 @@ def potential_energy_of(system: System, symbol: str | None = None, key: str = "p
 
     The height y of a particle or a centre of mass is measured from the origin. By convention U is zero for weights at
     the origin and for springs at their natural length.
-    Second route: the forces do the work -dU, so -dU/dq = sum of F . dr/dq for each coordinate. The
-    same is true for the time t in place of q.
+    Second route: the forces do the work -dU, so -dU/dq = sum of F . dr/dq for each coordinate, and -dU/dt = sum of
+    F . dr/dt for the time t.
     Outcomes: generic, zero.
     Source: Taylor, *Classical Mechanics*, section 4.2.
     """
@@ -461,8 +449,7 @@ FEW_SPRINGS, SHORT = 4, 6  # greatest number of extensions that a sentence names
 
 def _stretches(springs: Sequence[Any], moving: Sequence[Symbol]) -> dict[str, tuple[Expr, Expr]]:
     """Return the extension of each spring for the sentence: as length minus natural length, and from the force of the
-    spring. Return an empty mapping if there are many springs. Also return an empty mapping if one extension is long,
-    contains a power, or contains no coordinate, or if one natural length is zero."""
+    spring."""
     found: dict[str, tuple[Expr, Expr]] = {}
     for i, each in enumerate(springs, 1):
         constant = derivative(each.pull, each.distance)
@@ -489,6 +476,7 @@ def magnetic_term_of(system: System, symbol: str = "L_B", key: str = "magnetic_t
     """Term of uniform magnetic fields in a Lagrangian, sum of q v . A with the vector potential A = (1/2) B x r, J.
 
     system   charges q, in C, in magnetic fields B, in T
+
     Second route: for this term L_B, dL_B/ds - d/dt dL_B/ds_dot is the virtual work of the forces q v x B along each
     coordinate s.
     Outcomes: alone (one charge in a field), several.

@@ -72,11 +72,7 @@ def squared_below_roots(value: Expr, letters: Sequence[Symbol]) -> Expr:
 
 
 def kinetic_first(value: Expr, names: Sequence[Symbol]) -> list[Form]:
-    """Return the last line of an energy with its terms in order.
-
-    The terms of second degree in the given names are first, in the order of the names. Terms without these names
-    follow, and terms of first degree are last.
-    """
+    """Return the last line of an energy with its terms in order."""
 
     def rank(term: Expr) -> tuple[bool, int, bool, bool, str]:
         first = next((i for i, name in enumerate(names) if term.has(name)), len(names))

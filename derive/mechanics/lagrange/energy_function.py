@@ -93,8 +93,8 @@ def _powers_of_conditions(of: Quantity) -> list[Expr]:
 def told_of_excess(value: Expr, of: Quantity, rates: Sequence[Symbol]) -> dict[str, tuple[Any, Any]]:
     """Return T + U - h in two forms, the shorter one first; nothing if T + U = h, or if T and U are unknown.
 
-    One form is the difference. The other is T_1 + 2 T_0, where T_1 and T_0 are the parts of T of degree 1 and 0 in the
-    rates.
+    One form is the difference of energies; the other is T_1 + 2 T_0, where T_1 and T_0 are the parts of T of degree 1
+    and 0 in the rates.
     """
     if energies_of(of) is None:
         return {}
@@ -120,6 +120,7 @@ def energy_function(of: Quantity, symbol: str | None = None, key: str = "energy_
     """Energy function of a Lagrangian, h = sum of q_dot dL/dq_dot - L.
 
     of   the Lagrangian, J
+
     Second route: T_2 - T_0 + U, where T_2 and T_0 are the parts of T of degree 2 and 0 in the rates. For a given L, the
     second route is the rate of h by the energy identity, and a check is the derivative of L with respect to a common
     factor of all rates, minus L.
@@ -188,6 +189,7 @@ def energy_function_rate(of: Quantity, key: str | None = None) -> Quantity:
     and df/dt are partial derivatives with respect to time, and the constraints are f = 0.
 
     of   the energy function h, J
+
     Steps derive the generalized forces Q. For a constraint linear in the rates, the terms without rates replace df/dt.
     Second route: the time derivative of h as a function of t, minus the sum of q_dot (m a - F) . dr/dq, which vanishes
     by d'Alembert's principle.

@@ -82,6 +82,7 @@ def given_lagrangian(
     function   a formula in coordinates, their rates and the time
     acting     additional forces along coordinates: couples, and drag against a rate
     kind       the kind of L, an energy for a mechanical system
+
     Expressions under square roots are assumed to be positive, so that L is real.
     Errors: the formula contains no rate of a coordinate, or it contains an acceleration; a force acts along a
     coordinate that the formula does not contain.

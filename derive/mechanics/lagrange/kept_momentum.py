@@ -33,6 +33,7 @@ def value_kept(momentum: Quantity, value: Expr, matter: Matter, key: str) -> Qua
     momentum   the result of `conserved`
     value      the initial value c of the momentum, a premise
     matter     the mass points and forces of the system
+
     Second route: p_q is the sum of m v . dr/dq over the mass points, and of e A . dr/dq over charges e in magnetic
     fields. The time derivative of p_q as a function of t is the sum of (m a - F) . dr/dq, which vanishes by
     d'Alembert's principle.

@@ -152,6 +152,7 @@ def equation_of_motion(
     of            the Lagrangian, J
     q             a coordinate of this Lagrangian
     derivatives   whether steps derive the force dL/dq, the momentum dL/dq_dot and the rate of the momentum
+
     Second route: d'Alembert's principle, sum of (m a - F) . dr/dq = 0, from positions and forces. For a given L, a
     further route is the energy identity.
     Outcomes: generic, cyclic (L does not contain q, so the momentum of q is constant).
@@ -216,7 +217,7 @@ def _without_common_factor(left: Expr, moving: Sequence[Symbol]) -> Expr:
     """Divide by common positive factors: m l^2 theta_ddot + m g l sin(theta) becomes l theta_ddot + g sin(theta).
 
     Factors that contain a coordinate and factors in a denominator remain. Numeric factors that are common to all terms,
-    also inside brackets, are divided out. The result is not longer than the given sum.
+    also inside brackets, are divided out.
     """
     terms = Add.make_args(left)
     factors = Mul.make_args(common_factor(list(terms)))
@@ -254,7 +255,6 @@ def _has_some_fractions(factor: Expr) -> bool:
 
 
 def _product(*factors: Expr) -> Expr:
-    """Return the product, with its sums in brackets."""
     written = any(each.is_Add for each in factors)
     return Mul(*(each for each in factors if each != 1 or not written), evaluate=not written)
 
@@ -271,6 +271,7 @@ def equations_of_motion(of: Quantity, derivatives: bool = True) -> tuple[Quantit
 
     of            the Lagrangian, J
     derivatives   whether steps derive dL/dq, dL/dq_dot and the rate of dL/dq_dot
+
     Keys: motion_x for the coordinate x.
     Second route: as `equation_of_motion`.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.4.
@@ -302,6 +303,7 @@ def generalized_force(of: Quantity, q: Coordinate, key: str | None = None) -> Qu
 
     of   the Lagrangian, J
     q    a coordinate of this Lagrangian
+
     Second route: the sum of F . dr/dq over the forces in L, and of m v . d(dr/dq)/dt over the mass points. For charges
     e in magnetic fields, the time derivative of the sum of e A . dr/dq is added.
     Outcomes: generic, zero (L does not contain q).
@@ -344,6 +346,7 @@ def generalized_momentum(of: Quantity, q: Coordinate, key: str | None = None) ->
 
     of   the Lagrangian, J
     q    a coordinate of this Lagrangian
+
     Second route: the sum of m v . dr/dq over the mass points, and of e A . dr/dq over charges e in magnetic fields.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.6.
     """
@@ -373,6 +376,7 @@ def momentum_rate(momentum: Quantity, q: Coordinate, key: str | None = None) -> 
 
     momentum   the generalized momentum dL/dq_dot
     q          the coordinate of the momentum
+
     Check: differentiate with each coordinate as its Taylor series in t.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.4.
     """

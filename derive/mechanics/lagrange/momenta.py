@@ -46,6 +46,7 @@ def conjugate(of: Coordinate) -> Coordinate:
     """Return the symbol p_q of the momentum of a coordinate, for functions in phase space: `x*p_y - y*p_x`.
 
     of   the coordinate, such as an angle or a length
+
     Errors: no kind of quantity is the momentum of this coordinate.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.1.
     """
@@ -68,6 +69,7 @@ def conjugate_momentum(of: Quantity, q: Coordinate, symbol: str | None = None, k
 
     of   the Lagrangian, J
     q    a coordinate of this Lagrangian
+
     Second route: the sum of m v . dr/dq over the mass points, and of e A . dr/dq over charges e in magnetic fields.
     Outcomes: generic, zero.
     Errors: L contains neither q nor its rate.
@@ -102,6 +104,7 @@ def momenta(of: Quantity) -> tuple[Quantity, ...]:
     """Momenta of all coordinates, p_q = dL/dq_dot.
 
     of   the Lagrangian, J
+
     Keys: p_x for the coordinate x.
     Second route: as `conjugate_momentum`.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.1.

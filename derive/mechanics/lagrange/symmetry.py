@@ -52,6 +52,7 @@ def noether(
     of       the Lagrangian, J
     shift    coordinate -> xi, a formula in coordinates and time: each q becomes q + epsilon xi
     gained   F, a formula in coordinates and time, if the shift adds epsilon dF/dt to L; by default zero
+
     Steps show that L is invariant up to dF/dt, and derive the momenta.
     Second route: the time derivative of Q as a function of t is the sum of xi (m a - f) . dr/dq with the forces f; this
     sum vanishes by d'Alembert's principle. Also, Q + F is the sum of m v . dr over the mass points, and of e A . dr

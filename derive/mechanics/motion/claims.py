@@ -53,9 +53,7 @@ def released(at_rest: bool) -> Predicate:
 
 
 def moves_off(wanted: int | None) -> Predicate:
-    """Judge the sign of a rate. With a sign `wanted`, the rate must have this sign just after the start at all trial
-    numbers, and the result must have the same sign. With None, the trial numbers must not determine the sign, and the
-    result must be written without a minus sign."""
+    """Judge the sign of a rate."""
 
     def is_so(facts: Judged) -> bool:
         known = facts.inputs["known"]
@@ -89,9 +87,7 @@ def arrives_as_told(facts: Judged, outcome: str) -> bool:
     """Whether, numerically, the motion reaches each place if and only if the stated condition holds.
 
     A place that was derived from the motion is not tested. If the result contains a rate with its sign at the start,
-    each place must also lie ahead of the start or, if the motion turns back first, behind it. If the system has a
-    surface, a sentence with a condition must also require that contact lasts; if the system has a string, that the
-    string stays taut; for any other system it must require neither.
+    each place must also lie ahead of the start or, if the motion turns back first, behind it.
     """
     kept = [fact for q in facts.quantities.values() for each in q.ancestors() if (fact := each.fact(Constrained))]
     one_sided = {"surface": "contact", "string": "taut"}
@@ -148,7 +144,6 @@ def _is_reached_just_where(come: Arrival, told: Relation | None) -> bool:
 
 
 def _trials_of(come: Arrival) -> list[Point]:
-    """Trial numbers with which the motion reaches the place."""
     values = (come.squared, come.begun.start, _finite(come.place))
     letters = set[Any]().union(*(letters_of(with_numbers(each)) for each in values)) - {come.begun.coordinate}
     reached = [] if come.reached is None else [with_numbers(come.reached)]
@@ -228,11 +223,7 @@ def _gets_there_as_told(facts: Judged) -> bool:
 
 
 def turned_back(facts: Judged) -> bool:
-    """Whether, numerically, the motion turns back before the place where the force vanishes, or exactly at this place.
-
-    At this place the force is zero, and the squared rate is negative (zero if the result is N >= 0). At the start
-    the force is positive, and the squared rate is not negative.
-    """
+    """Whether, numerically, the motion turns back before the place where the force vanishes, or at this place."""
     just_there = facts.result.operator == ">="
     unknown, squared, force = (facts.inputs[role] for role in ("unknown", "squared", "force"))
     ends = [_letter_at(unknown, end) for end in (facts.inputs["start"], facts.inputs["place"].right)]
@@ -316,11 +307,7 @@ def needs_no_friction(facts: Judged) -> bool:
 
 
 def sticks_where(wanted: bool | None) -> Predicate:
-    """Judge whether, numerically, |F| <= mu_s N if and only if the result holds.
-
-    For `wanted=True`: whether |F| <= mu_s N always; for `wanted=False`: whether |F| > mu_s N always. If the result is
-    for one of the two signs of F, numbers with the other sign are not tested, but both signs must occur.
-    """
+    """Judge whether, numerically, |F| <= mu_s N if and only if the result holds."""
 
     def is_so(facts: Judged) -> bool:
         F, N, mu = (with_numbers(facts.inputs[role]) for role in ("friction", "normal", "coefficient"))
@@ -442,10 +429,7 @@ def turns_back_there(facts: Judged, amplitude: Any) -> bool:
 
 
 def pushes_there(facts: Judged, place: Any) -> bool:
-    """Whether the relation gives a value of the unknown of the result, and the force there is not negative.
-
-    If the unknown is a function such as cos(theta), the force is not tested.
-    """
+    """Whether the relation gives a value of the unknown of the result, and the force there is not negative."""
     alone = bool(facts.result.left == place.left) and place.operator == "="
     if not isinstance(place.left, Symbol):
         return alone
@@ -460,10 +444,8 @@ def force_vanishes_there(facts: Judged, place: Any) -> bool:
 
 
 def stays_and_turns(facts: Judged, relation: Any) -> bool:
-    """Whether dL/dq = 0, with the constant coordinates and rates that the sentence states, is equivalent to the result.
-
-    For a condition from an equation of motion, the same values substituted in this equation must yield the result.
-    """
+    """Whether dL/dq = 0, with the constant coordinates and rates that the sentence states, is equivalent to the
+    result."""
     told = {v.left: explicit(v.right) for role, v in facts.inputs.items() if role.startswith(("stays_", "turns_"))}
     if relation.operator != "=" or relation.left == relation.right:
         return False
@@ -566,8 +548,7 @@ def in_flight(facts: Judged, fact: InFlight) -> bool:
     """Whether the fact describes a free flight from the curve on which the particle was.
 
     At t = 0 the particle is at the place of the departure. Its velocity is along the curve and away from the start, and
-    its speed follows from conservation of energy. Afterwards the mass times the acceleration is the sum of all forces
-    except the constraint force.
+    its speed follows from conservation of energy.
     """
     q, angle = fact.coordinate
     before = [fact.in_given_letters(c) for c in fact.path]
@@ -623,7 +604,6 @@ def _where_zero(residual: Expr, s: Symbol) -> list[Expr]:
 
 
 def _trials(value: Expr, fact: InFlight) -> list[Point]:
-    """Trial numbers that satisfy the conditions under which the constraint is lost."""
     letters = letters_of(value)
     return trial_points(letters, *assumptions_about(letters), *map(with_numbers, fact.conditions))
 
@@ -700,7 +680,6 @@ def misses(facts: Judged) -> bool:
 
 
 def _later(fact: InFlight) -> tuple[Expr, ...]:
-    """Times after the departure, in units of the speed at the departure divided by the acceleration."""
     speed = sqrt(Add(*(diff(c, TIME).subs(TIME, 0) ** 2 for c in fact.path)))
     pull = sqrt(Add(*(diff(c, TIME, 2) ** 2 for c in fact.path)))
     return tuple(n * speed / pull for n in LATER)

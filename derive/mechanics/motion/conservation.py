@@ -43,6 +43,7 @@ def rate_under(quantity: Quantity, equations: Sequence[Quantity], key: str | Non
 
     quantity    a scalar Q in coordinates and their rates; the unit of the result is the unit of Q per second
     equations   equations of motion that are linear in the highest rates; as many equations as highest rates
+
     For each equation whose factor is not zero, a step derives the product of the equation and the factor. If there are
     several products, another step adds them.
     Second route: differentiate Q as a function of time and substitute the highest rates from the equations. If Q
@@ -238,7 +239,6 @@ def _gathered(of: Sequence[tuple[Quantity, Expr]], moving: Sequence[Symbol], hig
 
 
 def _added(sides: Sequence[Expr]) -> list[Expr]:
-    """Return the terms of several sums as one list without zeros; if nothing remains, the list is a single zero."""
     return [term for side in sides for term in side.as_ordered_terms() if term != 0] or [Integer(0)]
 
 

@@ -71,6 +71,7 @@ def speed_from_energy(
     start        value of q at the start
     start_rate   value of q_dot at the start, by default 0, for a release from rest
     motion       the equation of motion, or q_ddot from it; needed if the energy does not determine the forces on q
+
     A separate step states that the energy has its initial value.
     Second route: half the derivative of q_dot^2 with respect to q is q_ddot from `motion`, or from d'Alembert's
     principle for the mass points. With this q_ddot the energy is constant. At the start the rate has the given value.
@@ -223,6 +224,7 @@ def rate_by_energy(squared: Quantity, key: str = "rate_by_energy") -> Quantity:
     """Rate of a coordinate, the root of the squared rate, with the sign that the rate has just after the start.
 
     squared   the squared rate q_dot^2, a result of `speed_from_energy`
+
     The result has the sign of the initial rate; at a start from rest, it has the sign of the acceleration.
     Check: the square of the result is q_dot^2.
     Outcomes: grows (the coordinate increases from the start), falls (the coordinate decreases from the start), size
@@ -276,6 +278,7 @@ def period_by_energy(squared: Quantity, order: int = 2, symbol: str | None = Non
 
     squared   q_dot^2 from `speed_from_energy`, 1/s^2, for a release from rest at q = A; it must be even in q
     order     the highest power of A in the series
+
     If the period depends on the amplitude, the series has a symbol of its own, such as tau_lim, and numerical values of
     the period come from the integral.
     Second route: for small amplitudes, 2 pi/omega_0 from the linearised equation of motion. Check: the numerical value

@@ -98,11 +98,7 @@ def places_of_limit(motion: Motion) -> tuple[list[Expr], bool]:
 
 
 def index_of_first(motion: Motion, places: Sequence[Expr]) -> int | None:
-    """Return the index of the place that the motion reaches first; None if it reaches none of them.
-
-    The index is found for several sets of numbers. All sets with which the motion reaches a place must yield the same
-    index; sets with which the body slips at the start are skipped.
-    """
+    """Return the index of the place that the motion reaches first; None if it reaches none of them."""
     seen: set[int | None] = set()
     for point in numbers_for(motion.letters, motion.contact.F):
         try:

@@ -398,6 +398,7 @@ def free_flight(lost: Quantity, at: Any = None, key: str = "flight") -> tuple[Qu
 
     lost   the place where contact is lost, from `leaves_contact`
     at     a symbol for the value of the coordinate at the departure, such as theta_1; by default the value itself
+
     The result has two steps, `flight_x` and `flight_y`: the components of the place, in m, as functions of the time t
     since the departure. A separate step yields the speed v_1 at the departure; the velocity is along the curve on which
     the particle was. For a body that rolled, a third step, `flight_spin`, has the constant angular velocity, in rad/s.
@@ -642,6 +643,7 @@ def landing(flight: Sequence[Quantity], on: Surface | None = None, key: str = "l
 
     flight   the two components of the flight, from `free_flight`
     on       a fixed plane; by default the circle of the motion before the flight
+
     The distance from the plane is a polynomial of degree 2 in the time; the flight ends at the first time after the
     departure at which this distance vanishes. For the circle, the squared distance from the centre minus the squared
     radius is t^3 (a t + b). The factor t^3 is due to the departure, where the particle is on the circle, moves along
@@ -730,12 +732,10 @@ def _orbit_of(known: InFlight) -> Orbit:
 
 
 def _beyond(place: Sequence[Expr], orbit: Orbit) -> Expr:
-    """The squared distance of a place from the centre of a circle, minus the squared radius."""
     return Add(*((c - m) ** 2 for c, m in zip(place, orbit.centre, strict=True))) - orbit.radius**2
 
 
 def _distance(place: Sequence[Expr], target: Plane) -> Expr:
-    """The distance of a place from a plane, positive on the free side."""
     return dot(Location(tuple(place)) - target.through, target.unit_normal)
 
 
@@ -748,7 +748,6 @@ def _gap(place: Sequence[Expr], known: InFlight, target: Plane) -> Expr:
 
 
 def _at(time: Expr, known: InFlight, order: int = 0) -> list[Expr]:
-    """The components of the place of the particle at a time, or their derivatives of the given order."""
     return [diff(c, TIME, order).xreplace({TIME: time}) for c in known.path]
 
 
@@ -997,6 +996,7 @@ def passes_through(flight: Sequence[Quantity], through: Sequence[Any], key: str 
 
     flight    the two components of the flight, from `free_flight`
     through   the place: its horizontal component and its height, m
+
     Positive factors of the condition are omitted. The place must be ahead of the particle.
     Check: compare the heights of the particle and of the place at the time at which their horizontal positions are
     equal. Numerically, this time is positive.

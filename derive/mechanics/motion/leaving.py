@@ -71,6 +71,7 @@ def leaves_contact(force: Quantity, letter: Letter, start: Value, key: str = "le
     force    the normal force, positive while it pushes, in N; or the tension of a string, positive while it pulls
     letter   the unknown: a coordinate, or a function of a coordinate such as `cos(theta)`
     start    the value of the unknown at the start, where the force is positive
+
     The motion must reach the place. If the force depends on a squared rate, q_dot^2 = f(q) by conservation of energy,
     f must be positive at the place. If the sign of f at the place depends on the symbols, the page states the condition
     f > 0. If f cannot be positive at the place, contact is not lost.
@@ -195,12 +196,10 @@ def _friction_beside(force: Quantity) -> Constraint | None:
 
 
 def _as_positive(condition: Relation) -> Relation:
-    """Write an inequality without positive factors: v^2 < 5 g l."""
     return positive(condition.residual if condition.operator in (">", ">=") else -condition.residual)
 
 
 def _check_starts_there(force: Quantity, speed: Quantity, unknown: Expr, start: Expr) -> None:
-    """Require that the given start is the start of the motion from which the force was derived."""
     known = speed.needed(ByEnergy)
     begun = unknown.xreplace({known.coordinate: known.start})
     if not is_zero(tidied(begun - start)):

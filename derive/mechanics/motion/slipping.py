@@ -73,6 +73,7 @@ def slips(friction: Quantity, normal: Quantity, letter: Symbol | Expr, key: str 
     friction   the friction F of a contact with a coefficient mu_s of static friction, in newtons
     normal     the normal force N of the same contact in the same state, in newtons
     letter     the unknown: a letter, or a function of a letter such as `tan(alpha)`
+
     The letter may be the coordinate of a motion whose forces follow from conservation of energy, or a function of this
     coordinate. The result is then the first place with |F| = mu_s N that the motion reaches from its start. Otherwise
     the result is the condition |F| <= mu_s N. If the sign of F depends on the symbols, there is one condition for each

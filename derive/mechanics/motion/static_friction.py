@@ -100,7 +100,7 @@ def solved_for_limit(contact: Friction, side: int, mark: str, unknown: Expr) -> 
 
 
 def solved_line(contact: Friction, result: Relation, excess: Expr) -> Form:
-    """Return the line with the solution. The line before it differs by a factor that does not vanish, such as N > 0."""
+    """Return the line with the solved relation; it differs from the line before by a factor that does not vanish."""
     alone, solved = result.sides
     if alone == contact.limit.coefficient:
         pushing = Mul.make_args(contact.N)
@@ -111,7 +111,6 @@ def solved_line(contact: Friction, result: Relation, excess: Expr) -> Form:
 
 
 def _in_terms_of(value: Expr, unknown: Expr) -> Expr:
-    """Write a value with the unknown, without a change of sign: for tan(alpha), divide by powers of cos(alpha)."""
     if not isinstance(unknown, tan) or sign_known(cos(unknown.args[0])) != 1:
         return value
     c, t = Dummy("c", positive=True), mark_for(unknown)
@@ -125,7 +124,6 @@ def _in_terms_of(value: Expr, unknown: Expr) -> Expr:
 
 
 def _with_tangents(value: Expr) -> Expr:
-    """Write sin(a)/cos(a) as tan(a)."""
     powers = value.as_powers_dict()
     for base, power in powers.items():
         if isinstance(base, sin) and powers.get(cos(base.args[0])) == -power:

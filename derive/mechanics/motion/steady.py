@@ -49,6 +49,7 @@ def steady_motion(
     rates   constant rates of cyclic coordinates, `{phi: Omega}`; a rate that is not given keeps its symbol
     at      constant values of other coordinates, `{theta: alpha}`; a coordinate that is not given keeps its symbol
     key     the key of the step; if there are several conditions, the name of the coordinate is appended
+
     Second route: sum of (m a - F) . dr/dq = 0 for the mass points in this motion, with accelerations a from the places
     as functions of time.
     Outcomes: generic, always (satisfied for all values of the symbols), of_equation (from an equation of motion).
@@ -230,7 +231,6 @@ NONE: Mapping[str, Expr] = MappingProxyType({})
 def _in_results(
     of: Quantity, key: str, coordinates: Mapping[str, Coordinate], values: Values = NONE, symbols: Symbols = ()
 ) -> Quantity | tuple[Quantity, ...]:
-    """Call `steady_motion` with the given values; the remaining cyclic rates get the given symbols."""
     places = {coordinates[name]: value for name, value in values.items() if name in coordinates}
     rates: dict[Coordinate, Any] = {
         q: value for name, value in values.items() for q in coordinates.values() if q.rate.name == name

@@ -59,7 +59,6 @@ def _shown(number: complex) -> str:
 
 
 def _end(flow: Flow, start: State, steps: int) -> State:
-    """Return the state at t = 1."""
     y, length = start, 1 / steps
     for n in range(steps):
         row: list[State] = []

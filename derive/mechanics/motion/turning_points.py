@@ -41,6 +41,7 @@ def condition_to_reach(
     unknown   the coordinate q, or a function of q such as cos(q)
     place     the value of `unknown` at the place, which may be infinite
     there     the limit of f at the place, if f has no value there; by default f is evaluated at `place`
+
     The motion turns back where f = 0. The motion reaches the place if f is not negative at the place, nor between the
     start and the place. If the sign of f at the place depends on the symbols, the condition is f > 0 there. Between the
     start and the place, algebra decides the sign of f or, if algebra cannot decide, numerical values do.
@@ -119,10 +120,7 @@ def _arrival(
 
 
 def words_of(arrivals: Sequence[Arrival]) -> dict[str, str]:
-    """Return the word under `lasts` for a sentence with the condition under which the motion comes to these places.
-
-    The result is empty if there is no such condition, or if neither contact nor a taut string is needed.
-    """
+    """Return the word under `lasts` for a sentence with the condition under which the motion comes to these places."""
     lasting = next((each.lasts for each in arrivals if each.reached is not None and each.lasts), "")
     return {"lasts": lasting} if lasting else {}
 

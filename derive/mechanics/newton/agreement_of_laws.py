@@ -32,6 +32,7 @@ def agreement_of_laws(newton: Quantity, lagrange: Sequence[Quantity], key: str |
 
     newton    the law from `second_law` or `torque_law`
     lagrange  Lagrange's equations, one for each coordinate
+
     Second route: the sum of Lagrange's equations, which come from T and U, equals the law, which comes from forces. If
     the sum has only one term, the result is this Lagrange equation; otherwise the result is the law.
     Outcomes: again (one of Lagrange's equations and the law are the same equation, up to a factor), combined (a sum of

@@ -243,7 +243,6 @@ def _displacements(
 
 @lru_cache(maxsize=16)
 def _forces(system: System) -> tuple[tuple[Force, Any], ...]:
-    """All forces of a system, each with the particle or body on which it acts."""
     matter = system.matter
     loads = [*matter.loads, *matter.others, *(field.load(matter.coordinates) for field in matter.fields)]
     return tuple(found for load in loads for found in _on_its_body(load, system))

@@ -52,7 +52,6 @@ def coordinate_of_the_law(facts: Judged, q: Any) -> bool:
 
 
 def _way(facts: Judged, q: Any = None) -> Vector:
-    """The displacement of the body for a small change of the coordinate."""
     return tuple(explicit(diff(c, q or facts.inputs["coordinate"])) for c in facts.inputs["place"])
 
 
@@ -78,8 +77,7 @@ def _is_fixed(place: Vector, moving: Any) -> bool:
 
 def mass_times_acceleration(facts: Judged, outcome: str) -> bool:
     """Whether the left side is the mass times the acceleration along the displacement of the coordinate, and not
-    against it. For an outcome at rest, the left side must be zero, and mass times acceleration must be zero if all
-    rates and accelerations are zero."""
+    against it."""
     way, moving = _way(facts), list(facts.inputs["moving"])
     along = facts.inputs["weight"] * _dot(way, _acceleration(facts))
     left = explicit(facts.result).left
@@ -94,16 +92,12 @@ def _acceleration(facts: Judged) -> Vector:
 
 
 def _still(value: Expr, moving: Any) -> Expr:
-    """Return the expression with all rates and accelerations set to zero."""
     return explicit(value).xreplace({rate(q, n): Integer(0) for q in moving for n in (1, 2)})
 
 
 def rate_of_angular_momentum(facts: Judged, outcome: str) -> bool:
     """Whether the left side is the rate of change of the angular momentum of the particles of the body about the point:
-    the sum of m r x a. The direction in which the coordinate rotates the body is positive.
-    If the word `term` is "alone", the rate must be the moment of inertia about the point times the angular
-    acceleration. For an outcome at rest, the left side must be zero, and so must this rate if all rates and
-    accelerations are zero."""
+    the sum of m r x a. The direction in which the coordinate rotates the body is positive."""
     moving, angle = list(facts.inputs["moving"]), facts.inputs["angle"]
     arm = tuple(a - b for a, b in zip(facts.inputs["place"], facts.inputs["about"], strict=True))
     whole = facts.inputs["weight"] * _cross(arm, _acceleration(facts))
@@ -203,10 +197,7 @@ def same_as_several(facts: Judged) -> bool:
 
 
 def same_equation(facts: Judged) -> bool:
-    """Whether the law of the one body and the result are the same equation, up to a factor without rates.
-
-    Both are linear in the same symbol, an acceleration if there is one, and give this symbol the same value.
-    """
+    """Whether the law of the one body and the result are the same equation, up to a factor without rates."""
     law, found = (explicit(each).residual for each in (facts.quantities["newton"].value, facts.result))
     rates = {rate(q, n) for each in facts.quantities.values() for q in each.coordinates for n in (1, 2)}
     letters = sorted(law.free_symbols & found.free_symbols, key=lambda s: (not s.name.endswith("_ddot"), s.name))

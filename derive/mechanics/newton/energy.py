@@ -37,6 +37,7 @@ def total_energy(system: System, symbol: str | None = None, key: str = "energy_f
     """Energy of a system, E = T + U, which is constant.
 
     system   particles and bodies; the forces on them have a potential energy or do no work
+
     Second route: by Newton's second law for the mass points, the rate of change of E is the power of the forces without
     a potential energy. This power vanishes for all velocities that the constraints allow.
     Outcomes: free (no constraint force has a symbol), constrained (constraint forces with symbols act, but do no work).
@@ -96,6 +97,7 @@ def energy_equation(energy: Quantity, system: System, q: Coordinate, key: str | 
     energy   the energy from `total_energy`
     system   the system to which this energy belongs
     q        the only coordinate of the system
+
     Second route: Lagrange's equation. Check: q_dot times the left side is the rate of change of E.
     Errors: the system has several coordinates, or a constraint force has a symbol.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapters 5 and 11.

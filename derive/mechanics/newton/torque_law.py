@@ -80,6 +80,7 @@ def torque_law(
              centre of mass. By default, the point is the fixed axis of the body, or else its centre of mass
     at_rest  whether the system is at rest, so that the torques add up to zero. Among the points about which the
              coordinates let only this body rotate, the point with the most unknown forces is then chosen
+
     Second route: Lagrange's equations, for a rotation in which only this body moves.
     Outcomes: as `second_law`.
     Errors: a body moves in space; the coordinates do not let one body move with q while all others stay at rest; q does

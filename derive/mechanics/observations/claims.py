@@ -121,7 +121,6 @@ def is_value_of_the_symbol(facts: Judged, found: Expr) -> bool:
 
 
 def _agree(one: Expr, other: Expr) -> bool:
-    """Whether two values agree at all trial points."""
     return everywhere(numbers([one, other]), lambda point: same(value_at(one, point), value_at(other, point)))
 
 
@@ -183,11 +182,7 @@ def rate_on_the_circle(facts: Judged, told: Any) -> bool:
 
 
 def ratio_of_modes(rational: bool) -> Predicate:
-    """Judge whether the ratio of two frequencies is a rational number if and only if `rational` is true.
-
-    The minimal polynomial of a rational number has degree 1. Both numbers must be frequencies of the linear equations.
-    For a rational ratio, there must be no third mode.
-    """
+    """Judge whether the ratio of two frequencies is a rational number if and only if `rational` is true."""
 
     def is_so(facts: Judged) -> bool:
         slow, fast = (facts.quantities[role] for role in ("slow", "fast"))
@@ -228,8 +223,7 @@ def is_ratio_of(above: str, below: str) -> Naming:
 def all_frequencies_are_equal(facts: Judged) -> bool:
     """Whether the equations of motion are linear without any approximation and have only one frequency.
 
-    M^-1 K is then a multiple of the unit matrix at all trial points. The second derivatives of the equations with
-    respect to coordinates, rates and accelerations vanish.
+    M^-1 K is then a multiple of the unit matrix at all trial points.
     """
     linear, of = facts.inputs["system"], facts.quantities["of"]
     mass, stiffness = linear
@@ -254,8 +248,7 @@ def all_frequencies_are_equal(facts: Judged) -> bool:
 def isochronous(facts: Judged) -> bool:
     """Whether d^2U/ds^2 = omega^2 at all trial points, where T = mu q_dot^2/2 and ds = sqrt(mu) dq.
 
-    The derivatives are difference quotients of the energies. Also, mu must depend on q: with a constant mu, the
-    equation of motion would be linear anyway.
+    The derivatives are difference quotients of the energies.
     """
     q, mu, energy, square = (facts.inputs[role] for role in ("q", "mu", "energy", "square"))
     step = Rational(1, 10**9)
@@ -351,7 +344,6 @@ def is_free_of(facts: Judged, letter: Symbol) -> bool:
 
 
 def _depends_on(letter: Symbol, value: Any) -> bool:
-    """Whether a value, or the difference of the sides of an equation, changes with the symbol."""
     inner = explicit(value.residual if isinstance(value, Relation) else value)
     if letter not in inner.free_symbols:
         return False
@@ -429,10 +421,6 @@ def grows_without_bound_there(facts: Judged) -> bool:
 def branches_off(facts: Judged) -> bool:
     """Whether an equilibrium is stable if and only if two others do not exist, and the two others are stable where
     they exist.
-
-    Below the stated value, the curvature of the potential energy is positive and the argument of the arccos is greater
-    than 1. Above the stated value, this argument is smaller than 1, the curvature is negative, and the curvature at the
-    other equilibria is positive.
     """
     curvature, beside = (explicit(facts.quantities[role].value) for role in ("of", "beside"))
     cosine, border = facts.inputs["cosine"], facts.result
@@ -584,11 +572,7 @@ def stays_at_rest(facts: Judged) -> bool:
 
 
 def circles(facts: Judged) -> bool:
-    """Whether the acceleration is the velocity turned by a right angle, multiplied by a constant rate.
-
-    The squared speed then does not change, and the direction of the velocity turns at the constant rate. A constraint
-    must fix every other coordinate that is a length; otherwise the path may be a helix.
-    """
+    """Whether the acceleration is the velocity turned by a right angle, multiplied by a constant rate."""
     rate_, (u, v) = facts.result, facts.inputs["rates"]
     if not _is_constant(rate_, facts.quantities["of"]) or not _others_are_fixed(facts.quantities["of"], u, v):
         return False
@@ -605,7 +589,6 @@ def circles(facts: Judged) -> bool:
 
 
 def _is_constant(value: Expr, of: Quantity) -> bool:
-    """Whether a value contains neither the time, nor a coordinate, nor a rate."""
     moving = {s for q in of.coordinates for s in (q, rate(q), rate(q, 2))}
     return not depends_on_time(value) and not explicit(value).free_symbols & {TIME, *moving}
 
@@ -718,9 +701,6 @@ def has_one_sign(facts: Judged) -> bool:
 def balances(facts: Judged) -> bool:
     """Whether the torque vanishes at 0 and 90 degrees and at no angle between them, and both angles are in the
     declared range.
-
-    With u = tan(angle/2), each component is a rational function of u; Sturm's theorem counts the zeros for 0 < u < 1
-    that are common to all components.
     """
     torque = [each for each in map(explicit, facts.quantities["of"].value) if each != 0]
     angle, u = facts.inputs["angle"], Symbol("u")

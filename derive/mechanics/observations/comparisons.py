@@ -94,7 +94,6 @@ def _kind_of_the_letter(view: View, cases: Sequence[Quantity]) -> str:
 
 
 def _is_constant(q: Quantity) -> bool:
-    """Whether an answer is not zero and contains no coordinate and no rate."""
     moving = {s for each in q.coordinates for s in (each, rate(each))}
     return not is_zero(q.value) and not explicit(q.value).free_symbols & moving
 
@@ -116,7 +115,6 @@ def _in_order(falling: Sequence[Quantity], kind: str) -> Quantity:
 
 
 def _case(q: Quantity) -> Any:
-    """Return the value of a symbol in a special case, such as I = 2 M R^2/5."""
     return next(told for role, told in q.step.roles if role.startswith("value_"))
 
 
@@ -200,11 +198,7 @@ def springs_with(of: Quantity, letter: Symbol) -> int:
 
 
 def _reason(linear: Linear, letter: Symbol, kind: str) -> tuple[str, dict[str, Any]]:
-    """Return the outcome and its data.
-
-    The outcome is "spring" for a spring constant in the stiffness matrix, "mass" for a mass that is in one diagonal
-    entry of the mass matrix and not in the stiffness matrix, and "" for any other symbol.
-    """
+    """Return the outcome and its data."""
     at = [i for i in range(linear.mass.shape[0]) if letter in linear.mass[i, i].free_symbols]
     if kind == "spring constant" and letter in linear.stiffness.free_symbols:
         return "spring", {"stiffness": linear.stiffness}

@@ -86,8 +86,7 @@ def independent(view: View) -> Observed:
 def _may_be_free(view: View, of: Quantity) -> bool:
     """Whether it is worth saying on which symbols an answer does not depend.
 
-    An answer for a special case holds only for the substituted values. An answer that contains an angular momentum may
-    depend on every symbol that is in the expression for this momentum.
+    An answer for a special case holds only for the substituted values.
     """
     kept = {*view.of_kind("angular momentum")} & explicit(of.value).free_symbols
     if (of.step.rule, of.step.outcome) == ("answers.put_in", "values") or kept:
@@ -99,12 +98,10 @@ def _may_be_free(view: View, of: Quantity) -> bool:
 
 
 def _unknowns(of: Quantity) -> set[Any]:
-    """Return the symbols that were solved for."""
     return set(getattr(dict(of.step.roles).get("unknown"), "free_symbols", ()))
 
 
 def _scales(view: View) -> set[Symbol]:
-    """Return the symbols that are factors of a Lagrangian of the page; no motion depends on these symbols."""
     wholes = [explicit(q.value) for q in view.shown if q.fact(Energies) is not None]
     return {s for s in view.letters for whole in wholes if s in whole.free_symbols and not tidied(whole / s).has(s)}
 
@@ -225,7 +222,6 @@ def zero_of(view: View) -> Observed:
 
 
 def _change(view: View, place: Relation) -> str:
-    """Return the outcome for a value with a change of sign."""
     are_masses = all(view.letters.get(side) == "mass" for side in (place.left, place.right))
     return "equal_masses" if are_masses else "changes"
 
@@ -259,7 +255,6 @@ def _zero_in(view: View, base: Expr) -> Relation | None:
 
 
 def _is_told(view: View, place: Relation) -> bool:
-    """Whether an answer of the page states this value already."""
     solved = [q.value for q in view.page if isinstance(q.value, Relation) and isinstance(q.value.left, Symbol | cos)]
     solved += [Relation(q.symbol, "=", q.value) for q in view.page if isinstance(q.symbol, cos)]
     return any(is_zero(explicit(told.residual).xreplace({place.left: place.right})) for told in solved)
@@ -311,7 +306,6 @@ def _at(rests: Sequence[Quantity], place: Expr) -> Quantity | None:
 
 
 def _shape_at(view: View, place: Expr) -> Quantity | None:
-    """Return the step of the curvature of the potential energy at an equilibrium; None if the page has no such step."""
     return next((q for q in view.shown if (shape := q.fact(Shape)) and is_zero(shape.place - place)), None)
 
 

@@ -74,7 +74,6 @@ def _seen(of: Quantity) -> str:
 
 
 def _squared(of: Quantity) -> Expr:
-    """Return the squared angular frequency."""
     value = explicit(of.value)
     return tidied(4 * pi**2 / value**2 if of.step.rule == PERIOD else value**2)
 
@@ -115,7 +114,6 @@ def _pendulum(of: Quantity, g: Symbol, outcome: str, data: dict[str, Any], known
 
 
 def _has_rational_factors(value: Expr) -> bool:
-    """Whether all numbers in a value are rational, without roots of numbers."""
     roots = [power for power in value.atoms(Pow) if power.base.is_number]
     return not roots and all(number.is_Rational for number in value.atoms() if number.is_number)
 

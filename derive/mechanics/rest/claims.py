@@ -88,7 +88,6 @@ def _is_there(facts: Judged, point: Point) -> bool:
 
 
 def _sided_forces(facts: Judged) -> list[Expr]:
-    """Return the forces that contain a distance |u|, such as the force of a spring along a line."""
     sought = facts.inputs.get("sought", ())
     if len(sought) != len(_entries(facts.result)):
         return []
@@ -110,10 +109,7 @@ def several(facts: Judged) -> bool:
 
 
 def under_its_condition(facts: Judged) -> bool:
-    """Whether the equilibrium exists if and only if the condition holds.
-
-    Some sets of trial numbers must satisfy the condition, and some must violate it.
-    """
+    """Whether the equilibrium exists if and only if the condition holds."""
     if "exists" not in facts.inputs:
         return False
     exists, letters = facts.inputs["exists"], _letters(facts)
@@ -190,8 +186,7 @@ def _second_order(energy: Callable[..., Any], place: Sequence[Any]) -> int:
 
     The sign is 1 if the energy rises in all directions, and -1 if it falls in at least one direction. Otherwise the
     energy is constant in at least one direction, and the sign is 0. No formula is differentiated: the matrix of second
-    derivatives follows from differences of the energy at nearby points. Each coordinate is scaled to a suitable size,
-    and the sign is the sign of the least eigenvalue.
+    derivatives follows from differences of the energy at nearby points.
     """
     step, here, size = mp.mpf(10) ** -30, energy(*place), len(place)
 
@@ -240,8 +235,7 @@ def kinetic_energy_is_positive(facts: Judged) -> bool:
     """Whether the kinetic energy is not negative for a few sets of trial numbers. A minimum of U is stable only if the
     kinetic energy is never negative.
 
-    Trial numbers that do not satisfy the assumptions of positivity are skipped. If the mass points and forces are
-    unknown, the result is true.
+    If the mass points and forces are unknown, the result is true.
     """
     matter = matter_of(facts.quantities["potential"])
     there = [numbers for numbers, _ in _signs_by_numbers(facts) if has_meaning(numbers)]
@@ -351,10 +345,7 @@ def higher_lasts(facts: Judged) -> bool:
 
 
 def sides_as_told(facts: Judged) -> bool:
-    """Whether the sentence states the signs of u in distances |u| if and only if such signs are assumed.
-
-    If a step states every assumed sign in words, the sentence says instead that the springs are stretched.
-    """
+    """Whether the sentence states the signs of u in distances |u| if and only if such signs are assumed."""
     sides = [
         each for each in assumed() if each.operator == ">" and explicit(each.residual).has(*facts.inputs["sought"])
     ]
@@ -363,11 +354,7 @@ def sides_as_told(facts: Judged) -> bool:
 
 
 def level_as_told(facts: Judged) -> bool:
-    """Whether the sentence excludes exactly the case in which the force vanishes at all values of the coordinate.
-
-    The numerator of the force is a polynomial in functions of the coordinate. The force vanishes at all values of the
-    coordinate if a common factor of the coefficients of this polynomial is zero.
-    """
+    """Whether the sentence excludes exactly the case in which the force vanishes at all values of the coordinate."""
     told, sought = facts.inputs.get("excluded"), facts.inputs["sought"]
     if len(sought) > 1:
         return told is None
@@ -396,7 +383,6 @@ def is_its_derivative(facts: Judged, outcome: str) -> bool:
 
 
 def _nearby(point: Point) -> Expr:
-    """Return a distance that is small compared with every value of a trial point."""
     return min((abs(number) for number in point.values()), default=Integer(1)) / 10**9
 
 
@@ -538,10 +524,7 @@ def _there_on_constraints(facts: Judged) -> dict[Any, Any]:
 
 def on_the_constraints(facts: Judged, named: Any) -> bool:
     """Whether the named expression is the list of the coordinates, an equation with their equilibrium values, or a
-    constraint.
-
-    In each case the equilibrium values must satisfy every constraint.
-    """
+    constraint."""
     there = _there_on_constraints(facts)
     kept = all(is_zero(explicit(residual).xreplace(there)) for residual in facts.inputs["constraints"])
     if not isinstance(named, Relation):

@@ -75,12 +75,7 @@ def _is_place(value: Expr, q: Symbol) -> bool:
 
 
 def _grid(once_round: bool, positive: bool, scale: float) -> list[float]:
-    """Return the values of the coordinate at which the force is evaluated.
-
-    If the force is periodic in a full turn, the grid covers one turn. The ends of the grid are chosen so that the
-    force is unlikely to vanish there. For any other force, such as the torque of a twisted wire, the grid
-    covers all values, or all positive values of a positive coordinate. It is finest at the scale of the expected zeros.
-    """
+    """Return the values of the coordinate at which the force is evaluated."""
     if once_round:
         return [-math.pi - 0.01234 + 2 * math.pi * i / STEPS for i in range(STEPS + 1)]
     ends = [

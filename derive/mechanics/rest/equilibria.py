@@ -88,6 +88,7 @@ def potential_at_rest(of: Quantity, symbol: str = "V", key: str = "potential_at_
     Without the rates, -L is U minus the part of T that comes from a prescribed motion; F acts at the position r.
 
     of   the Lagrangian, J; an energy without rates and without given forces is returned unchanged
+
     Second route: the work of the forces and of the inertial forces on mass points at rest is -dV for any displacement.
     Outcomes: generic, pushed (constant forces are given).
     Errors: the Lagrangian contains the time explicitly; a given force is not constant.
@@ -149,6 +150,7 @@ def equilibria(of: Quantity, *coordinates: Coordinate) -> tuple[Quantity, ...]:
 
     of            a potential energy, an effective potential energy or a Lagrangian, J
     coordinates   the unknowns; by default all coordinates that the energy depends on
+
     Angles are between -pi and pi. A coordinate that is declared positive stays positive, and a coordinate with a range
     stays in this range. A coordinate that no force depends on may have any value.
     Keys: condition_x for the equilibrium condition of the coordinate x; for the equilibria, rest_1, rest_2, ..., or
@@ -227,7 +229,6 @@ def _states(of: Quantity, forces: Mapping[Symbol, Expr]) -> list[State]:
 
 
 def _in_range(of: Quantity, state: State) -> bool:
-    """Whether the coordinates of the equilibrium are in their ranges."""
     inside = {q: lies_within(q, value, state.exists) for q, value in state.values.items()}
     open_ = next((q for q, known in inside.items() if known is None), None)
     if open_ is not None:

@@ -57,7 +57,6 @@ def check_regular(verb: str, matter: Matter | None, place: Mapping[Symbol, Expr]
 
 
 def _may_be_singular(matrix: MatrixBase) -> bool:
-    """Whether the determinant vanishes to many digits for one set of numbers."""
     letters = sorted(matrix.free_symbols, key=str)
     numbers = {s: rational_in_range(s, Rational(11 + 7 * i, 13 + 3 * i)) for i, s in enumerate(letters)}
     with mp.workdps(DIGITS):

@@ -70,7 +70,6 @@ def _sign(energy: Callable[..., Any], conditions: Sequence[Callable[..., Any]], 
 
 
 def _slopes(conditions: Sequence[Callable[..., Any]], place: Sequence[Any]) -> Any:
-    """Return the gradients of the constraints, from differences."""
     step = mp.mpf(10) ** -(DIGITS // 3)
     found = mp.matrix(len(conditions), len(place))
     for i, condition in enumerate(conditions):

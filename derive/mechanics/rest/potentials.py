@@ -43,6 +43,7 @@ def slope(potential: Quantity, order: int = 1, key: str | None = None, by: Symbo
     potential   a function of one coordinate, J
     order       the order n of the derivative: 1, 2, ...
     by          the coordinate, if the potential energy depends on several
+
     Check: U(q + u) is expanded about an arbitrary point q; the derivative is n! times the coefficient of u^n.
     Outcomes: slope, curvature, higher.
     Errors: `by` is missing, and the potential depends on several coordinates or on none.
@@ -71,7 +72,6 @@ def _of_each_term(value: Expr, q: Symbol, order: int) -> Expr:
 
 
 def _coefficient(value: Expr, q: Symbol, place: Expr, order: int) -> Expr:
-    """Return the coefficient of u^n in the expansion about q = `place`, where n is the order."""
     return coefficient_along(explicit(value), {q: place}, {q: Integer(1)}, order)
 
 
@@ -110,6 +110,7 @@ def extreme_value(
     potential   a function of one coordinate, J
     by          the coordinate, if the potential energy depends on several
     at          the value q_0 of the coordinate; 0 by default
+
     Check: the term of order zero in the expansion of U about q_0.
     Outcomes: minimum, maximum, level (U'' vanishes too), conditional (the sign of U'' is unknown).
     Errors: U' does not vanish at q_0; the potential energy depends on the time.
@@ -168,6 +169,7 @@ def leading_order(
                which determines q_0 and the boundary
     where      an equation, symbol = value, for which the curvature of this potential energy vanishes at q_0
     at         the value q_0 of the coordinate; 0 by default
+
     Check: among the first n derivatives of U at q_0, only the n-th does not vanish.
     Outcomes: minimum, maximum, inflection, conditional, flat (no order up to the eighth decides), and for a symbol
     with its value on the boundary: minimum_at_bound, maximum_at_bound, inflection_at_bound, conditional_at_bound,

@@ -120,7 +120,6 @@ def _starts(
 
 
 def _followed(motion: Motion, start: Sequence[float]) -> list[float] | None:
-    """Follow Newton's method with steps of limited size; None if it does not converge."""
     at = list(start)
     for _ in range(TURNS):
         step = _step(motion, at)
@@ -150,7 +149,6 @@ def _solved(matrix: list[list[Any]], right: list[Any]) -> list[Any] | None:
 
 
 def _is_inside(at: Sequence[float], sought: Sequence[Symbol]) -> bool:
-    """Whether the point is in the ranges, and not at their ends."""
     for x, q in zip(at, sought, strict=True):
         known = range_of(q)
         if known is not None and not float(known.least) + CLOSE < x < float(known.greatest) - CLOSE:
@@ -184,7 +182,6 @@ def _is_rest(motion: Motion, start: Sequence[float]) -> bool:
 
 
 def _step(motion: Motion, at: Sequence[Any]) -> list[Any] | None:
-    """Return Newton's step, J^-1 f; None if the step cannot be computed."""
     count = len(at)
     try:
         found = motion(*at)

@@ -85,6 +85,7 @@ def stability(
     at       the equilibrium: as `equilibria` yields it, or `{theta: 0}`
     letter   the symbol that a condition is solved for; by default the symbol that occurs as a square, if there is
              exactly one such symbol
+
     Second route: the restoring force for a small displacement, from virtual work if mass points and forces are known.
     For several coordinates, the energy of a small displacement in an arbitrary direction.
     Outcomes: stable, unstable, depends (on the stated condition), depends_stable_on_border,
@@ -259,7 +260,6 @@ def _of_one(place: Place, letter: Expr | None, key: str) -> Quantity:
 def _decided_where(
     place: Place, q: Symbol, condition: Relation | None, border: Relation | None, outcome: str
 ) -> list[Fact]:
-    """Return a list with the fact from which `stable_where` derives a condition; empty if there is no condition."""
     if condition is None:
         return []
     there = {"depends_stable_on_border": True, "depends_unstable_on_border": False}.get(outcome)
@@ -314,7 +314,6 @@ def _coefficient(energy: Expr, q: Symbol, at: Expr, order: int) -> Expr:
 
 
 def _small_force(place: Place, q: Symbol) -> Expr:
-    """Return the restoring force for a small displacement, per unit of displacement."""
     if matter_behind(place.potential) is not None:
         force = slope_otherwise(place.potential, q)
         return coefficient_along(force, place.values, {s: Integer(s == q) for s in place.values}, 1)
@@ -414,8 +413,7 @@ def _of_minors(matrix: MatrixBase, minors: list[Expr]) -> str:
 def _way_down(matrix: MatrixBase) -> MatrixBase | None:
     """Return a direction in which the energy falls for all values of the symbols; None if no such direction is found.
 
-    The direction is a null vector of the part of the matrix that is proportional to one symbol. If the symbol
-    is a spring constant, for example, a displacement in this direction does not stretch the spring to first order.
+    The direction is a null vector of the part of the matrix that is proportional to one symbol.
     """
     for letter in sorted(matrix.free_symbols, key=str):
         share = matrix.applyfunc(lambda entry, s=letter: tidied(derivative(entry, s)))

@@ -43,6 +43,7 @@ def stable_where(of: Quantity, key: str = "condition_of_stability") -> Quantity:
     """Condition under which an equilibrium is stable: S > S_0, or S >= S_0 if S = S_0 is known to be stable.
 
     of   a result of `stability` that depends on a condition on the symbols
+
     Check: above and below the boundary, the condition holds if and only if the second derivative is positive.
     Numerically, the energy has a minimum at the equilibrium if and only if the condition holds.
     Outcomes: with_border, without_border, open (no order decides at the boundary).

@@ -44,6 +44,7 @@ def moment_of_parts(body: Any, axis: str, point: Point, symbol: str, key: str) -
     body    a composite body; the moments of cavities are subtracted
     axis    the body axis that is parallel to the axis of the moment: "x", "y" or "z"
     point   a point on the axis
+
     For each part except particles, a step derives the moment I_part about the parallel axis through the centre of mass
     of the part. The distance between the two axes is d. The result is None if some part has no body axis parallel to
     `axis`. The result is also None if the parallel axis of a composite part has another name.
@@ -101,6 +102,7 @@ def _own_moment(body: Any, axis: str, letter: str, turn: MatrixBase) -> Quantity
     letter   the symbol of the moment without its index; the index is the parallel axis of the whole body, or "axial" if
              the whole body has no parallel axis
     turn     the matrix whose columns are the axes of the whole body, in components along the axes of the part
+
     Second route: the sum of m d^2 over the equimomental particles of the part; the integral of the squared distance.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, section 7.3.
     """

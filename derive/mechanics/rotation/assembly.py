@@ -102,6 +102,7 @@ class Composite(Body):
              `.at` moved. `minus(part)` is a cavity
     mass     the mass of a uniform composite body; the masses of the parts are proportional to their sizes
     points   names for positions in the whole body, such as a pivot
+
     Two parts of the same shape need names: `Rod(l, m).named("upper rod").at(...)`.
     Errors: there is no part; the names of two parts have the same first word; the parts cannot form a body, for example
     because two of them overlap; the mass of the whole body is not positive; one mass is given, but the parts are not
@@ -246,6 +247,7 @@ def _share_of_mass(body: Composite, part: PlacedPart, mass: Expr) -> Quantity:
     body   the whole composite body
     part   one of the parts of the whole body, or a cavity
     mass   the mass M of the whole body
+
     Second route: the density of the whole body integrated over the part.
     Outcomes: part, hole.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 4.
@@ -287,6 +289,7 @@ def _total_mass(body: Composite) -> Quantity:
     """Mass of the whole body, the sum of the masses of the parts.
 
     body   the composite body with its parts
+
     Second route: the integral of dm over all parts.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 4.
     """
@@ -318,6 +321,7 @@ def _centre_of_parts(body: Composite, start: Point, symbol: str, key: str) -> Qu
 
     body    the composite body with its parts
     start   the point from which the centre of mass is measured
+
     Second route: the integral of r dm over all parts; the mean position of the equimomental particles of the parts.
     Outcomes: generic, cut_out (some part is a cavity).
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 4.
@@ -361,6 +365,7 @@ def _tensor_of_parts(body: Composite, point: Point, symbol: str, key: str) -> Qu
 
     body    the composite body with its parts
     point   the point of the tensor; `point.axes` are the axes of the components
+
     Second route: the moment about any axis n is the sum of m |n x r|^2 over the particles of all parts.
     Outcomes: isotropic, two_equal, diagonal, generic.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
@@ -404,7 +409,6 @@ def _for_the_whole(part: Quantity) -> Quantity:
 
 
 def _steiner(mass: Expr, d: Any) -> Any:
-    """Return the term of the parallel-axis theorem, m (d.d 1 - d d)."""
     return scaled(mass, MatAdd(scaled(Dot(d, d), Identity(3)), scaled(Integer(-1), Outer(d, d))))
 
 
@@ -429,6 +433,7 @@ def _tensor_of_part(body: Composite, part: PlacedPart, point: Point, symbol: str
     part    one of the parts of the whole body; R is the rotation of the part, and d is the displacement of its centre
             of mass from the point
     point   the point of the tensor; `point.axes` are the axes of the components
+
     Second route: the moment about any axis n is the sum of m |n x r|^2 over the particles of the part.
     Outcomes: turned_there (the centre of the part is at the point), moved, turned_moved.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3 (parallel axes).
@@ -483,6 +488,7 @@ def _way_to_part(part: PlacedPart, point: Point, d: Any) -> Quantity:
     part    the part of the composite body
     point   the point of the whole body
     d       the displacement, computed from the position and the rotation of the part
+
     Second route: the mean position of the particles of the part.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.2.
     """

@@ -139,10 +139,7 @@ def characteristic_equation(facts: Judged, equation: Any) -> bool:
 
 
 def axis_of(different: int, alone: bool | None = None) -> Predicate:
-    """Judge whether the number of distinct moments is `different`.
-
-    If `alone` is given, the moment of this axis must differ from both other moments if and only if `alone` is true.
-    """
+    """Judge whether the number of distinct moments is `different`."""
 
     def is_so(facts: Judged) -> bool:
         moments, k = facts.inputs["moments"], int(facts.symbol.name[-1]) - 1
@@ -162,7 +159,7 @@ def moments_compared(wanted: str) -> Predicate:
 
     With `wanted="always"`, all moments must be equal. With `wanted="never"`, they must not be equal for any values of
     the symbols: every difference that is not identically zero has a fixed sign, and there is at least one such
-    difference. With any other `wanted`, the result must state the value of a symbol for which all moments are equal.
+    difference.
     """
 
     def is_so(facts: Judged) -> bool:
@@ -245,10 +242,7 @@ def across(facts: Judged) -> Any:
 
 
 def turns(wanted: str) -> Predicate:
-    """Judge whether the component of the result along the axis is known to be negative, for the word "left".
-
-    For any other word, judge whether this component is not known to be negative.
-    """
+    """Judge whether the component of the result along the axis is known to be negative, for the word "left"."""
 
     def is_so(facts: Judged) -> bool:
         along = tidied(explicit(Dot(facts.result, facts.inputs["axis"])))
@@ -258,10 +252,7 @@ def turns(wanted: str) -> Predicate:
 
 
 def cosine_is(wanted: int | None, of: Callable[[Any], Any] = lambda cosine: cosine) -> Predicate:
-    """Judge whether the cosine is `wanted`: 1 (parallel), -1 (opposite) or 0 (perpendicular).
-
-    For `wanted=None`, judge whether the cosine differs from 1, -1 and 0.
-    """
+    """Judge whether the cosine is `wanted`: 1 (parallel), -1 (opposite) or 0 (perpendicular)."""
 
     def is_so(facts: Judged) -> bool:
         cosine = of(facts.result)
@@ -280,11 +271,7 @@ def rotation_cos(angle: Expr) -> Expr:
 
 def rate_is(in_space: bool | None, in_body: bool | None) -> Predicate:
     """Judge whether the rate in space vanishes if and only if `in_space` is true. The rate in the body must vanish if
-    and only if `in_body` is true.
-
-    For `in_body=None`, the rate in the body may have any value. For `in_space=None`, judge whether the rate in the body
-    is not among the inputs.
-    """
+    and only if `in_body` is true."""
 
     def is_so(facts: Judged) -> bool:
         seen = facts.inputs.get("in_body")
@@ -404,8 +391,7 @@ def _sign(value: Expr) -> int | None:
 
 def order_is(wanted: str) -> Predicate:
     """Judge whether the moment about the axis compares with the other two as `wanted` states: "greatest", "least",
-    between them ("unstable"), or equal to one of them ("marginal"). For "symmetric" the other two must be equal; for
-    "conditional" the order must be unknown."""
+    between them ("unstable"), or equal to one of them ("marginal")."""
 
     def is_so(facts: Judged) -> bool:
         moments, axis = list(facts.inputs["moments"]), int(facts.inputs["axis_index"])
@@ -481,10 +467,7 @@ def inward_or_outward(facts: Judged, outcome: str) -> bool:
 
 def names_the_axis_of_the_whole(facts: Judged, outcome: str) -> bool:
     """Whether the axis of the whole body that the sentence names is the index of the symbol, as in I_z, and is parallel
-    to the axis of the part. If the axis of the part is not parallel to any axis of the whole body, the index must be
-    "axial", and the sentence must not name an axis of the whole body. If the step is not about a part of a whole, the
-    sentence must not name such an axis.
-    The sentence may mention a position map only if a position map defines the body."""
+    to the axis of the part."""
     seen, whole, turn = facts.words.get("seen"), facts.words.get("whole"), facts.inputs.get("turn")
     if turn is None:
         in_its_way = seen != "mapped" or not facts.subject.body.is_of_particles

@@ -56,6 +56,7 @@ def axis_of_symmetry(inertia: Quantity, symbol: str = "e", key: str = "axis_of_s
     moment.
 
     inertia   tensor (3, 3), kg m^2, along principal axes
+
     Second route: the second moments of the body, the integral of r r dm, are equal for all directions perpendicular to
     the axis.
     Errors: the axes are not principal axes; the three moments all differ, or are all equal.
@@ -113,6 +114,7 @@ def tangent_between(a: Quantity, b: Quantity, angle: str = "theta", key: str = "
 
     a, b    vectors (3) along the same axes, not zero and not perpendicular to each other
     angle   the symbol of the angle
+
     Second route: the length of the component of b perpendicular to a, divided by the component of b along a; the
     lengths are found by rotating the vectors onto an axis.
     Outcomes: generic, parallel (the tangent vanishes).
@@ -174,6 +176,7 @@ def precession_rate(
 
     inertia    tensor (3, 3), kg m^2, along principal axes, with two moments equal to I
     momentum   angular momentum L, vector (3), kg m^2/s, same axes
+
     Second route: the rate of the unit vector e along the axis, w x e, is Omega_p (L/|L|) x e. Also, with u = w -
     Omega_p L/|L|, the integral of r x (u x r) dm over the body is along the axis.
     Errors: the body has no symmetry axis; L changes in the body, or is along this axis, whose direction is then
@@ -232,6 +235,7 @@ def vector_component(of: Quantity, axis: str, symbol: str | None = None, key: st
 
     of     vector (3), any unit
     axis   "x", "y" or "z"
+
     Check: a cyclic permutation of the axes, which is a rotation, makes this component the first one.
     Outcomes: generic, zero.
     Errors: `of` is not a vector; there is no such axis.

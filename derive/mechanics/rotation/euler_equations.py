@@ -79,6 +79,7 @@ class RigidBody(Placeable, OfParticles):
     about     the point of the moments: "centre_of_mass", or "fixed_point" for the pivot; the default is the
               centre of mass if `centre` is zero, otherwise the pivot
     look      a body whose shape is drawn for this body, with the centre of the shape at the centre of mass
+
     Errors: there are neither three moments nor one; `about` is not one of the two points; the mass or a moment is not
     constant; a moment is greater than the sum of the other two.
     """
@@ -192,6 +193,7 @@ def principal_tensor(body: RigidBody, symbol: str = "I", key: str = "inertia_ten
     """Inertia tensor along principal axes, I = diag(I_x, I_y, I_z), in kg m^2: a definition.
 
     body    a body with known principal moments about a point
+
     Outcomes: isotropic (three equal moments), two_equal, generic.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.4.
     """
@@ -264,6 +266,7 @@ def rate_in_space(
     momentum   angular momentum L, vector (3), kg m^2/s, body axes
     omega      angular velocity of the body, vector (3), 1/s, body axes
     in_body    the rate of L in the body by the equations of motion; by default the rates of omega remain unknown
+
     Second route: the derivative of L, rotated with the body by a rotation matrix; the sum of m r x a over particles;
     the rate of L . n for a direction n that is fixed in space. In the body, this direction has n_dot = -omega x n.
     Outcomes: zero (L is constant in space), zero_in_both (L is constant in space and in the body), driven (a torque
@@ -344,6 +347,7 @@ def euler_equations(rate: Quantity, torque: tuple[Expr, Expr, Expr] = NO_TORQUE)
 
     rate     rate of change of the angular momentum in space, vector (3), N m, along the principal axes of the body
     torque   N about the same point, three components along the same axes, N m; by default zero
+
     Second route: the components of the sum of m r x a over particles.
     Outcomes: driven (a torque acts); without a torque, coupled (a product of components of omega remains in this
     equation), uncoupled (no product remains in this equation, so this component of omega is constant), isotropic (no
@@ -422,6 +426,7 @@ def rate_in_body(
     momentum    angular momentum L, vector (3), kg m^2/s, body axes
     omega       angular velocity of the body, vector (3), 1/s, body axes
     equations   Euler's equations, in the order x, y, z
+
     Check: differentiate the components I_x omega_x and so on, and substitute the angular accelerations from the
     equations.
     Outcomes: zero (L is constant in the body), in_general (without torque), driven (a torque acts).

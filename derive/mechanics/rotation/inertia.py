@@ -76,6 +76,7 @@ def inertia_tensor(
     body         a body with mass M
     about        a named point of the body: "centre", "corner", "apex", ...
     coordinates  the coordinates of integration, "cartesian" or "cylindrical", if the body has both
+
     The axes are the body axes. In general, a step derives each of the six entries. If the body is round about z and the
     point is on this axis, steps derive only the two distinct entries that symmetry leaves. If three mirror planes
     through the point are normal to the axes, steps derive only the moments. For a composite body, the tensors of its
@@ -143,6 +144,7 @@ def moment_of_inertia(
     body    a body with mass M
     axis    "x", "y" or "z": the moment is about an axis parallel to this body axis
     about   a named point of the body on the axis of the moment
+
     Second route: the sum of m d^2 over equimomental particles; for a body defined by a position map, a numerical sum
     over its cells.
     The moment of a composite body is derived from its parts.
@@ -193,6 +195,7 @@ def moment_seen(
            for an axis of a body that a position map defines, "across_plane" for the normal of the plane of motion,
            "part" for an axis of a part. The word under "whole", for a part only, is the parallel axis of the whole body
     turn   the matrix whose columns are the axes of the whole body, in components along the axes of the part
+
     Source: the same as for `moment_of_inertia`.
     """
     point, i = body.point(about), "xyz".index(axis)
@@ -236,8 +239,7 @@ def pairs_left_by_symmetry(body: Body, point: Point) -> tuple[Pair, ...]:
     """Return the entries to integrate.
 
     For a round body about a point on its axis, I_yy = I_xx and the products vanish. The products also vanish if, for
-    each axis, the plane through the point and normal to this axis is a mirror plane of the body. This is tested only
-    for a body with a single region, by the limits of this region.
+    each axis, the plane through the point and normal to this axis is a mirror plane of the body.
     """
     if body.is_round and point.position[0] == point.position[1] == 0:
         return ROUND
@@ -270,7 +272,6 @@ def _definition(body: Body, point: Point, region: Region, name: str, key: str) -
 
 
 def _law(region: Region, density: Expr) -> Any:
-    """Return the unevaluated integral of (r.r 1 - r r) dm."""
     r = vector("r")
     integrand = MatAdd(scaled(Dot(r, r), Identity(3)), scaled(Integer(-1), Outer(r, r)))
     return region.with_section_put_in().mass_integral(integrand, density)
@@ -285,7 +286,6 @@ def _by_pair(entries: dict[Pair, Quantity]) -> dict[str, Quantity]:
 
 
 def _assembled(pairs: tuple[Pair, ...], found: Sequence[Any]) -> Any:
-    """Return the symmetric tensor from its entries; missing entries follow from symmetry about z, or are zero."""
     at = dict(zip(pairs, found, strict=True))
     if pairs == ROUND:
         at |= {(1, 1): at[(0, 0)]}
@@ -343,7 +343,6 @@ def _entry_by_integration(
 
 
 def _lies_in_plane(body: Body, point: Point) -> bool:
-    """Whether a body lies in the plane that is normal to the z axis and contains a point."""
     return getattr(body, "flat_across", None) == "z" and is_zero(point.seen(body.middle.position)[2])
 
 
@@ -411,6 +410,7 @@ def moved_to(tensor_there: Quantity, centre: Quantity, symbol: str = "I", key: s
 
     tensor_there    tensor J (3, 3), kg m^2, about a point of the body
     centre          vector c (3), m: the position of the centre of mass relative to the point of J, along the same axes
+
     Second route: each entry, and the whole tensor, integrated about the centre of mass; also, the trace must be twice
     the integral of r.r dm.
     Outcomes: the same as those of `inertia_tensor`.
@@ -434,6 +434,7 @@ def moved_from_centre(inertia: Quantity, centre: Quantity, symbol: str = "J", ke
 
     inertia   tensor I (3, 3), kg m^2, about the centre of mass
     centre    vector c (3), m: the position of the centre of mass relative to the other point, along the same axes
+
     Second route: each entry, and the whole tensor, integrated about the other point; also, the trace must be twice the
     integral of r.r dm.
     Outcomes: outward.
@@ -580,6 +581,7 @@ def agreement(found: Quantity, again: Quantity, key: str = "agreement") -> Quant
 
     found   tensor (3, 3), kg m^2
     again   the tensor of the same body about the same point by another derivation, possibly along rotated axes
+
     Check: `again`, rotated to the axes of `found`, is equal to `found`.
     Outcomes: generic (the axes are the same), turned (the axes of `again` are rotated by half a turn about x).
     Errors: the tensors belong to different bodies or points.

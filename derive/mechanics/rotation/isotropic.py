@@ -33,6 +33,7 @@ def isotropic_where(moments: Quantity, letter: Expr, key: str = "special_case") 
 
     moments   principal moments (3), kg m^2, at least two of them equal
     letter    the symbol of a positive quantity, or the expression of this quantity in the script, such as 2b for h
+
     Check: with the result substituted, the tensor is a multiple of the unit tensor; and the difference of the two
     moments has opposite signs for greater and smaller values of the symbol. If no condition on a symbol is derived, the
     sign of this difference is checked instead.
@@ -93,7 +94,6 @@ def _of_known_sign(moments: Quantity, one: int, other: int, difference: Expr, ke
 
 
 def _two_to_compare(moments: Quantity) -> tuple[int, int]:
-    """Return the index of one of the two equal moments, and the index of the third moment."""
     alone = lone_moment(moments.value)
     if alone is not None:
         return (0 if alone else 1), alone
@@ -137,7 +137,6 @@ def _lengths_in(difference: Expr) -> list[Any]:
 
 
 def _letters_only(factor: Expr) -> Expr:
-    """Return the factor without its numeric coefficient: both sides are divided by M, not by 3 M/80."""
     return factor.as_coeff_Mul()[1]
 
 

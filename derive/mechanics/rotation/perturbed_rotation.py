@@ -37,6 +37,7 @@ def linearised_rotation(
     equations   Euler's equations in the order x, y, z, without torque
     axis        "x", "y" or "z": the principal axis of the steady rotation
     speed       the constant rate omega of the steady rotation, 1/s
+
     Second route: the sum of m r x a over the particles of the body is computed for two opposite perturbations; half of
     the difference contains the terms of first order.
     Errors: a steady rotation about the axis does not satisfy the equations, for example because a torque acts; there is
@@ -58,7 +59,6 @@ def linearised_rotation(
 
 
 def _rate_of(equations: Sequence[Quantity]) -> RateOfMomentum:
-    """Return the rate of the angular momentum from which the equations were derived."""
     found = [parent.fact(RateOfMomentum) for equation in equations for parent in equation.parents]
     rates = [fact for fact in found if fact is not None]
     if len(equations) != 3 or not rates:
@@ -160,6 +160,7 @@ def perturbation_rate_squared(
     """Squared angular frequency of a perturbed rotation, about z Omega^2 = (I_z - I_x)(I_z - I_y) omega^2/(I_x I_y).
 
     linear   the two linear equations from `linearised_rotation`
+
     Second route: Omega^2 is proportional to the product of the two curvatures of the conserved quantity L^2/2 - I_z T
     at the steady rotation. Also, the matrix of the linearised motion is computed from the accelerations of particles;
     the square of this matrix has the trace -2 Omega^2.
@@ -289,6 +290,7 @@ def perturbation_rate(squared: Quantity, symbol: str | None = None, key: str = "
     kappa = sqrt(-Omega^2).
 
     squared   the result of `perturbation_rate_squared`, 1/s^2
+
     Check: for components proportional to e^(i Omega t), or e^(kappa t), the determinant of the two linear equations is
     zero; and the rate is not negative.
     Outcomes: unstable (the result is kappa); stable, symmetric, conditional (the result is Omega).
@@ -321,7 +323,7 @@ def perturbation_rate(squared: Quantity, symbol: str | None = None, key: str = "
         """Compare the rate with its absolute value at one point where Omega^2, or kappa^2, is positive.
 
         The determinant does not determine the sign of the rate. One point is enough, because the sign changes only
-        where the rate vanishes. If no point is suitable, the rate itself is compared, which confirms nothing.
+        where the rate vanishes.
         """
         letters = sorted(value.free_symbols, key=str)
         turned = (letters[turn:] + letters[:turn] for turn in range(len(letters) + 1))
@@ -348,7 +350,6 @@ def perturbation_rate(squared: Quantity, symbol: str | None = None, key: str = "
 
 
 def _root_of(square: Expr) -> Expr:
-    """Return the square root of an expression, with square factors in front of the root."""
     return tidied(sqrt(tidied(square)))
 
 
@@ -366,6 +367,7 @@ def body_cone_rate(equations: Sequence[Quantity], symbol: str = "Omega_b", key: 
     """Rate at which omega rotates in a free symmetric body about its axis z, Omega_b = (I_z - I_x) omega_z/I_x.
 
     equations   Euler's equations in the order x, y, z, without torque, for a body with I_x = I_y
+
     Second route: the rate of the azimuth of omega, (omega_x omega_y_dot - omega_y omega_x_dot)/(omega_x^2 + omega_y^2),
     with the angular accelerations from the accelerations of particles.
     Outcomes: oblate (in the direction of omega_z, because I_z > I_x), prolate (in the opposite direction), generic (the

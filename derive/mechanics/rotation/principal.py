@@ -71,6 +71,7 @@ def principal_moments(inertia: Quantity, symbol: str = "I", key: str = "principa
     """Principal moments of inertia: the three roots of det(I - lambda 1) = 0.
 
     inertia   symmetric tensor (3, 3), kg m^2
+
     The moments of a diagonal tensor are in the order of the axes. Other moments are in the order of their values with
     every symbol equal to 1, the smallest first.
     Check: I_1 + I_2 + I_3, I_1 I_2 + I_1 I_3 + I_2 I_3 and I_1 I_2 I_3 are the invariants of the tensor. For a diagonal
@@ -155,7 +156,6 @@ def _has_root(value: Expr) -> bool:
 
 
 def _product(factors: Sequence[Expr]) -> Expr:
-    """Return the product in this order, with equal factors as a power."""
     found = [
         Pow(factor, factors.count(factor), evaluate=False) if factors.count(factor) > 1 else factor
         for factor in dict.fromkeys(factors)
@@ -174,6 +174,7 @@ def principal_axes(
     """Principal axes, a right-handed set of unit vectors with I e_k = I_k e_k.
 
     moments   the principal moments of a tensor
+
     If two moments are equal, the unit vectors of their axes contain a free angle; if all three are equal, any three
     perpendicular axes are principal axes.
     Check: each vector satisfies I e = I_k e; the vectors have length 1, are perpendicular and right-handed.
@@ -261,7 +262,6 @@ def _is_round(moments: Quantity) -> bool:
 
 
 def _products(e: Any, before: list[Quantity]) -> list[Expr]:
-    """Return the scalar products with the earlier axes, padded with zeros to three entries."""
     found = [explicit(Dot(e, other.value)) for other in before]
     return [*found, *[Integer(0)] * (3 - len(found))]
 
@@ -300,7 +300,6 @@ def lone_moment(moments: Any) -> int | None:
 
 
 def _by_entries(inertia: Quantity) -> Any:
-    """Return the tensor with the symbols of its entries, if its step shows them; otherwise its value."""
     formula = inertia.step.chain[0].expr
     return formula if isinstance(formula, MatrixBase) else inertia.value
 
@@ -346,7 +345,6 @@ def _size(root: Expr) -> tuple[float, str]:
 
 
 def _number(value: Expr) -> float:
-    """Return the value with every symbol equal to 1."""
     return float(value.subs(dict.fromkeys(value.free_symbols, 1)))
 
 
@@ -370,9 +368,7 @@ def _frame(moments: Quantity) -> tuple[list[Any], Symbol]:
 def _eigenvectors(tensor: Any, moments: Any) -> list[Any]:
     """Return the unit eigenvectors.
 
-    The eigenvector of a moment that equals no other moment is perpendicular to the rows of I - I_k 1. If two moments
-    are equal, the first of their eigenvectors is any unit vector perpendicular to the eigenvector of the third moment.
-    The last eigenvector has the direction of the vector product of the other two.
+    The eigenvector of a moment that equals no other moment is perpendicular to the rows of I - I_k 1.
     """
     alone = lone_moment(moments)
     first = alone if alone is not None else 0

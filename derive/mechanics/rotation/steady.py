@@ -27,6 +27,7 @@ def constant_angular_velocity(
 
     components   the three components of the angular velocity, 1/s
     through      the point of the body that stays at rest
+
     Errors: there are not three components; all components vanish; a component changes in time.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 4.8.
     """
@@ -40,6 +41,7 @@ def momentary_angular_velocity(
 
     components   the three components of the angular velocity, 1/s
     through      the point of the body that is at rest at this instant
+
     Errors: there are not three components; all components vanish; a component is not a constant.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 4.8.
     """

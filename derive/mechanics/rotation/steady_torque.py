@@ -49,6 +49,7 @@ def torque(omega: Quantity, momentum: Quantity, symbol: str = "tau", key: str = 
     omega      vector (3), 1/s, along the body axes, constant
     momentum   angular momentum L, vector (3), kg m^2/s, along the same axes, about a fixed point or the centre of mass,
                constant in the body
+
     Second route: rotate L about omega by a rotation matrix and differentiate.
     Outcomes: zero (omega is along a principal axis), generic (the torque is never zero), in_general (the torque may be
     zero for some values of the symbols).
@@ -100,8 +101,7 @@ def torque(omega: Quantity, momentum: Quantity, symbol: str = "tau", key: str = 
 def _by_euler(omega: Quantity, inertia: Quantity) -> list[Form]:
     """Return a list with the line ((I_z - I_y) omega_y omega_z, ...), Euler's equations without omega_dot.
 
-    The list is empty if the axes are not principal axes. A moment that no step derives is written with the symbol of an
-    equal moment; if no moment with a symbol is equal to it, all moments are replaced by their values.
+    The list is empty if the axes are not principal axes.
     """
     if not inertia.value.is_diagonal():
         return []
@@ -121,6 +121,5 @@ def _by_euler(omega: Quantity, inertia: Quantity) -> list[Form]:
 
 
 def _moments(inertia: Quantity) -> list[Quantity]:
-    """Return the steps of the diagonal entries of the tensor."""
     keys = {f"{inertia.key}_{axis * 2}" for axis in AXES}
     return [parent for parent in inertia.parents if parent.key in keys]

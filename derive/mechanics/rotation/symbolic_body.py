@@ -47,6 +47,7 @@ def symbolic_body(body: Body, about: str = "pivot", symbol: str = "I") -> Letter
     body     a body whose axes at the point are principal axes, with its centre of mass on the z axis
     about    the point, which is the "pivot" of the result
     symbol   the symbol of the moments: I_x and I_z if I_x = I_y, otherwise I_x, I_y and I_z
+
     Only a composite body gets a symbol for its mass; any other body keeps its own mass. Each moment is also compared
     with the sum over equimomental particles, in addition to the second route of its step.
     Errors: the body has no such point; the axes through the point are not principal axes; the centre of mass is not on
@@ -87,7 +88,6 @@ def symbolic_body(body: Body, about: str = "pivot", symbol: str = "I") -> Letter
 
 
 def _letter(quantity: Quantity) -> Expr:
-    """Return the symbol of a quantity, or 0 if the quantity vanishes."""
     found: Expr = quantity.symbol if quantity.value != 0 else Integer(0)
     return found
 
@@ -106,6 +106,7 @@ def _centre_distance(body: Body, point: Point, mass: Quantity | None) -> Quantit
     body    a composite body, or a body with a known centre of mass
     point   the point from which l is measured
     mass    the step of the mass of the whole body, if there is one
+
     Second route: the sum of m (z - l) is zero, with z measured from the point. The sum is over particles that have the
     mass, the centre of mass and the second moments of the body.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 4.

@@ -90,6 +90,7 @@ def turned_tensor(
     inertia   tensor I (3, 3), kg m^2
     axis      "x", "y" or "z": the axis about which the axes are rotated
     angle     the angle of this right-handed rotation
+
     Second route: the sum of m (r.r 1 - r r) over equimomental particles, with components along the rotated axes. Check:
     the trace is the same.
     Outcomes: isotropic, two_equal, diagonal, generic.
@@ -139,6 +140,7 @@ def moment_about(
     inertia     tensor I (3, 3), kg m^2
     direction   d, three components or a vector along the axis
     symbol      the symbol of the moment; the index of this symbol, here n, becomes the symbol of the unit vector
+
     Second route: the sum of m |n x r|^2 over equimomental particles.
     Errors: d vanishes; `inertia` is not the tensor of a body.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
@@ -201,6 +203,7 @@ def tensor_entry(inertia: Quantity, entry: str, symbol: str | None = None, key: 
 
     inertia   tensor (3, 3), kg m^2
     entry     the indices of the entry, "xx", "xy", ...
+
     Second route: the sum of m (r.r delta_ij - x_i x_j) over equimomental particles.
     Outcomes: moment, product.
     Errors: there is no such entry; `inertia` is not the tensor of a body.
@@ -240,6 +243,7 @@ def principal_angle(inertia: Quantity, symbol: str = "theta", key: str = "princi
     """Angle of the principal axes in the x-y plane, measured from x, tan 2 theta = 2 I_xy/(I_xx - I_yy).
 
     inertia   tensor (3, 3), kg m^2, with I_xz = I_yz = 0
+
     Second route: along axes rotated by this angle, the product of inertia of the equimomental particles is zero.
     Outcomes: generic, zero (x and y are principal axes).
     Errors: I_xz or I_yz does not vanish; I_xx and I_yy are equal, so the angle is 45 degrees, or arbitrary if I_xy = 0.
@@ -283,7 +287,6 @@ def principal_angle(inertia: Quantity, symbol: str = "theta", key: str = "princi
 
 
 def _entry_of(inertia: Quantity, i: int, j: int) -> Quantity | Expr:
-    """Return the step of an entry, if there is one; otherwise the value of the entry."""
     name = entry_name(inertia.symbol.name, i, j)
     value: Expr = inertia.value[i, j]
     return next((parent for parent in inertia.parents if parent.symbol == name), value)
@@ -315,6 +318,7 @@ def perpendicular_axes(
     """Moment of inertia of a flat body about the axis normal to its plane, I_z = I_x + I_y.
 
     first, second   moments of inertia about two perpendicular axes through one point in the plane of the body, kg m^2
+
     Second route: the sum of m d^2 over equimomental particles, with the distance d from the normal axis.
     Errors: the body is not flat, or one of the two axes is not in its plane.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, section 7.3; Morin, *Introduction to
@@ -356,6 +360,7 @@ def radius_of_gyration(moment: Quantity, symbol: str = "k", key: str = "radius_o
     """Radius of gyration, k = sqrt(I/M): the distance from the axis at which a particle of mass M has the moment I.
 
     moment   moment of inertia I of a body about one of its axes, kg m^2
+
     Second route: M k^2 is the sum of m d^2 over equimomental particles, with the distance d from the axis.
     Errors: `moment` is not the moment of inertia of a body about one of its axes.
     Source: Fowles, Cassiday, *Analytical Mechanics*, section 8.3.

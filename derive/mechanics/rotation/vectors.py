@@ -165,6 +165,7 @@ def spin(rate: Expr, along: Quantity, through: str = "centre", symbol: str = "om
     rate      angular speed omega, 1/s; a negative rate is a left-handed rotation
     along     vector d (3) along the axis
     through   a point of the body on the axis of rotation; this point stays at rest
+
     Check: the length of the result is the magnitude of the rate; the scalar product of the result with d is the rate
     times |d|.
     Outcomes: left_handed (the rate is known to be negative), right_handed (any other rate).
@@ -218,7 +219,6 @@ def _over_the_body(inertia: Quantity, integrand: Any) -> Any:
 
 
 def _acceleration(omega: Quantity) -> Callable[[Any], Any]:
-    """Return the acceleration of a particle of the body as a function of r, omega_dot x r + omega x (omega x r)."""
     turning = explicit(BodyRate(omega.value, *omega.coordinates))
     return lambda r: explicit(Cross(turning, r)) + explicit(Cross(omega.value, Cross(omega.value, r)))
 
@@ -268,6 +268,7 @@ def kinetic_energy(
 
     inertia   tensor (3, 3), kg m^2, about the point that stays at rest
     omega     vector (3), 1/s, same axes
+
     Second route: half the integral of |omega x r|^2 dm over the body.
     Errors: the axis does not go through the point of the tensor; the size or mass of the body changes; `inertia` is not
     an inertia tensor, or `omega` is not an angular velocity.
@@ -303,8 +304,7 @@ def kinetic_energy(
 def _energy_by_components(inertia: Any, omega: Any) -> list[Form]:
     """Return a list with the kinetic energy as an explicit sum, (1/2) w^2/14 (M a^2/12) (13 1^2 + 10 2^2 + 5 3^2).
 
-    The list is empty unless the axes are principal axes with moments that are not all equal. The moments must also be
-    numbers up to a common factor, and so must the components of omega. At least two components must be nonzero.
+    The list is empty unless the axes are principal axes with moments that are not all equal.
     """
     (w, along), (I, moments) = size_and_rest(omega), factored_matrix(inertia)
     terms = [Factors(moment, n**2) for moment, n in zip(moments.diagonal(), along, strict=True) if n != 0]
@@ -315,7 +315,6 @@ def _energy_by_components(inertia: Any, omega: Any) -> list[Form]:
 
 
 def _as_ratio(size: Expr) -> Expr:
-    """Write a product as one fraction: omega^2/14, not (1/14) omega^2."""
     above, below = size.as_numer_denom()
     return size if below == 1 else Ratio(above, below)
 
@@ -338,6 +337,7 @@ def angular_momentum(inertia: Quantity, omega: Quantity, symbol: str = "L", key:
 
     inertia   tensor (3, 3), kg m^2, about the point that stays at rest
     omega     vector (3), 1/s, same axes
+
     Second route: the integral of r x (omega x r) dm over the body.
     Outcomes: parallel (L is parallel to omega, which is along a principal axis), generic (L is never parallel to
     omega), in_general (L may be parallel to omega for some values of the symbols).
@@ -379,6 +379,7 @@ def cosine_between(a: Quantity, b: Quantity, key: str = "cosine", angle: str = "
 
     a, b    vectors (3) along the same axes, not zero
     angle   the symbol of the angle
+
     Check: the law of cosines in a triangle with sides along a and b.
     Outcomes: parallel, opposite, perpendicular, generic.
     Errors: a or b vanishes; a and b belong to different bodies.
@@ -436,7 +437,6 @@ def _lengths_worked(a: Quantity, b: Quantity, lengths: list[Expr]) -> list[Form]
 
 
 def _as_root_of_squares(vector: Any) -> Expr:
-    """Write the length of a vector as a root of a sum of squares: sqrt(169 + 400 + 225)."""
     squares = [entry**2 for entry in vector if entry != 0]
     return Root(Terms(*squares)) if len(squares) > 1 else sqrt(squares[0])
 
@@ -462,6 +462,7 @@ def angle_between(a: Quantity, b: Quantity, symbol: str = "theta", key: str = "a
     """Angle between two vectors, theta = arccos(a.b/(|a||b|)), from 0 to pi.
 
     a, b    vectors (3) along the same axes, not zero
+
     Check: |a||b| sin theta = |a x b| and a.b sin theta = |a x b| cos theta, which together determine one angle from 0
     to pi.
     Outcomes: parallel, opposite, perpendicular, generic.

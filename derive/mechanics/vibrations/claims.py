@@ -65,12 +65,7 @@ from derive.steps.trial_numbers import (
 
 
 def free_motion(wanted: str) -> Predicate:
-    """Judge the kind of a free motion.
-
-    If a or c is zero, the other coefficients decide. Otherwise the signs of b/a, of c/a and of the discriminant decide.
-    If the sign of the discriminant is unknown, the sentence must state that the discriminant has the sign for this
-    kind.
-    """
+    """Judge the kind of a free motion."""
 
     def is_so(facts: Judged) -> bool:
         a, b, c = facts.inputs["linear"]
@@ -140,7 +135,6 @@ def constants_as_told(facts: Judged, outcome: str) -> bool:
 
 
 def _coefficients(facts: Judged) -> tuple[Expr, ...]:
-    """Return the coefficients of the acceleration, the rate and the coordinate in the equation of motion."""
     q, equation = facts.inputs["q"], explicit(facts.inputs["equation"])
     solved_for = facts.quantities["equation"].symbol
     residual = equation.residual if isinstance(equation, Relation) else solved_for - equation
@@ -168,11 +162,7 @@ def is_frequency_with_damping(facts: Judged) -> bool:
 
 
 def _is_its_condition(facts: Judged, wanted: int, discriminant: Expr) -> bool:
-    """Whether the stated condition holds if and only if the discriminant has the wanted sign.
-
-    At the boundary of the condition the discriminant must vanish. On both sides of the boundary the sign of the
-    discriminant is checked numerically.
-    """
+    """Whether the stated condition holds if and only if the discriminant has the wanted sign."""
     condition = explicit(facts.inputs["condition"])
     if not same_equation(condition.residual, discriminant) or (condition.operator == "=") != (wanted == 0):
         return False
@@ -243,15 +233,12 @@ S = Dummy("s")
 
 
 def _of_equations(facts: Judged) -> tuple[Any, ...]:
-    """Return the symbols of the equations of motion, and the condition under which the equilibrium exists, if there is
-    one."""
     exists = facts.inputs.get("exists")
     letters = set().union(*(facts.inputs[role].free_symbols for role in MATRICES if role in facts.inputs))
     return letters, *([] if exists is None else [exists])
 
 
 def _points(facts: Judged, tried: int = TRIED) -> list[Point]:
-    """Return trial points at which the equilibrium exists."""
     return trial_points(*_of_equations(facts), tried=tried)
 
 
@@ -293,7 +280,6 @@ def free(facts: Judged) -> bool:
 
 
 def _steady(facts: Judged, point: Point) -> bool:
-    """Whether all exponents at a trial point are imaginary or zero."""
     roots = _roots(facts, point)
     size = max(abs(root) for root in roots)
     return all(abs(root.real) <= LITTLE * size for root in roots)
@@ -366,8 +352,7 @@ def sign_of_product(wanted: int) -> Predicate:
 def damped(sign: int | None) -> Predicate:
     """Judge whether -beta +- i omega are roots, or, for the sign -1, whether -beta +- omega are roots.
 
-    A condition must be stated if `sign` is None, and only then. The conditions must hold exactly where the result is
-    real.
+    A condition must be stated if `sign` is None, and only then.
     """
 
     def is_so(facts: Judged) -> bool:
@@ -411,7 +396,6 @@ FEW = 5  # number of trial points at which a determinant is evaluated
 
 
 def _polynomial(facts: Judged, point: Point) -> Poly:
-    """Return det(K - lambda M) at a trial point."""
     there = (facts.inputs[role].xreplace(dict(point)) for role in ("stiffness", "mass"))
     return _determinant(*map(ImmutableDenseMatrix, there))
 
@@ -466,7 +450,6 @@ def moves_by_itself(sign: int | None) -> Predicate:
 
 
 def _is_uncoupled(facts: Judged, i: int) -> bool:
-    """Whether no other coordinate occurs in equation i, and coordinate i occurs in no other equation."""
     matrices = [Matrix(facts.inputs[role]) for role in MATRICES]
     others = [j for j in range(matrices[0].shape[0]) if j != i]
     return all(is_zero(each[i, j]) and is_zero(each[j, i]) for each in matrices for j in others)
@@ -480,12 +463,7 @@ def oscillates_by_itself(facts: Judged, displacement: Any) -> bool:
 
 
 def uncoupled_as_told(facts: Judged, outcome: str) -> bool:
-    """Whether the word for the coupling is right.
-
-    Some equations must be coupled for the word "others", and none for any other word. The word must be "all" if and
-    only if all coordinates have this frequency. The sentence must name the equations of the coordinates with this
-    frequency.
-    """
+    """Whether the word for the coupling is right."""
     coupling, own = facts.words["coupling"], list(facts.inputs["own"])
     every = range(Matrix(facts.inputs["mass"]).shape[0])
     if (coupling != "others") != all(_is_uncoupled(facts, i) for i in every):
@@ -501,11 +479,7 @@ def is_coordinate_of_the_equation(facts: Judged, q: Any) -> bool:
 
 
 def is_in_order(whole: bool) -> Predicate:
-    """Judge whether the square of the result is a root of the determinant, numbered correctly in ascending order.
-
-    Sturm's theorem counts the smaller roots. The number refers to all roots if `whole`; otherwise it refers to the
-    roots of a factor of lower degree.
-    """
+    """Judge whether the square of the result is a root of the determinant, numbered correctly in ascending order."""
 
     def is_so(facts: Judged) -> bool:
         square = facts.result**2
@@ -578,10 +552,7 @@ def modes_linear(displaced: bool, lossy: bool | None, driven: bool) -> Predicate
 
 
 def drifts_as_told(facts: Judged, outcome: str) -> bool:
-    """Whether a uniform motion satisfies the equations of motion at all trial points.
-
-    The test is made only if the sentence says that no force acts to any order.
-    """
+    """If the sentence says that no force acts to any order: whether a uniform motion satisfies the equations."""
     if "drift" not in facts.inputs:
         return True
     points = trial_points(set().union(*map(letters_of, facts.inputs["left"])))
@@ -717,7 +688,6 @@ def coupled_only_to_each_other(facts: Judged, outcome: str) -> bool:
 
 
 def _in_equation(equation: Any) -> set[Any]:
-    """Return the displacements that occur in a linear equation, or whose rates or accelerations do."""
     displaced = next(f.displacements for f in equation.facts if hasattr(f, "displacements"))
     present = explicit(equation.value).residual.free_symbols
     return {s.symbol for s in displaced if present & {s.symbol, s.rate, s.acceleration}}

@@ -63,6 +63,7 @@ def steady_amplitude(
 
     equation   a q_ddot + b q_dot + c q = F cos(omega t)
     q          the coordinate of the equation of motion
+
     Check: the forced oscillation with this amplitude and this lag is substituted back into the equation.
     Outcomes: damped, undamped (the lag is 0), opposite (only for the lag, which is pi above resonance without
     damping).
@@ -154,7 +155,6 @@ def _amplitude(force: Expr, stiff: Expr, loss: Expr) -> Expr:
 
 
 def _one_swing(linear: LinearCoefficients, equation: Quantity) -> tuple[Expr, Expr]:
-    """Return the amplitude F and the phase omega t of the driving force F cos(omega t)."""
     check_no_function("steady_amplitude", linear.driven, equation)
     outside, inside = linear.driven.as_independent(TIME, as_Add=False)
     if not isinstance(inside, cos) or not is_linear_in_time(inside.args[0]) or sign_known(outside) == -1:
@@ -188,6 +188,7 @@ def quality_factor(equation: Quantity, q: Coordinate, symbol: str = "Q", key: st
 
     equation   a q_ddot + b q_dot + c q = f(t) with positive a, b and c
     q          the coordinate of the equation of motion
+
     Second route: with the driving force F cos(omega_0 t), where omega_0 = sqrt(c/a), the motion
     q = Q (F/c) sin(omega_0 t) satisfies the equation. Also, Q is 2 pi times the energy of this oscillation, divided by
     the energy that the damping takes in one period.

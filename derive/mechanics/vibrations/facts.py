@@ -85,9 +85,7 @@ class Linear(LinearSystem, Fact):
     def common(self, i: int) -> Expr:
         """Return the common factor of all terms of one equation: m l for m l^2 theta_ddot + m g l theta.
 
-        The factor contains no numbers, and nothing that may be negative. For an equation with a single term
-        the factor is 1. If every term has a denominator, the factor also contains the reciprocal of the common
-        denominator: the factor is 1/k^2 for A theta_ddot/k^2 + g theta/k.
+        The factor contains no numbers, and nothing that may be negative.
         """
         entries = [entry for matrix in (self.mass, self.turning, self.stiffness) for entry in matrix.row(i)]
         parts = [together(entry).as_numer_denom() for entry in (*entries, self.driven[i]) if entry != 0]

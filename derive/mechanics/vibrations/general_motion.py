@@ -189,7 +189,6 @@ def _known(sought: Sought, key: str, *rules: Rule) -> Quantity | None:
 
 
 def _free_with(constants: tuple[Symbol, Symbol], linear: LinearCoefficients, sort: str) -> Expr:
-    """Return the free motion with two constants, as e^(-b t/2a) (A cos(omega t) + B sin(omega t))."""
     A, B = constants
     decay, half, t = exp(tidied(-linear.b / (2 * linear.a)) * TIME), _half_difference(linear, sort), TIME
     if sort == "critically_damped":

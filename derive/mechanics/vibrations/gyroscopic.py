@@ -64,11 +64,7 @@ class TurningModes(Equations[Gyroscopic]):
     """The results of `normal_modes` with gyroscopic forces, which are linear in the rates and do no work."""
 
     def found(self) -> tuple[Quantity, ...]:
-        """Return the frequencies, then the motion for each frequency for which the amplitudes are found.
-
-        No motion is returned for a zero or repeated frequency, if the sign of omega is unknown, or if an amplitude is
-        neither real nor imaginary.
-        """
+        """Return the frequencies, then the motion for each frequency for which the amplitudes are found."""
         characteristic = _characteristic(self)
         found = [_frequency(self, characteristic, n) for n in range(len(self.system.roots))]
         motions: list[Quantity] = []
@@ -199,7 +195,6 @@ def _frequency(equations: TurningModes, characteristic: Quantity, n: int) -> Qua
 
 
 def _by_square(value: Expr, letter: Symbol, square: Expr) -> Expr:
-    """Return a polynomial in omega^2 with `square` in place of omega^2."""
     return Add(*(c * square ** (n // 2) for (n,), c in Poly(value, letter).terms()))
 
 
@@ -367,13 +362,11 @@ def _oscillates_by_itself(together: Linear, i: int) -> bool:
 
 
 def _told_of_others(equations: TurningModes) -> dict[str, Any]:
-    """Return the displacements that oscillate by themselves, for the sentence about stability."""
     others = (s for s in equations.every[0].needed(Linear).moving if s not in equations.moving)
     return {f"alone_{n}": symbol for n, symbol in enumerate(others, 1)}
 
 
 def _of_all(equations: TurningModes, conditions: Sequence[Relation] = ()) -> dict[str, Any]:
-    """Return the data for judging a sentence about all coordinates, coupled or not."""
     whole = equations.every[0].needed(Linear)
     matrices = {"stiffness": whole.stiffness, "turning": whole.turning, "mass": whole.mass}
     return {**equations.judged_by(conditions), **matrices, "displacements": whole.moving}
@@ -452,13 +445,10 @@ def _verdict(equations: TurningModes, characteristic: Quantity, outcome: str, ke
 
 
 def _rests(characteristic: Quantity) -> list[Quantity]:
-    """Return a list with the equilibrium about which the equations are linearised; empty if no step derived it."""
     return [each for each in characteristic.parents[0].parents if each.fact(Rest) is not None]
 
 
 def _named(characteristic: Quantity) -> dict[str, Quantity]:
-    """Return the steps that the sentence about stability names: the characteristic equation and perhaps the
-    equilibrium."""
     return {"characteristic": characteristic, **dict(zip(("rest",), _rests(characteristic), strict=False))}
 
 
@@ -508,8 +498,6 @@ def _condition(
 
 
 def _place_among(i: int, number: int) -> str:
-    """Return the outcome for the condition with the index i: "depends" if it is the only one, otherwise "first",
-    "further" or "last"."""
     if i == number - 1:
         return "last" if i else "depends"
     return "further" if i else "first"

@@ -105,6 +105,7 @@ def solution(
     start        the value of q at t = 0
     start_rate   the rate of q at t = 0, for an equation of second order; 0 by default
     case         `underdamped`, `critically_damped` or `overdamped`, if the symbols leave the case open
+
     The steps that lead to the motion are the characteristic equation, its roots and the general motion with two
     constants; for an oscillation without damping, only the general motion.
     Second route: the trial e^(s t) is substituted into the equation, which gives the characteristic equation. The
@@ -175,7 +176,6 @@ def solution(
 
 
 def _by_powers(motion: Expr) -> Expr:
-    """Sort a polynomial in the time by powers, each with one coefficient; write any other motion as separate terms."""
     powers = motion.as_poly(TIME) if motion.is_polynomial(TIME) else None
     if powers is None:
         return by_terms(motion.expand())
@@ -193,7 +193,6 @@ def free_motion(linear: LinearCoefficients, first: Expr, initial: Expr, case: st
 
 
 def _start(q: Coordinate, first: Expr, initial: Expr | None) -> dict[str, Relation]:
-    """Return the equations that state the initial values of the motion."""
     at_rest = {} if initial is None else {"start_rate": Relation(q.rate, "=", initial)}
     return {"start": Relation(q.symbol, "=", first), **at_rest}
 
@@ -304,7 +303,6 @@ def check_no_function(verb: str, driven: Expr, equation: Quantity) -> None:
 
 
 def _driving(driven: Expr) -> Expr:
-    """Write products of sines and cosines of the time as sums."""
     value = expand(driven)
     return TR8(value).expand() if len([f for f in value.atoms(sin, cos) if depends_on_time(f)]) > 1 else value
 
@@ -420,7 +418,6 @@ def _accumulated(inside: Expr, equation: Quantity) -> Expr:
 
 
 def _constants(basis: Sequence[Expr], particular: Expr, first: Expr, initial: Expr | None) -> list[Expr]:
-    """Return the factors of the free motions such that the motion has the initial value and rate."""
     rows = [[e.subs(TIME, 0) for e in basis]]
     right = [first - particular.subs(TIME, 0)]
     if initial is not None:
@@ -430,8 +427,6 @@ def _constants(basis: Sequence[Expr], particular: Expr, first: Expr, initial: Ex
 
 
 def _free(basis: Sequence[Expr], values: Sequence[Expr], linear: LinearCoefficients, sort: str) -> Expr:
-    """Write the free motion as a sum. An underdamped or critically damped motion has the common exponential as a
-    factor, as in e^(-b t/2a) (C cos + D sin)."""
     common = exp(tidied(-linear.b / (2 * linear.a)) * TIME) if sort in ("underdamped", "critically_damped") else ONE
     inside = Add(*(presented(C) * (e / common) for C, e in zip(values, basis, strict=True)))
     inside = min((factor_terms(inside.expand()), factor_terms(inside), inside), key=length)

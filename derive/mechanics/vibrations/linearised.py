@@ -71,7 +71,6 @@ def linearised(
 
 
 def _together(equations: Sequence[Quantity], at: Any, keys: Sequence[str]) -> tuple[Quantity, ...]:
-    """Return the linear equations of all coordinates."""
     moving = [equation.needed(OfCoordinate).coordinate for equation in equations]
     _check_whole(equations, moving)
     place = _place_of(equations, moving, at)
@@ -220,7 +219,6 @@ def _with_small_angles(equation: Quantity, moving: Sequence[Coordinate], common:
 
 
 def _before(small: Expr | None, moving: Sequence[Coordinate]) -> list[Form]:
-    """Return the line of the equation with small angles, before the terms of higher order are dropped."""
     if small is None:
         return []
     letters = [letter for q in moving for letter in (q.symbol, q.rate, q.acceleration)]
@@ -234,7 +232,6 @@ def _functions_of(equation: Quantity, q: Coordinate, small: Expr | None) -> dict
 
 
 def _dropped(q: Coordinate, small: Expr | None) -> dict[str, tuple[Expr, Expr]]:
-    """Return the terms of second and higher order if they are few enough for a sentence."""
     if small is None:
         return {}
     told: dict[str, tuple[Expr, Expr]] = {}
@@ -272,7 +269,6 @@ def _loss(linear: Linear) -> dict[str, Expr]:
 
 
 def _check_whole(equations: Sequence[Quantity], moving: Sequence[Coordinate]) -> None:
-    """Check that no equation contains a coordinate whose equation is missing."""
     known = {q.symbol for q in moving}
     for equation in equations:
         value = explicit(equation.value).residual
@@ -309,7 +305,6 @@ def _at_rest(value: Expr, moving: Sequence[Coordinate], place: Mapping[Symbol, E
 
 
 def _check_exists(at: Any) -> None:
-    """Reject an equilibrium that does not exist for the given numbers."""
     exists = at.needed(Rest).exists if isinstance(at, Quantity) else None
     sign = sign_known(exists.residual) if exists is not None else None
     if exists is not None and sign is not None and sign != (1 if exists.operator == ">" else -1):
@@ -371,11 +366,7 @@ def _displacements(moving: Sequence[Coordinate], place: Mapping[Symbol, Expr]) -
 
 
 def _pointed(equations: Sequence[Quantity], i: int) -> dict[str, Quantity]:
-    """Return the equations that the sentence names: equation i and, if there are several, one other equation.
-
-    The other equation is the one before equation i; for the first equation, it is the last one. For the first of more
-    than two equations, the second equation is also returned, so that the sentence says "(6) to (8)".
-    """
+    """Return the equations that the sentence names: equation i and, if there are several, one other equation."""
     others = {"other": equations[i - 1]} if len(equations) > 1 else {}
     middle = {"middle": equations[1]} if len(equations) > 2 and i == 0 else {}
     return {"motion": equations[i], **others, **middle}

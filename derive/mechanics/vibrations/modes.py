@@ -397,6 +397,7 @@ def period(of: Quantity, symbol: str | None = None, key: str = "period") -> Quan
     """Period of an oscillation, tau = 2 pi/omega.
 
     of   the angular frequency of the oscillation, 1/s
+
     Check: after one period, and not after half a period, cos(omega t) and its rate have the same values again.
     Errors: `of` is not the angular frequency of an oscillation.
     Source: Taylor, *Classical Mechanics*, section 5.2.

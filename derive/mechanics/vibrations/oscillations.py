@@ -47,6 +47,7 @@ def frequency_squared(linear: Quantity, symbol: str = "omega_0", key: str = "fre
     """Square of the frequency of small oscillations, omega_0^2 = k/m, in 1/s^2.
 
     linear   the equation m q_ddot + k q = 0, as `linearised` yields it
+
     Check: q = cos(omega_0 t) is substituted back into the equation.
     Outcomes: stable (positive), unstable (negative), neutral (zero), conditional (the sign depends on the symbols).
     Errors: the equation is not of this form; a coefficient is not constant.
@@ -105,7 +106,6 @@ def _symbol(name: str) -> Symbol:
 
 
 def _quotient(stiffness: Expr, mass: Expr) -> Expr:
-    """Write k/m with one fraction line."""
     above, below = stiffness.as_numer_denom()
     if below.free_symbols:
         return Ratio(above, below * mass)
@@ -164,6 +164,7 @@ def frequency(
     condition   whether the sentence states the condition for an oscillation
     stands_for  further keys of this step, such as the key of a growth rate. The growth rate has a step of its own only
                 if the sign of the square is unknown
+
     Check: cos(omega_0 t), or e^(kappa t), satisfies q_ddot + omega_0^2 q = 0, and the result is the positive root.
     Outcomes: stable, conditional, neutral (zero), unstable (the growth rate kappa).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.1.
@@ -179,6 +180,7 @@ def frequency_and_growth(
     squared     the square of the frequency, as `frequency_squared` yields it, 1/s^2
     keys        the keys of the frequency and of the growth rate; if the sign is known, both keys name one step
     condition   as for `frequency`
+
     Check: as for `frequency`.
     Outcomes: the same as for `frequency`; the growth rate next to a conditional frequency has the outcome growing.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.1.

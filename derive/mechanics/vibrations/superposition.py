@@ -85,6 +85,7 @@ def motions_by_modes(
     start        the values of the displacements at t = 0; a displacement that is not listed is 0
     start_rate   the rates of the displacements at t = 0; a rate that is not listed is 0
     case         `underdamped`, `critically_damped` or `overdamped`, if the symbols leave the case open
+
     Keys: of_t_x for a coordinate x; a given `key` replaces of_t.
     Check: the motion is substituted back into all linear equations; the motion has the given values and rates at t = 0.
     Outcomes: generic, zero (this coordinate does not move).
@@ -163,7 +164,6 @@ def _separates(drag: MatrixBase, columns: Sequence[MatrixBase]) -> bool:
 
 
 def _damped(together: Linear, column: MatrixBase, own: Sequence[Expr], case: str | None) -> Expr:
-    """Return the damped motion of the oscillator along a shape."""
     a, b, c = (tidied((column.T * each * column)[0]) for each in (together.mass, together.turning, together.stiffness))
     return linear_motion.free_motion(LinearCoefficients(a, b, c, ZERO), own[0], own[1], case)
 
@@ -251,13 +251,11 @@ def _motion(
 
 
 def _told(together: Linear, started: tuple[Sequence[Expr], Sequence[Expr]]) -> dict[str, tuple[Any, Any]]:
-    """Return the initial values that are not zero."""
     pairs = [(s, value) for s, value in _starts(together, started) if value != 0]
     return {f"start_{n}": (Relation(s, "=", value), Relation(value, "=", s)) for n, (s, value) in enumerate(pairs, 1)}
 
 
 def _starts(together: Linear, started: tuple[Sequence[Expr], Sequence[Expr]]) -> list[tuple[Expr, Expr]]:
-    """Return each displacement and each rate with its initial value."""
     letters = [*(s.symbol for s in together.displacements), *(s.rate for s in together.displacements)]
     return list(zip(letters, [*started[0], *started[1]], strict=True))
 
@@ -266,7 +264,7 @@ def _as_product(excited: Sequence[ExcitedMode], i: int) -> Expr | None:
     """Write A cos(w_1 t) + A cos(w_2 t) as 2 A cos((w_2 - w_1) t/2) cos((w_1 + w_2) t/2), which shows the beats.
 
     Write A cos(w_1 t) - A cos(w_2 t) as 2 A sin((w_2 - w_1) t/2) sin((w_1 + w_2) t/2). In both products the frequencies
-    are symbols. The result is None for a sum of modes that has neither of these two forms.
+    are symbols.
     """
     plain = [s for s in excited if s.frequency is not None and s.sign != 0 and s.sign != -1 and s.initial == 0]
     if len(excited) != 2 or len(plain) != 2:

@@ -74,7 +74,7 @@ def answer_for_each(
 class Answers(Generic[D]):
     """The answers about one system, body, rotation or impact.
 
-    `found` has, by name, the answers that methods with `answer_for_each` have derived.
+    `found` has the answers of methods with `answer_for_each` that were derived, by name.
     """
 
     def __init__(self, described: D):
@@ -82,8 +82,7 @@ class Answers(Generic[D]):
         self.found: dict[str, Any] = {}
 
     def asks(self) -> dict[str, Callable[[], Any]]:
-        """Return, for every name that a part may ask for, the function that derives the answer, in the order of the
-        methods of the class."""
+        """Return the functions that derive the answers, by the names that a part may ask for."""
         asks: dict[str, Callable[[], Any]] = {}
         for name, own in vars(type(self)).items():
             if isinstance(own, answer):
@@ -115,7 +114,6 @@ class StockAnswers(Answers[W]):
 
     @property
     def surfaces(self) -> Mapping[str, Any]:
-        """Return the surfaces on which a flight may end, by name."""
         return {}
 
     @property
@@ -125,8 +123,7 @@ class StockAnswers(Answers[W]):
 
     @property
     def elsewhere(self) -> Callable[..., Quantity] | None:
-        """Return the function that derives an answer about another point or axis of a body; None if the description has
-        no such function."""
+        """Return the function that derives an answer about another point or axis of a body, or None."""
         return None
 
     def solve(self, asked: Sequence[Word], drawings: Sequence[Placement] = ()) -> dict[str, object]:
@@ -143,7 +140,7 @@ class StockAnswers(Answers[W]):
         return found
 
     def mark(self, drawings: Sequence[Placement]) -> None:
-        """Add the marks of the problem to the drawings, and make the further drawings that are like another one."""
+        """Add the marks of the problem to the drawings, and make drawings that are like another one."""
         for drawing in drawings:
             if drawing.adds or drawing.like:
                 Marked(drawing, self.place_of_mark).add()
@@ -155,5 +152,5 @@ class StockAnswers(Answers[W]):
         return ImmutableDenseMatrix(each([partial(letters.of_kind, item, name, "length") for item in node.items]))
 
     def every(self) -> dict[str, tuple[Quantity, ...] | DeriveError]:
-        """Return the steps of every name that can be derived, and the error of every result that cannot be derived."""
+        """Return the steps of every name that can be derived, and the errors of results."""
         return self.by_name.every()

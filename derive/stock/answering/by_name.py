@@ -1,4 +1,4 @@
-"""Answers by name, for parts and for results. Each answer is derived when it is first needed.
+"""Answers by name, for parts and for results.
 
 A name may be
 
@@ -6,8 +6,6 @@ A name may be
 - such a name with a number, for one of the steps of the answer;
 - the name of a result;
 - the key of a step on which an answer or a result depends.
-
-The answer does not depend on the order in which names are asked for.
 """
 
 from __future__ import annotations
@@ -41,8 +39,8 @@ class ByName:
     what          the kind of description: "a rotation"
     results       the entries of `results:`, which are computed from answers
     coordinates   the coordinates that results may use
-    again         a function that makes a second object for the same answers, in which nothing is derived yet
-    elsewhere     a function that derives an answer of a body about a point or axis other than the given one
+    again         a function that makes a second object for the same answers, without steps yet
+    elsewhere     a function that derives an answer of a body about another point or axis
     surfaces      the surfaces of a system, by name
     """
 
@@ -66,7 +64,7 @@ class ByName:
         self.asks |= {name: partial(one.made, *given) for name, one in self.results.items()}
 
     def answers(self, asked: Sequence[Word]) -> dict[str, object]:
-        """Return the answers by the requested names; an error is reported at the part that asks for the answer."""
+        """Return the answers by the requested names."""
         offered_first = sorted(asked, key=lambda name: self.offered(name) is None)
         try:
             found = dict(each([partial(self._answer, name) for name in offered_first]))
@@ -103,8 +101,7 @@ class ByName:
         return next((form for form in (name, *_in_other_number(name)) if form in self.asks), None)
 
     def every(self) -> dict[str, tuple[Quantity, ...] | DeriveError]:
-        """Return the steps of every offered name that can be derived, and the error of every result that cannot be
-        derived."""
+        """Return the steps of every offered name that can be derived, and the errors of results."""
         found: dict[str, tuple[Quantity, ...] | DeriveError] = {}
         for name in self.asks:
             try:
@@ -115,8 +112,8 @@ class ByName:
         return found
 
     def _derived_alone(self, name: str) -> tuple[Quantity, ...]:
-        """Derive the answer of a name within the current record of steps. After an error, try again with an empty
-        record, in which no result has a symbol yet."""
+        """Derive the answer of a name; after an error, try again with an empty record, in which every symbol is
+        free."""
         try:
             return self._derived(name, None)
         except DeriveError:
@@ -126,8 +123,8 @@ class ByName:
                 return self.again()._derived(name, None)
 
     def _copied_run(self) -> Run:
-        """Return a record without steps, for the same problem. It shares the store of calls, so that steps derived in a
-        search need not be derived a second time for the answers."""
+        """Return a record without steps, for the same problem. It shares the store of calls, so that steps need not be
+        derived a second time."""
         run = current_run.get() or Run()
         memory = run.memory and run.memory.of_another_run()
         return Run(
@@ -150,8 +147,7 @@ class ByName:
         return self._known[name]
 
     def _by_number(self, name: Word) -> tuple[Quantity, ...]:
-        """Return the step that a name such as `frequency_2` denotes: the step of `frequency` with this key, or else the
-        second step."""
+        """Return the step that a name such as `frequency_2` denotes, by its key or by its number."""
         numbered = _NUMBERED.fullmatch(name)
         own = self.offered(numbered[1]) if numbered else None
         if numbered is None or own is None:
@@ -170,8 +166,7 @@ class ByName:
         return found
 
     def _one_of(self, own: str, name: str, found: Sequence[Quantity]) -> Quantity | None:
-        """Return the step of the answer `own` that `name` denotes: `name` is the key of the step, or the name of the
-        answer with the number of the step."""
+        """Return the step of the answer `own` that `name` denotes, by its key or by its number."""
         by_key = _called(name, {q.key: q for q in found})
         if len(by_key) == 1:
             return by_key[0]
@@ -186,9 +181,9 @@ class ByName:
         return {**{q.key: q for q in (run.established if run is not None else ())}, **known}
 
     def _leading_to(self, name: Word) -> str | None:
-        """Return the first offered name whose answer depends on a step with the key `name`.
+        """Return an offered name whose answer depends on a step with the key `name`, or None.
 
-        The search uses a separate record, so that the order of parts and earlier questions have no effect.
+        The search uses a separate record, so that it has no effect on the answers.
         """
         if self.again is None or name in self._sought:
             return None
@@ -205,11 +200,8 @@ class ByName:
         return None
 
     def _in_order(self, name: str, likely: bool) -> Iterator[str]:
-        """Yield the likely offered names if `likely` is true, and all other offered names if it is false.
-
-        An offered name is likely if `name` begins with it, or if it is `lagrangian` or `equations_of_motion`: the
-        derivations of these two contain most steps of a system.
-        """
+        """Yield the offered names that are likely to lead to `name` if `likely` is true, and the others if it is
+        false."""
         for own in self.asks:
             begins = name.startswith(f"{own}_") or own in ("lagrangian", "equations_of_motion")
             if begins == likely:
@@ -235,11 +227,7 @@ class ByName:
 
 
 def _called(name: str, steps: Mapping[str, Quantity]) -> tuple[Quantity, ...]:
-    """Return the step with this key, or else all steps whose keys are this name with a number, such as `rest_2`. The
-    name may be in the singular or in the plural.
-
-    `rest_1` also denotes the step `rest` if there is no `rest_2`.
-    """
+    """Return the step with this key, or else the steps whose keys are this name with a number, such as `rest_2`."""
     if name in steps:
         return (steps[name],)
     for form in (name, *_in_other_number(name)):

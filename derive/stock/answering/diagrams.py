@@ -22,7 +22,7 @@ from derive.witness.facts import Rest
 
 @dataclass(frozen=True)
 class Equilibria:
-    """The equilibria of one coordinate, and the steps that decide their stability, in the same order."""
+    """The equilibria of one coordinate, and the steps that decide their stability."""
 
     rests: tuple[Quantity, ...]
     judged: tuple[Quantity, ...]
@@ -51,8 +51,7 @@ class Equilibria:
         return tuple(_branch(rest, self.coordinate, judged) for rest, judged in pairs)
 
     def keys(self, shown: Collection[str]) -> tuple[str, ...]:
-        """Return the keys of the equilibria and of the decisions about their stability that parts ask for; if parts ask
-        for none of these, return the keys of all equilibria."""
+        """Return the keys of those steps that parts ask for, or of all equilibria if there are none."""
         every = [q.key for q in (*self.rests, *self.judged)]
         return tuple(key for key in every if key in shown) or tuple(q.key for q in self.rests)
 
@@ -96,7 +95,7 @@ class Parameter:
     name      the name of the axis
     symbol    the letter, or the symbol of the ratio
     kind      the kind of the quantity
-    letter    the letter that is replaced, and its value in terms of the ratio; None if nothing is replaced
+    letter    the letter that is replaced, and its value in terms of the ratio, if there is one
     keys      the keys of the answers and of the defined quantities in the ratio
     """
 
@@ -118,8 +117,7 @@ class Parameter:
         return Branch(branch.label, self.put_in(branch.place), exists, stable, branch.key)
 
     def _condition(self, condition: Relation) -> Relation:
-        """Return a condition in terms of the parameter, without positive factors that do not contain it, because these
-        factors would need numbers."""
+        """Return a condition in terms of the parameter, without positive factors that would need numbers."""
         value = self.put_in(explicit(condition.residual))
         try:
             factors = Mul.make_args(factor(value))
@@ -130,11 +128,7 @@ class Parameter:
 
 
 def ratio(name: Any, expr: Expr, letters: Sequence[Symbol], against: Word, keys: tuple[str, ...]) -> Parameter:
-    """Return the parameter for a ratio such as omega/omega_c; the ratio replaces the first letter to which it is
-    proportional.
-
-    letters   the letters of the ratio in their order
-    """
+    """Return the parameter for a ratio such as omega/omega_c, which replaces a letter to which it is proportional."""
     for letter in letters:
         rest = tidied(expr / letter)
         if not rest.has(letter):

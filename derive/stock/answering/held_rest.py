@@ -20,8 +20,9 @@ def rest_with_forces(
     motions       the equations of motion, one for each coordinate
     coordinates   the coordinates by name, in the order of `motions`
     forces        the symbols of the constraint forces
-    If there are as many forces as equations, as with static friction, every position is an equilibrium. The result is
-    then the forces as functions of the position.
+
+    If there are as many forces as equations, as with static friction, the result is the forces as functions of the
+    position.
     Errors: the static equations do not determine the unknowns.
     """
     still = [_still(name, motion, coordinates) for name, motion in zip(coordinates, motions, strict=True)]

@@ -142,7 +142,7 @@ class Marked:
         return Arrow(at, along, size or LONG[is_plane], bool(own_keys), label=label, keys=(*used, *own_keys))
 
     def _check_length(self, arm: MatrixBase, label: Any, keys: MarkKeys) -> None:
-        """Check that a dimension line is as long as its label says, if the label has letters of the problem only."""
+        """Check that a dimension line is as long as its label says, if this is known."""
         known = {declared.symbol for declared in self._letters.letters.values()}
         if not isinstance(label, Expr) or not label.free_symbols or not label.free_symbols <= known:
             return
@@ -182,7 +182,7 @@ class Marked:
     ) -> tuple[MatrixBase, tuple[str, ...], bool]:
         """Return a direction, the keys of its steps, and whether it leads from `start` to a place.
 
-        The direction is written as components, as an axis, as the name of an answer or, with `start`, as a place.
+        A direction may be written as components, as an axis, or as the name of an answer or of a place.
         """
         if isinstance(node, SequenceNode):
             return self._components(node, name, rows), (), False
@@ -234,8 +234,8 @@ class Marked:
         return size
 
     def _label(self, written: Written | None) -> tuple[Any, tuple[str, ...]]:
-        """Return the label and the keys of the answers whose letters it contains. A name that is neither declared nor
-        an answer is a letter of the drawing."""
+        """Return the label and the keys of the answers whose letters it contains. An unknown name is a letter of the
+        drawing."""
         if written is None:
             return None, ()
         if str(written) in self._steps:

@@ -90,12 +90,11 @@ MEANINGS: Mapping[str, str] = {
     "angular_momentum_*": "the {} component of the angular momentum",
     "torque_*": "the {} component of the torque",
 }
-FORCE = "a force of constraint or an impulse"  # the name of this answer is the symbol of the force or the impulse
+FORCE = "a force of constraint or an impulse"  # any other name is the symbol of a force or an impulse
 
 
 def meaning_of(name: str) -> str:
-    """Return the meaning of an answer in words, including the coordinate or the axis in its name. A name that is not in
-    the table is the symbol of a force or an impulse."""
+    """Return the meaning of an answer in words, including the coordinate or the axis in its name."""
     if name in MEANINGS:
         return MEANINGS[name]
     fitting = []

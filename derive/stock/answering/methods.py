@@ -1,4 +1,4 @@
-"""Methods for equations of motion: equations by Newton's laws, and checks of the methods that a problem states."""
+"""Equations by Newton's laws, and checks of the methods that a problem states."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def _is_of_a_lagrangian(name: str) -> bool:
 
 
 def check_effect(method: Word | None, answers: Mapping[str, object]) -> None:
-    """Reject a method other than `lagrange` by which no step of the answers is derived."""
+    """Reject a method that has no effect on the answers."""
     if method is None or method == LAGRANGE or not answers:
         return
     steps = with_ancestors(returned_quantities(list(answers.values())))

@@ -21,10 +21,7 @@ SOLUTION, SPEED, FLIGHT = "solution", "speed", "flight"
 
 def started(results: Sequence[Result], system: System) -> Moment | None:
     """Return the positions and velocities at which the requested motions begin, and the coordinates of a requested
-    flight in a plane; None if there is neither a start rate nor a flight.
-
-    If several results give a value for one coordinate, the first value counts.
-    """
+    flight in a plane, if there are any."""
     at: dict[Symbol, Expr] = {}
     rates: dict[Symbol, Expr] = {}
     for result in results:
@@ -41,12 +38,8 @@ def started(results: Sequence[Result], system: System) -> Moment | None:
 
 
 def check_starts(results: Sequence[Result], assumed: Sequence[Relation]) -> None:
-    """Reject an assumption about rates, such as the direction of slip, that is false at the start of the requested
-    motions.
-
-    An assumption with > is tested if it contains the rate of a coordinate with a requested motion, and if the start
-    values determine the sign of its left side minus its right side.
-    """
+    """Reject an assumption about rates, such as the direction of slip, that is known to be false at the start of a
+    requested motion."""
     at: dict[Symbol, Expr] = {}
     rates: dict[Symbol, Expr] = {}
     for result in results:

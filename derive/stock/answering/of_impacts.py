@@ -90,11 +90,7 @@ class ImpactAnswers(Answers[DescribedImpact]):
 
     @cached_property
     def after(self) -> tuple[Quantity, ...]:
-        """Return all rates just after the impact, and all unknown impulses of collisions and constraints.
-
-        If the laws of momentum without unknown impulses, together with the conditions on the rates, determine the
-        rates, only the rates are returned.
-        """
+        """Return the rates just after the impact and, if they are needed, the unknown impulses."""
         letters = {meeting.letter for meeting in self.impact.meetings}
         without = [law for law in self.jumps if not explicit(law.value).free_symbols & letters]
         if not self.by_momentum or len(without) + len(self.meetings) != len(self.moving):

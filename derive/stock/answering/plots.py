@@ -35,8 +35,7 @@ _LETTER = re.compile(r"[A-Za-z]+(_[A-Za-z0-9]+)?", re.ASCII)
 
 @dataclass(frozen=True)
 class Shown:
-    """A quantity of a path, or the ratio of a diagram: its name on the axis, its value, its kind and unit, and the keys
-    of its answers."""
+    """A quantity of a path, or the ratio of a diagram."""
 
     label: Any
     expr: Expr
@@ -82,7 +81,7 @@ class Plotted:
         self._keep(unit)
 
     def _curves(self, answers: Sequence[Word], against: Word, ends: Range) -> None:
-        """Draw the curves of several answers, which must have the same unit because they share the vertical axis."""
+        """Draw the curves of several answers, which must have the same unit."""
         quantities = [self._one(answer) for answer in answers]
         for i, (answer, quantity) in enumerate(zip(answers, quantities, strict=True)):
             if answer in answers[:i]:
@@ -101,7 +100,7 @@ class Plotted:
         self._keep(self._unit(first))
 
     def _keep(self, unit: str) -> None:
-        """Add the value of `then`, which the curves keep after their range, to the recorded plot."""
+        """Add to the recorded plot the value `then`, which the curves keep after their range."""
         run, then = current_run.get(), self.drawing.then
         if run is None or then is None:
             return
@@ -120,13 +119,12 @@ class Plotted:
         return unit_of_dimension(dimension_of_answer(quantity, self._letters))
 
     def _letters_of_curve(self, answer: Word, quantity: Quantity, against: Word) -> tuple[set[Any], str]:
-        """Return the letters of an answer, and the message of the error if `against` is not one of them."""
+        """Return the letters of an answer, and an error message for the case that `against` is not one of them."""
         expr = explicit(quantity.value)
         message = f"`{answer}` does not depend on `{against}`, so there is no curve"
         return expr.free_symbols if isinstance(expr, Expr) else set(), message
 
     def _check_unit(self, answer: Word, quantity: Quantity, other: Word, first: Quantity) -> None:
-        """Check that an answer has the unit of the first answer."""
         one, two = (self._unit(each) for each in (quantity, first))
         if one != two:
             message = f"`{answer}` is in {one or 'no unit'} and `{other}` in {two or 'no unit'}, so they share no axis"
@@ -157,7 +155,7 @@ class Plotted:
         return [replace(each, label=scalar(name)) if name else each for name, each in zip(names, shown, strict=True)]
 
     def _outline(self, name: Word, shown: tuple[Shown, Shown]) -> Outline:
-        """Return the outline of a surface; it must be at rest and in the plane of the path."""
+        """Return the outline of a surface, which must be at rest and in the plane of the path."""
         known = self.surfaces()
         if name not in known:
             rejected("undefined-name", f"no surface is called `{name}`", name.place, did_you_mean(name, known))

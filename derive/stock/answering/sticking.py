@@ -23,9 +23,9 @@ def state_static_friction(contact: Constraint, answer: Callable[[str, str], Quan
 
     contact   the constraint of a contact with static friction
     answer    a function of the name of an answer and of the key of one of its steps; it returns this step
-    If the page derives the accelerations or the forces, and the derived forces are known to satisfy the condition,
-    nothing is assumed. If these forces are constant, mu_s is a letter and the friction has only one possible direction,
-    the condition is solved for mu_s.
+
+    Nothing is assumed if the derived forces are known to satisfy the condition. The condition is solved for mu_s if
+    possible.
     Errors: the condition is known to be false.
     """
     steps, limit = established(), contact.limit
@@ -63,8 +63,8 @@ def _assume_solved(friction: Quantity, normal: Quantity, limit: StaticLimit) -> 
 
 
 def _conditions(friction: Quantity, normal: Quantity, limit: StaticLimit) -> list[Relation]:
-    """Return the conditions for mu_s, one for each possible direction of the friction; none if the forces change, or if
-    mu_s is a number."""
+    """Return the conditions for mu_s, one for each possible direction of the friction; none if they cannot be solved
+    for mu_s."""
     if changes(explicit(friction.value) - explicit(normal.value), named_coordinates()) or limit.coefficient.is_number:
         return []
     return [each.value for each in slips(friction, normal, limit.coefficient, key=f"{friction.key}_suffices")]

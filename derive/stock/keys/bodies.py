@@ -53,8 +53,7 @@ OTHER_NAMES = {
 
 @cache
 def shapes() -> dict[str, type[Body]]:
-    """Return the classes of bodies with sizes, by their ids. The id, such as `thick_shell`, is the name of the shape in
-    YAML."""
+    """Return the classes of bodies, by the names of their shapes in YAML, such as `thick_shell`."""
     offered = (getattr(derive.mechanics, name) for name in dir(derive.mechanics))
     bodies = (each for each in offered if isinstance(each, type) and issubclass(each, Body) and is_dataclass(each))
     return {body.id: body for body in bodies}
@@ -156,7 +155,7 @@ class DescribedBody:
     """A body of a description.
 
     parts    one body, or several bodies in their positions
-    mass     the mass of a body with parts, if it is given for the whole body; it is then divided among the parts
+    mass     the mass of a body with parts, if it is given for the whole body
     points   name of a point of the body -> its position
     is_integrated   whether a standard moment of inertia is integrated in place of quoting it
     """
@@ -192,8 +191,7 @@ class DescribedBody:
 
     @property
     def point_names(self) -> tuple[str, ...]:
-        """Return the names of the points of the body. If the body has parts or named points, these names are `centre`,
-        `origin` and the names of the named points."""
+        """Return the names of the points of the body."""
         if self.is_made_of_parts or self.points:
             return ("centre", "origin", *self.points)
         (only,) = self.parts
@@ -201,7 +199,7 @@ class DescribedBody:
         return tuple(dict.fromkeys(("centre", *only.points())))
 
     def point(self, name: Word) -> str:
-        """Return the point that a name denotes; a space or an underscore may separate the words of the name."""
+        """Return the point that a name denotes; underscores count as spaces."""
         known_names = {known.replace("_", " "): known for known in self.point_names}
         found = (known_names | {CENTRE_OF_MASS: "centre"}).get(name.replace("_", " "))
         if found == "centre" and name == found and self.other_centre:
@@ -354,7 +352,7 @@ class Bodies:
             return shape(position, limits, mass=mass, density=density)
 
     def _limits(self, written: Mapping[Word, tuple[Tree, ...]]) -> tuple[WithVariables, dict[Any, tuple[Expr, Expr]]]:
-        """Read the limits of each variable; the limits may contain the variables that are listed before it."""
+        """Read the limits of each variable; they may contain the variables that are listed before it."""
         known = WithVariables(self.letters, {})
         limits: dict[Any, tuple[Expr, Expr]] = {}
         for name, ends in written.items():
@@ -382,7 +380,7 @@ class WithVariables(InLetters):
         self.numbers = others.numbers
 
     def ends(self, name: Word, written: Sequence[Tree]) -> tuple[str, tuple[Expr, Expr]]:
-        """Return the kind of a variable, a length or an angle (which includes numbers), and its limits."""
+        """Return the kind of a variable, a length or an angle, and its limits."""
         refused: Rejected | None = None
         for kind in ("length", "angle"):
             try:
@@ -418,7 +416,7 @@ def _point_of(body: Body, name: Word) -> str:
 
 
 def _way_that_is_told(shape: type[Body], written: ShapeKeys, has_mass: bool, faults: Faults) -> tuple[str, ...]:
-    """Return the specified sizes of a shape; report missing sizes, a missing mass, and keys that the shape lacks."""
+    """Return the specified sizes of a shape; report missing and wrong keys."""
     ways = ways_to_tell(shape)
     given = [size for size in SIZES if size in written.values_at and size in ShapeKeys.__dataclass_fields__]
     way = max(ways, key=lambda w: (sum(s in given for s in w), -len(w)))

@@ -131,8 +131,8 @@ class SurfaceKeys(Record):
             rejected("unused-key", message, self.places["side"], "leave it out")
 
     def _curve(self, written: Tree, places: Places, letters: InLetters) -> tuple[Any, ...]:
-        """Return the symbol x, the formula of a curve, the place from which x is measured, and whether the free side is
-        below."""
+        """Return the arguments of `curve`: the symbol x, the formula, the place from which x is measured, and whether
+        the free side is below."""
         for name in ("along", "normal", "centre", "radius"):
             if name in self.places:
                 message = f"`{name}` does not belong to a curve `y`"
@@ -200,7 +200,7 @@ FRICTION: Reader[Any] = Reader(
 
 
 def _named_contact(name: str, **given: Any) -> tuple[Any, ...]:
-    """Return the parts of a contact. The limit of static friction gets the name of the body that would slip."""
+    """Return the parts of a contact."""
 
     def with_name(part: Any) -> Any:
         limit = getattr(part, "limit", None)
@@ -246,13 +246,11 @@ class ContactKeys(Record):
         return Deferred(_named_contact, (self._name(),), named, forces=forces, place=self.places[""])
 
     def _name(self) -> str:
-        """Return the name of the body that touches the surface, `ladder` for `ladder.end`, or the name of a place;
-        empty for a place given by its components."""
+        """Return the name of the body or place that touches the surface, `ladder` for `ladder.end`, if there is one."""
         return (self.of.name or "").partition(".")[0].replace("_", " ")
 
     def _components(self, known: Connected) -> list[Word]:
-        """Return the symbols that the components of the friction without slipping may have in space; none in a
-        plane."""
+        """Return the symbols of the components of the friction without slipping in space; none in a plane."""
         rolling = self.friction.rolling if isinstance(self.friction, FrictionKeys) else None
         if rolling is None or not known.places.turns:  # only a body that moves in space has axes
             return []

@@ -1,7 +1,6 @@
 """Objects that a description specifies, such as bodies and forces. Each object is made only when an answer needs it.
 
-The verbs that make these objects check what moves and what is constant. Such checks need the record of a run, which has
-the coordinates and the numbers of symbols.
+The verbs that make these objects check what moves and what is constant. Such checks need the record of a run.
 """
 
 from __future__ import annotations
@@ -27,7 +26,7 @@ class Deferred(Generic[N]):
     make    the class or the verb that makes the object
     of      the positional arguments of `make`
     named   the keyword arguments of `make`
-    bodies  argument of `make` -> names of bodies or particles; any other name, such as `ground`, is passed on as text
+    bodies  argument of `make` -> names of bodies or particles, or other words such as `ground`
     forces  the symbols of the constraint forces that the object introduces
     place   the place in the file where the object is described
     """
@@ -49,7 +48,7 @@ class Deferred(Generic[N]):
             return self.make(*of, **{name: made(each, known) for name, each in self.named.items()}, **bodies)
 
     def __repr__(self) -> str:
-        """Return a text that is the same in each process, because the digest of a problem depends on this text."""
+        """Return a text that is the same in each process, for the digest of a problem."""
         return f"{self.make.__qualname__}{(self.of, dict(self.named), dict(self.bodies))!r}"
 
 
@@ -58,7 +57,7 @@ class Material:
     """A body or particle, or a point of a body, by its name.
 
     point   the point, by its name or by components along the body axes; None for the body or particle itself
-    by      a displacement from this point or from the particle
+    by      a displacement from this point
     """
 
     body: str
@@ -86,8 +85,7 @@ def made(given: Any, known: Mapping[str, Any]) -> Any:
 
 @contextmanager
 def told_at_part(described: Sequence[Deferred[Any]], made: Sequence[Any], otherwise: Place | None) -> Iterator[None]:
-    """Report an error about a part at the place where the file describes this part, and any other error at
-    `otherwise`."""
+    """Report an error about a part at the place where the file describes it, and any other error at `otherwise`."""
     with told_at(otherwise):
         try:
             yield
@@ -98,5 +96,5 @@ def told_at_part(described: Sequence[Deferred[Any]], made: Sequence[Any], otherw
 
 
 def parts_of(made: Any) -> tuple[Any, ...]:
-    """Return, as a tuple, the one or several parts of a system that a described object yields."""
+    """Return the parts of a system that a described object yields."""
     return made if isinstance(made, tuple) else (made,)

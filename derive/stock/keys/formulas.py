@@ -46,8 +46,7 @@ class Formula:
 
     @property
     def answers(self) -> tuple[Word, ...]:
-        """Return the names in the formula that are neither given symbols nor units; they are taken to be names of
-        answers."""
+        """Return the names in the formula that are taken to be names of answers."""
         if is_number_with_unit(self.node):
             return ()
         given = {name for name, letter in self.letters.items() if not isinstance(letter, FoundLetter)}
@@ -55,10 +54,7 @@ class Formula:
         return tuple(found.values())
 
     def with_answers(self, answers: Callable[[Word], Quantity]) -> tuple[Expr, dict[Any, Quantity]]:
-        """Return the expression with a placeholder for each answer, and the mapping placeholder -> answer.
-
-        The dimensions in the expression must agree.
-        """
+        """Return the expression with a placeholder for each answer, and the mapping placeholder -> answer."""
         expression, _, found = self.with_dimension(answers)
         return expression, found
 
@@ -75,8 +71,7 @@ class Formula:
         return marks, {marks[name].symbol: quantity for name, quantity in found.items()}
 
     def _mark(self, name: Word, quantity: Quantity) -> OfKnownDimension:
-        """Return a placeholder symbol for an answer, with the dimension of the answer. It is positive if the answer is
-        known to be positive."""
+        """Return a placeholder symbol for an answer, with its dimension."""
         value = explicit(right_side(quantity.value))
         if not isinstance(value, Expr):
             rejected("wrong-argument", f"`{name}` is not a number", name.place)
@@ -85,7 +80,7 @@ class Formula:
 
 
 def dimension_of_answer(quantity: Quantity, letters: Mapping[str, Declared]) -> Dimension:
-    """Return the dimension of an answer or, if the answer is a relation, of its right side; zero is dimensionless.
+    """Return the dimension of an answer or, if the answer is a relation, of its right side.
 
     letters     the symbols of the problem, by name
     """

@@ -146,8 +146,7 @@ class ImpactKeys(Record):
         places: Places,
         letters: InLetters,
     ) -> DescribedImpact:
-        """Read the impact; its values become expressions in symbols. `forces` has the symbols of the constraint
-        forces."""
+        """Read the impact; its values become expressions in symbols."""
         both: list[ImpulseKeys | CollisionKeys] = [*self.impulses, *self.collisions]
         if not both:
             rejected("missing-key", "`impact` needs `impulses` or `collisions`", self.places[""])
@@ -178,8 +177,7 @@ class ImpactKeys(Record):
 def _value(
     name: Word, node: Tree, ending: str, coordinates: Mapping[str, Declared], letters: InLetters
 ) -> tuple[str, Expr]:
-    """Return the name of a coordinate with its value; if `ending` is `_dot`, return the name with the value of the
-    rate."""
+    """Return the name of a coordinate with its value or, if `ending` is `_dot`, with its rate."""
     q = str(name).removesuffix(ending)
     known = [f"{each}{ending}" for each in coordinates if f"{each}_ddot" in coordinates]
     check_known(name, known, "rate" if ending else "coordinate")

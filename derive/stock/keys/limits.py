@@ -24,15 +24,9 @@ from derive.stock.keys.formulas import OfKnownDimension
 
 
 def limits_of(problem: Problem, known: Mapping[str, Quantity], run: Run) -> list[list[Quantity]]:
-    """Return the steps of each case: the limiting case and, if requested, steps that write its result in other symbols
-    or compare it with another step.
+    """Return the steps of each case; none if the case does not apply to the current inputs.
 
-    Each case has a separate record, which also contains the general results of the script. Two limits of one quantity
-    can therefore have the same symbol. No steps are returned for a case in three situations:
-
-    - Another step replaces the step of the case.
-    - The inputs or the result no longer contain a symbol of the case.
-    - The value of another symbol of the case depends on the symbol that goes to its limit.
+    Each case has a separate record, so that two limits of one quantity can have the same symbol.
     """
     if not problem.limits:
         return []
@@ -57,14 +51,8 @@ def limits_of(problem: Problem, known: Mapping[str, Quantity], run: Run) -> list
 def _is_of_another_case(
     given: LimitKeys, problem: Problem, known: Mapping[str, Quantity], letters: Mapping[str, Declared], run: Run
 ) -> bool:
-    """Return whether the limiting case does not apply to the current inputs.
-
-    This is so in three situations:
-
-    - Another step replaces the step of the case.
-    - The value of a symbol that the case needs depends on the symbol that goes to its limit.
-    - A symbol that the case needs is declared but not given.
-    """
+    """Return whether the limiting case does not apply to the current inputs: a symbol has no longer an independent
+    value, or another step replaces the step of the case."""
     together = {key for quantity in known.values() if quantity.step.stands_for for key in quantity.step.stands_for}
     if given.of in together or (given.of in known and known[str(given.of)].step.stands_for):
         return True
@@ -104,8 +92,7 @@ def _case(given: LimitKeys, known: Mapping[str, Quantity], letters: Mapping[str,
 
 
 def _is_there(given: LimitKeys, known: Mapping[str, Quantity], letters: Mapping[str, Declared]) -> bool:
-    """Return whether the result contains the symbols of the case; if the inputs were changed, a symbol may be
-    missing."""
+    """Return whether the result contains the symbols of the case, since the inputs may have changed."""
     if given.of is None:
         return True
     told = _read(given.letter, letters).free_symbols if given.letter else {_letter(x, letters) for x in given.where}
@@ -143,8 +130,8 @@ def _read(formula: Formula, letters: Mapping[str, Declared]) -> Expr:
 def _as_stated(
     given: LimitKeys, case: Quantity, letters: Mapping[str, Declared], known: Mapping[str, Quantity], keys: set[str]
 ) -> list[Quantity]:
-    """Check the result that the file states for a case. If the stated result contains symbols of other steps, return a
-    step that writes the result with these symbols."""
+    """Check the result that the file states for a case. If it contains symbols of other steps, return a step that
+    writes the result with these symbols."""
     if given.stated is None:
         return []
     stated, value = _read(given.stated, letters), explicit(case.value)

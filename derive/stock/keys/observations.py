@@ -37,8 +37,7 @@ def observations_of(
 ) -> list[list[Quantity]]:
     """Return the observations of each part; report the chosen kinds that no answer has.
 
-    By default, the most valuable observations are returned. An author may choose kinds for the problem or for a part,
-    or `none`.
+    An author may choose kinds of observations for the problem or for a part, or `none`.
     """
     problem = with_known_observations(problem, faults)
     chosen, everywhere = [_names(part.observations) for part in problem.parts], _names(problem.observations)

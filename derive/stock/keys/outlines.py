@@ -39,11 +39,10 @@ def name_of_drawing(body: Body) -> str:
 
 
 def drawn(answers: Any, about: str = "", is_named: bool = False, key: str = "", shown: Sequence[str] = ()) -> None:
-    """Draw the outline of a body, by default under the name of the body; a flat body is drawn in its plane.
+    """Draw the outline of a body, by default under the name of the body.
 
-    about      the name of a point; the axes begin at this point only if it is the centre of mass, and the position of
-               the centre is known by symmetry
-    is_named   whether `about` is a point that the problem names, such as a pivot; in a plane, a small circle shows it
+    about      the name of a point; the axes may begin at it if it is the centre of mass
+    is_named   whether `about` is a point that the problem names, such as a pivot
     shown      the marks of SHOWS that are drawn in addition to the outline
     """
     body = answers.body
@@ -69,7 +68,6 @@ def _masses(answers: Any, origin: Point) -> list[Mark]:
 
 
 def _centre(answers: Any, origin: Point) -> list[Mark]:
-    """Return the mark of the centre of mass."""
     return [centre_mark(answers.body, origin.name)]
 
 
@@ -92,7 +90,7 @@ def _direction(answers: Any, origin: Point) -> list[Mark]:
 
 
 def _azimuth(components: Sequence[Expr]) -> list[Mark]:
-    """Return the projection of a direction on the plane of x and y, and the arc from the x axis to it, if the angle is
+    """Return the projection of a direction on the plane of x and y, and the arc from the x axis to it, if this angle is
     a symbol."""
     x, y, _ = components
     angles = [f.args[0] for f in x.atoms(cos) if f.args[0].is_Symbol and is_zero(y * f - x * sin(f.args[0]))]
@@ -103,8 +101,7 @@ def _azimuth(components: Sequence[Expr]) -> list[Mark]:
 
 
 def _with_element(body: Body, origin: str) -> list[Mark]:
-    """Return the outline of a body with the element of its integrals: a slice of a round solid, or a point of the
-    cross-section of a torus, whose section by the plane of y and z is drawn."""
+    """Return the outline of a body with the element of its integrals, such as a slice of a round solid."""
     if isinstance(body.boundary, Toroidal):
         return torus_section(body)
     return outline(body, origin, sliced=True)
@@ -121,15 +118,15 @@ SHORT = Rational(4, 5)  # the length of the arrows of principal axes, relative t
 
 
 def _has_known_centre(body: Body) -> bool:
-    """Whether each corner of a body with faces has an opposite corner, so that the centre is known by symmetry."""
+    """Whether the corners of a body with faces are symmetric about one point, the centre."""
     corners = body.boundary.corners if isinstance(body.boundary, Faces) else ()
     twice = sum(corners, column(0, 0, 0)) * Rational(2, max(len(corners), 1))
     return bool(corners) and all(twice - corner in corners for corner in corners)
 
 
 def _proportions(body: Body) -> dict[Expr, Expr]:
-    """Return substitute values for the drawing: the radius of the section of a torus, or of a hole, is a fixed fraction
-    of the radius of the body."""
+    """Return values for the drawing: the radius of the section of a torus, or of a hole, is a fixed fraction of the
+    radius of the body."""
     match body.boundary:
         case Toroidal(radius, section):
             small, large = section, radius / 4
@@ -154,12 +151,9 @@ def _inclination(components: Sequence[Expr]) -> list[Mark]:
 
 
 def drawn_turning(answers: Any, has_angle: bool) -> None:
-    """Draw a body with its axes at the point about which it rotates, and its axis of rotation if `along` gives it.
+    """Draw a body that is round or has faces, with its axes and its axis of rotation or angular velocity.
 
-    Nothing is drawn if the boundary of the body is neither round nor made of faces.
-    If the angular velocity is known at one instant only, an arrow shows its direction. If `along` gives the axis
-    and `has_angle` is true, a second drawing shows the angle between the angular velocity and the angular
-    momentum.
+    If `has_angle` is true, a second drawing may show the angle between the angular velocity and the angular momentum.
     """
     body, described = answers.body, answers.described
     if not isinstance(body.boundary, Round | Faces):

@@ -208,7 +208,7 @@ def components_of(nodes: Collection[Tree], kind: str, letters: InLetters) -> tup
 
 
 def direction_of(nodes: Collection[Tree], letters: InLetters) -> Location:
-    """Return a direction: components that all have the same dimension."""
+    """Return a direction, whose components must have the same dimension."""
     read = each([partial(letters.read, node, "a component") for node in nodes])
     dimensions = [(node, dimension) for node, (value, dimension) in zip(nodes, read, strict=True) if value != 0]
     for node, dimension in dimensions:

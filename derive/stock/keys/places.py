@@ -148,7 +148,7 @@ def function_letters(
 
 
 def _may_be_named(name: Word, symbols: Mapping[str, Declared], what: str, faults: Faults) -> bool:
-    """Return whether a name may become a symbol; report a name that is already a symbol or is not a valid symbol."""
+    """Return whether a name may become a symbol; report a name that may not."""
     if name in symbols:
         message = f"`{name}` is declared under `symbols`, but is also a {what}"
         faults.error("letter-clash", message, name.place, help="remove it from `symbols`")
@@ -158,7 +158,6 @@ def _may_be_named(name: Word, symbols: Mapping[str, Declared], what: str, faults
 
 
 def _range(name: str, sort: SortOfLetter, faults: Faults) -> Range | None:
-    """Return the range that is declared for a coordinate or a function of the time; None if there is none."""
     with faults:
         if sort.ends:
             return read_range(name, sort.ends, sort, signed=not sort.positive)
@@ -181,15 +180,15 @@ class Places:
         carried: Mapping[Word, WrittenPlace | None] | None = None,
         bodies: Collection[str] = (),
     ):
-        """Set up the places. The name of a particle in `carried` also denotes the place of the particle; the name of a
-        body denotes its centre of mass, and `rod.end` denotes a point of the body `rod`."""
+        """Set up the places. The name of a particle also denotes its place, the name of a body its centre of mass, and
+        `rod.end` a point of the body `rod`."""
         self.carried = {str(name): at for name, at in (carried or {}).items() if at is not None and at.name != name}
         self.written = {str(name): place for name, place in written.items()}
         self.turns = turns
         self.letters = letters
         self.bodies = {str(name) for name in bodies}
         self.on_the_way: list[str] = []
-        self.first: tuple[int, str] | None = None  # number of components of the first place, and name of this place
+        self.first: tuple[int, str] | None = None  # number of components of the first place, and its name
 
     @property
     def axes_of_motion(self) -> str:
@@ -220,8 +219,7 @@ class Places:
             self.on_the_way.pop()
 
     def at(self, written: WrittenPlace, name: str) -> Location | Material:
-        """Return a place that is written in the file; errors call this place `name`. A point of a body gets its place
-        only when the body is made."""
+        """Return a place that is written in the file; errors call it `name`."""
         if written.name is not None:
             return self.named(written.name)
         assert written.way is not None
@@ -237,7 +235,7 @@ class Places:
         return each([partial(self.at, start, "from"), partial(self.at, end, "to")])
 
     def axes(self, name: Word) -> Axes:
-        """Return the axes of this name, which follow from the axes fixed in space by successive rotations."""
+        """Return the axes of this name."""
         turns = next((turns for known, turns in self.turns.items() if known == name), None)
         if turns is None:
             help_line = did_you_mean(name, self.turns) or "give them under `axes`"
@@ -255,7 +253,7 @@ class Places:
         return self.letters.of_kind(node, f"a component of {name}", "length")
 
     def _check_size(self, found: Location, name: str) -> None:
-        """Check that all places of a description have two components, or that all have three."""
+        """Check that all places of a description have two components, or all three."""
         size = len(found.components)
         first, by = self.first = self.first or (size, name)
         if size != first:

@@ -1,7 +1,6 @@
 """`results:` of a description: quantities computed from answers, each under a name of its own.
 
-Each key belongs to an argument of a verb. A decorator next to the function of the verb states the names of the keys.
-The keys, their schema and their errors therefore follow from the verbs; this module only defines how each sort of key
+Each key belongs to an argument of a verb and is stated next to the verb; this module only defines how each sort of key
 is read.
 """
 
@@ -71,14 +70,12 @@ def _of_a_body(
 
 @dataclass(frozen=True)
 class Sort:
-    """A sort of key: the shape of its value in the file, the function that reads this value, and the function that
-    makes the argument of the verb.
+    """A sort of key: how its value in the file is read, and how the argument of the verb is made from it.
 
-    read   a function of the verb, the key, the written value and the symbols, called before any answer is derived;
-           it returns the value in symbols
+    read   a function of the verb, the key, the written value and the symbols; it returns the value in symbols
     made   a function of the result, the key, the value in symbols and the surroundings; it returns the argument of the
            verb
-    uses   a function of the value in symbols; it returns the names of answers in this value
+    uses   a function of the value in symbols; it returns the names of answers in it
     """
 
     shape: Reader[Any]
@@ -97,7 +94,7 @@ class Surroundings:
     surfaces: Mapping[str, Any] = field(default_factory=dict)
 
     def one(self, name: Word) -> Quantity:
-        """Return the answer of a name; if the name has several answers, return the answer whose key is this name."""
+        """Return the one answer of a name."""
         found = self.answers(name)
         found = tuple(quantity for quantity in found if quantity.key == name) or found
         if len(found) != 1:
@@ -117,7 +114,6 @@ def _nodes(node: Tree) -> tuple[Tree, ...]:
 
 
 def names(node: Tree | None) -> tuple[Word, ...]:
-    """Return the written names; the file may have one name or a list of names."""
     found = []
     for item in _nodes(node) if node is not None else ():
         if not isinstance(item, Scalar) or item.empty:
@@ -127,7 +123,6 @@ def names(node: Tree | None) -> tuple[Word, ...]:
 
 
 def value_or_infinity(node: Tree, letters: InLetters) -> Expr:
-    """Return an expression, or infinity."""
     if isinstance(node, Scalar) and node.text.strip() in INFINITE:
         return INFINITE[node.text.strip()]
     return letters.read(node, "a value")[0]
@@ -189,8 +184,7 @@ def _functions(verb: ResultVerb, key: ResultKey, node: Tree, letters: InLetters)
 
 
 def _one_answer(result: Result, key: ResultKey, found: tuple[Word, ...], around: Surroundings) -> Quantity:
-    """Return the one answer that the names denote. If a single name has several answers, return the answer whose key is
-    this name."""
+    """Return the one answer that the names denote."""
     of = [quantity for name in found for quantity in around.answers(name)]
     if len(of) > 1 and len(found) == 1:
         of = [quantity for quantity in of if quantity.key == found[0]] or of
@@ -232,8 +226,7 @@ def _surface(result: Result, key: ResultKey, name: Word, around: Surroundings) -
 
 
 def _plain_values(result: Result, key: ResultKey, found: Mapping[Word, Expr], around: Surroundings) -> dict[str, Expr]:
-    """Return the values with names that are plain texts, because a call whose names carry a position in the file cannot
-    be stored."""
+    """Return the values with plain texts as names, because a call with positions in the file cannot be stored."""
     return {str(name): value for name, value in found.items()}
 
 
@@ -314,7 +307,6 @@ _RESULT: Reader[Any] = record_of(ResultKeys, "a result", "a mapping such as `{li
 
 
 def _result(node: Tree, name: str, faults: Faults) -> Record | None:
-    """Read one entry of `results:`, and check that its keys fit together."""
     found: Record | None = _RESULT.read(node, name, faults)
     if found is not None:
         _check_verb(found, name, faults)
@@ -333,7 +325,7 @@ def verb_of(written: Record) -> ResultVerb:
 
 
 def _check_verb(written: Record, name: str, faults: Faults) -> None:
-    """Check that a result has one verb; `faults` collects keys without effect and missing keys."""
+    """Check that a result has one verb and fitting keys."""
     there = [*written_in(written)]
     found = [each for each in there if each in RESULT_VERBS]
     if len(found) != 1:
@@ -388,7 +380,7 @@ class Result:
     """One quantity that is computed from answers.
 
     values   argument of the verb -> the value of its key, in symbols
-    places   argument of the verb, or `values:x` for one symbol of `values` -> its position in the file
+    places   argument of the verb, or `values:x` for one of the `values` -> its position in the file
     """
 
     name: Word

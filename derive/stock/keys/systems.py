@@ -210,10 +210,7 @@ class DescribedSystem(Described):
 
 
 def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -> DescribedSystem:
-    """Return the description with its values as expressions in the declared symbols and the coordinates.
-
-    The order in which values are read matters, because numbers get their symbols in this order.
-    """
+    """Return the description with its values as expressions in the declared symbols and the coordinates."""
     letters = coordinate_letters(written.coordinates, symbols, faults)
     functions = function_letters(written.functions, symbols, letters, faults)
     known = InLetters({**symbols, **functions, **letters})
@@ -268,8 +265,8 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
 
 
 def _parts(written: SystemKeys, places: Places, known: InLetters, faults: Faults) -> dict[str, Any]:
-    """Return a mapping from the names of fields of `DescribedSystem` to their values: the particles, the bodies, the
-    surfaces and everything that acts on them."""
+    """Return the fields of `DescribedSystem` for the particles, the bodies, the surfaces and everything that acts on
+    them."""
 
     def of_each(keys: Sequence[Any], *more: Any) -> list[Any]:
         return attempted(faults, each, [partial(one.part, *more) for one in keys]) or []
@@ -309,8 +306,8 @@ def _landed_on(written: SystemKeys) -> set[str]:
 
 
 def _check_surfaces_used(written: SystemKeys, faults: Faults) -> None:
-    """Report a surface that no contact and no flight names. But report nothing if a contact or a flight names something
-    that is not described, because this may be a misspelt name of the surface."""
+    """Report a surface that no contact and no flight names, unless one of them names something unknown, which may be a
+    misspelling."""
     used = {str(each.on) for each in written.contacts} | _landed_on(written)
     if used <= {str(name) for name in (*written.surfaces, *written.bodies)}:
         for name in written.surfaces:
@@ -322,7 +319,7 @@ def _check_surfaces_used(written: SystemKeys, faults: Faults) -> None:
 
 
 def _check_pulleys(written: SystemKeys, faults: Faults) -> None:
-    """Report a pulley over which no string runs, and a pulley with the name of a body, a particle or a place."""
+    """Report an unused pulley, and a pulley with the name of another object."""
     over = {str(place.name) for each in written.strings for place in each.over if place.name is not None}
     known = {*written.pulleys, *written.bodies, *written.particles, *written.points}
     for name in written.pulleys:
@@ -335,14 +332,12 @@ def _check_pulleys(written: SystemKeys, faults: Faults) -> None:
 
 
 def _connections(written: SystemKeys) -> list[Any]:
-    """Return the contacts, strings, massless rods, joints, motors and dashpots."""
     lines = [*written.strings, *written.massless_rods]
     return [*written.contacts, *lines, *written.joints, *written.motors, *written.dashpots]
 
 
 def _lagrangian(written: SystemKeys, letters: InLetters) -> tuple[Expr, str | None] | None:
-    """Return the formula of a given Lagrangian, and its kind; the kind is None if no kind has the dimension of the
-    formula."""
+    """Return the formula of a given Lagrangian, and its kind, if there is one."""
     if written.lagrangian is None:
         return None
     beside = next((name for name in REPLACED_BY_LAGRANGIAN if name in written.places), None)
@@ -354,7 +349,7 @@ def _lagrangian(written: SystemKeys, letters: InLetters) -> tuple[Expr, str | No
 
 
 def _without(written: SystemKeys, found: Sequence[str], impulses: Sequence[str]) -> tuple[tuple[Word, set[str]], ...]:
-    """Return, for each of `at`, `conserved` and `impact`, the answers that do not depend on this key."""
+    """Return, for some keys, the answers that do not depend on them."""
     of_each = ("motion", "momentum", "acceleration")
     one = {f"{name}_{q}" for name in of_each for q in written.coordinates}
     general = one | {*found, *INDIFFERENT_TO_STATES}
@@ -408,7 +403,7 @@ def _brought(written: SystemKeys, axes: str) -> list[Word]:
 
 def _symbols(written: Mapping[Word, Tree]) -> dict[Word, tuple[Word, bool]]:
     """Return, for each coordinate whose constant momentum has a symbol, this symbol and whether it is declared
-    positive. Entries with a value in place of a symbol are left out."""
+    positive."""
     found = {}
     for q, node in written.items():
         word = node.word if isinstance(node, Scalar) else ""
@@ -419,7 +414,6 @@ def _symbols(written: Mapping[Word, Tree]) -> dict[Word, tuple[Word, bool]]:
 
 
 def _check_different(brought: Sequence[Word]) -> None:
-    """Check that these symbols are distinct."""
     for i, word in enumerate(brought):
         if word in brought[:i]:
             message = f"`{word}` already denotes something else"
@@ -427,8 +421,7 @@ def _check_different(brought: Sequence[Word]) -> None:
 
 
 def _steady_rates(written: SystemKeys, letters: Mapping[str, Declared], known: InLetters) -> dict[str, Declared]:
-    """Return the symbols for the rates of steady motions: one for each coordinate to which the result gives no
-    value."""
+    """Return the symbols for the rates of steady motions."""
     found = {}
     for result in written.results.values():
         held = written_in(result)
@@ -442,14 +435,13 @@ def _steady_rates(written: SystemKeys, letters: Mapping[str, Declared], known: I
 
 
 def constant(name: str, positive: bool = False) -> Symbol:
-    """Return the symbol of a constant momentum, which is assumed to be nonzero or, if declared so, positive."""
+    """Return the symbol of a constant momentum, which is nonzero or, if declared so, positive."""
     return scalar(name, positive=True) if positive else Symbol(name, real=True, nonzero=True)
 
 
 def _constants(
     written: Mapping[Word, Tree], letters: Mapping[str, Declared], known: InLetters, faults: Faults
 ) -> dict[str, Declared]:
-    """Return the symbols of constant momenta."""
     found = {}
     for q in written:
         attempted(faults, check_known, q, letters, "coordinate")
@@ -476,8 +468,6 @@ def _momentum(q: Declared) -> str:
 def _state(
     written: Tree | None, coordinates: Mapping[str, Declared], letters: InLetters, faults: Faults
 ) -> tuple[tuple[str, Expr], ...]:
-    """Return the values of coordinates in a state."""
-
     def one(q: Word, node: Tree) -> tuple[str, Expr]:
         check_known(q, coordinates, "coordinate")
         value = letters.of_kind(node, str(q), coordinates[q].kind)
@@ -489,7 +479,7 @@ def _state(
 
 
 def _check_range(q: Word, value: Expr, lies: Range | None) -> None:
-    """Reject a value at an end of the range of its coordinate, or beyond: small displacements need room on both
+    """Reject a value that is not inside the range of its coordinate, because small displacements need room on both
     sides."""
     if lies is not None and value.is_number and not (lies.least < value and value < lies.greatest):
         message = f"`{q}` must be between {lies.least} and {lies.greatest}, so it cannot be {value} in a state"

@@ -51,7 +51,6 @@ def test_what_is_there_stays_as_it_is(root: Path, capfd: pytest.CaptureFixture[s
 
 @pytest.fixture
 def outside(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """An empty working folder, with a derive whose checkout has no course."""
     monkeypatch.delenv("DERIVE_ROOT", raising=False)
     monkeypatch.setattr("derive.cli.asked.found_root", lambda named: _course_above(named))
     monkeypatch.setattr("derive.cli.commands.beginning.found_root", lambda named: _course_above(named))

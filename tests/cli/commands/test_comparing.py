@@ -20,7 +20,6 @@ CHANGED = Diff("the last build", (Change("points", "the problem", "10", "12"),))
 
 
 def compares(monkeypatch: pytest.MonkeyPatch, found: Diff) -> list[tuple[object, ...]]:
-    """The stand-in for the comparison; what it was asked."""
     asked: list[tuple[object, ...]] = []
     for name in ("since_build", "since_revision"):
 

@@ -24,7 +24,6 @@ echo "${COMPREPLY[@]}"
 
 
 def programs(root: Path) -> Path:
-    """A folder that has `derive`."""
     folder = root / "bin"
     (folder / "derive").write_text(f"#!{sys.executable} -P\nfrom derive.cli.options import main\nmain()\n")
     (folder / "derive").chmod(0o755)

@@ -33,7 +33,6 @@ def read(text: str, *, homogeneous: bool = True) -> ReadMath:
 
 
 def value(text: str, branch: int = 0) -> Any:
-    """The value of a formula of one side, everything carried out."""
     (side,) = read(text).sides
     entries = [explicit(expr) for expr, _ in side.branches[branch]]
     return ImmutableDenseMatrix(*side.shape, entries) if side.shape else entries[0]
@@ -51,7 +50,6 @@ def complaint(text: str) -> Complaint:
 
 
 def marked(text: str) -> tuple[str, str]:
-    """The code of the first fault, and the text that the caret is under."""
     found = complaint(text)
     assert found.place is not None
     start = found.place.column - 1

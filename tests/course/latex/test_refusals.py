@@ -125,7 +125,6 @@ def test_a_mistyped_command_has_its_nearest() -> None:
 
 
 def test_dimensions_are_not_compared_where_they_mean_nothing() -> None:
-    """Numbers put in for letters, and slips of the document."""
     assert read("S^2 - 9.8 a", homogeneous=False)
     assert marked("S^2 - 9.8 a")[0] == "dimension"
 

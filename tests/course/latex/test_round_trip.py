@@ -90,7 +90,6 @@ def plain(value: Any) -> bool:
 
 
 def as_printed(letter: Any) -> str:
-    """The component `r_C_z` of a position is z_C on a page."""
     name = layout_of_name(str(letter))
     return f"{name.base}_{name.subscript}" if name.subscript and not name.dots else str(letter)
 
@@ -105,7 +104,6 @@ LINES = [
 
 @pytest.mark.parametrize("line", LINES)
 def test_a_line_of_the_worked_block_reads_back_as_itself(line: Any) -> None:
-    """Integrals, brackets between limits, products as written, tensors: all as the page has them."""
     bound = {str(x) for integral in line.atoms(Bracket) for x in [integral.args[1]]} | {"x", "y", "z"}
     letters = {name: Symbol(name, real=True) for name in bound | set(KINDS)}
     letters |= {as_printed(letter): letter for letter in line.free_symbols}

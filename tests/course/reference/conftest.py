@@ -23,7 +23,6 @@ def block(tmp_path_factory: pytest.TempPathFactory) -> tuple[Problem, dict[str, 
 
 @pytest.fixture
 def compared(block: tuple[Problem, dict[str, Quantity]], tmp_path: Path) -> Compared:
-    """Comparisons of entries, one a line, or of a whole reference, with steps that were derived only once."""
     problem, known = block
     course_in(tmp_path)
 

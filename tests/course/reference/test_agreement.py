@@ -108,7 +108,6 @@ def test_a_formula_as_printed_is_compared(compared: Compared, entry: str, outcom
 
 
 def test_letters_of_the_document_may_be_called_otherwise(compared: Compared) -> None:
-    """m is our M; what is called M in the document is something else, and not known."""
     swapped = PRINTED.replace("letters: {", "letters: {m: M, ")
     entry = r"    - {answer: inertia_tensor_zz, latex: '\frac{5}{12} m a^2'}"
     assert one(compared(whole=f"{swapped}{entry}\n")).outcome == "agrees"
@@ -131,7 +130,6 @@ EQUATION = Relation(M_ours * omega_dot - M_ours * Symbol("omega", positive=True)
 def compared_with(
     block: tuple[Problem, dict[str, Quantity]], compared: Compared, monkeypatch: pytest.MonkeyPatch
 ) -> Compared:
-    """Comparisons with the step `cosine` having another value, a relation or one of two branches."""
     _, known = block
 
     def compare(value: object, *entries: str) -> tuple[Comparison, ...]:

@@ -55,8 +55,6 @@ Cites = Callable[..., tuple[Comparison, ...]]
 
 @pytest.fixture
 def cites(compared: Callable[..., tuple[Comparison, ...]], tmp_path: Path) -> Cites:
-    """Comparisons of entries that cite the document above, one a line."""
-
     def cite(*entries: str, head: str = NAMED) -> tuple[Comparison, ...]:
         (tmp_path / "problems" / "hw9" / "block.md").write_text(DOCUMENT, encoding="utf-8")
         return compared(whole=head + "".join(f"    - {{{entry}}}\n" for entry in entries))

@@ -195,7 +195,6 @@ def test_a_problem_without_references_agrees(tmp_path: Path) -> None:
 def test_the_homework_agrees_but_for_its_errata(
     problem: str, count: int, errata: int, remarks: int, tmp_path: Path
 ) -> None:
-    """The document's own file, with the problems as the tests know them."""
     root = course_in(tmp_path, problem=problem)
     document = (ROOT / "problems" / "hw9" / "reference.yaml").read_text(encoding="utf-8")
     document = document.replace("- problem: block", "- problem: centred")
@@ -222,7 +221,6 @@ def test_the_homework_agrees_but_for_its_errata(
 def test_a_source_is_about_the_system_that_its_group_describes(
     symbols: str, moments: str, here: bool, tmp_path: Path
 ) -> None:
-    """Letters that a group declares besides make no other system, and the same letters may describe another one."""
     root = course_in(tmp_path, problem="euler")
     letters = f"I_x: moment of inertia, I_y: moment of inertia, I_z: moment of inertia{symbols}"
     head = f"- problem: euler\n  symbols: {{{letters}}}\n  given: {{moments: [{moments}]}}\n  entries:\n"
@@ -235,8 +233,6 @@ def test_a_source_is_about_the_system_that_its_group_describes(
 
 
 class Nothing:
-    """A store that recalls nothing."""
-
     def get(self, key: str) -> None:
         return None
 

@@ -42,7 +42,6 @@ def test_faults_about_another_problem_are_told_when_that_is_derived(compared: Co
 
 
 def stated(folder: Path, *entries: str, head: str = HEAD) -> list[Entry]:
-    """The entries of the one group about the block, before anything is compared."""
     root = course_in(folder)
     text = head + "".join(f"    - {{{entry}}}\n" for entry in entries)
     (root / "problems" / "hw9" / "reference.yaml").write_text(text, encoding="utf-8")

@@ -35,7 +35,6 @@ FORMAT = Format("stand_in", "si", _rendered)
 
 @pytest.fixture
 def stand_in(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    """A folder with one module more, beside that of the formats."""
     folder = tmp_path / "more"
     folder.mkdir()
     (folder / "stand_in.py").write_text(MARKDOWN, encoding="utf-8")

@@ -47,7 +47,6 @@ def parsed(text: str) -> Any:
 
 
 def read(text: Any, names: dict[str, Any], motion: dict[Any, Any], root: int) -> Any:
-    """A line with its names put in, carried out; of a relation, left minus right."""
     line = sympify(roots(text)[root % len(roots(text))], names)
     line = line.lhs - line.rhs if isinstance(line, Relational) else line
     line = line.replace(Integral, integrated).doit(integrals=False)
@@ -55,7 +54,6 @@ def read(text: Any, names: dict[str, Any], motion: dict[Any, Any], root: int) ->
 
 
 def integrated(f: Any, *limits: Any) -> Any:
-    """What SymPy integrates at once; an integral over a root is left, for `at` to do in numbers."""
     for i, limit in enumerate(limits):
         if f.has(Integral) or any(power.has(limit[0]) and not power.exp.is_Integer for power in f.atoms(Pow)):
             return Integral(f, *limits[i:])
@@ -64,7 +62,6 @@ def integrated(f: Any, *limits: Any) -> Any:
 
 
 def by_quadrature(f: Any, *limits: Any) -> Any:
-    """A double integral of numbers over the chord y, then z; over z it is smooth."""
     (y, low, high), (z, bottom, top) = limits
     f, low, high = (lambdify([z, y], each, "mpmath") for each in (f, low, high))
 
@@ -75,7 +72,6 @@ def by_quadrature(f: Any, *limits: Any) -> Any:
 
 
 def at(expr: Any, seed: int) -> list[Any]:
-    """The entries at a point: a number for each letter, function of time and derivative, by its name."""
     entries = list(expr) if isinstance(expr, MatrixBase) else [expr]
     letters = {x for e in entries for x in e.atoms(Derivative) | e.atoms(AppliedUndef) | e.free_symbols}
     point = {x: Float(random.Random(f"{seed}{x}").uniform(0.2, 1.4), 40) for x in letters}
@@ -118,7 +114,6 @@ def marks_fit(before: dict[str, Any], form: dict[str, Any], root: int) -> bool:
 
 
 def pairs(step: dict[str, Any]) -> Iterator[tuple[Any, dict[str, Any], str]]:
-    """Each line with the one before it, and how the two are to be compared."""
     chain = step["chain"]
     if step["symbol"] and step["symbol"]["formula"]:
         yield step["symbol"], chain[0], "left side"
@@ -130,7 +125,6 @@ def pairs(step: dict[str, Any]) -> Iterator[tuple[Any, dict[str, Any], str]]:
 
 
 def differing(page: dict[str, Any], compared: Counter[str]) -> Iterator[str]:
-    """The lines that do not follow from the one before."""
     for step in page["steps"]:
         for root in range(number_of_roots(step)):
             names = {name: parsed(roots(text)[root % len(roots(text))]) for name, text in step["names"].items()}
@@ -170,7 +164,6 @@ def test_every_line_follows_from_the_one_before(name: str) -> None:
 
 
 def altered(text: str) -> Iterator[str]:
-    """The text with one number in front of, below or above something made greater by one."""
     for number in re.finditer(r"(?<![\w.'])\d+(?=\*)|(?<=/)\d+(?![\w.'])|(?<=\*\*)\d+", text):
         yield f"{text[: number.start()]}{int(number[0]) + 1}{text[number.end() :]}"
 

@@ -55,7 +55,6 @@ HOOP = edited(
 
 
 def found(folder: Path, text: str) -> dict[str, list[Quantity]]:
-    """What each name yields."""
     answers = run_solve(loaded(folder, text))
     assert isinstance(answers, dict)
     return {name: returned_quantities(value) for name, value in answers.items()}

@@ -123,7 +123,6 @@ def test_a_limit_says_of_what_and_in_one_way(wrong: str, tmp_path: Path) -> None
 
 
 def test_a_known_result_is_compared_by_a_step_of_its_own(tmp_path: Path) -> None:
-    """The rod of a body that is made by itself: a thin cylinder about its centre."""
     two = edited(
         CART,
         ("  gravity: g\n", "  gravity: g\n  results:\n    alone: {value: sqrt(g/l), symbol: Omega}\n"),
