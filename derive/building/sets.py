@@ -135,7 +135,7 @@ class _Build:
         self.cache = Cache(outputs / CACHE, fresh=options.force)
         self.manifest = Manifest.read(outputs)
         self.documents = with_asked(self.manifest.documents, options.documents)
-        self.made_by = recipe_of(root, options.detail, options.evidence or self.manifest.evidence)
+        self.made_by = recipe_of(root, set_id, options.detail, options.evidence or self.manifest.evidence)
         self.made_by[ONLY] = self._kinds_of_each_problem()
         self.anew = options.force or self.manifest.engine != engine_digest(*PACKAGES)
         self.result = Report(set_id)

@@ -175,7 +175,7 @@ class _Writer:
         stated = self._told(problem.statement.pieces, formula=in_question)
         illustrations = self._illustrations()
         parts = tuple(self._part(i, part, illustrations) for i, part in enumerate(problem.parts))
-        statement = stated_once(stated, self.words.labels["with"]) + self._assumed()
+        statement = stated_once(stated, self.words.labels["with"], self.words.labels["and"]) + self._assumed()
         asked = [node for part in parts for node in part.ask]
         statement += numbers_left(problem, [*statement, *asked], self.words)
         limits = None if self.level is Level.BRIEF else self._limits()

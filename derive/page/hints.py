@@ -106,7 +106,10 @@ class _Hints:
         if step.rule in self.words.labels["unnamed"] or not isinstance(step.symbol, LETTERS):
             return ""
         name = self.words.rule(step.rule)
-        return f"the {name}" if step.symbol is None else name
+        if step.symbol is not None:
+            return name
+        (told,) = filled(self.words.labels["of_relation"], {"name": name})
+        return told.text if isinstance(told, Text) else name
 
     def _item(self, name: str, letters: Sequence[Any]) -> tuple[Inline, ...]:
         """Return symbols followed by their common name: `I_1, I_2 (principal moment)`."""

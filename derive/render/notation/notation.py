@@ -99,10 +99,11 @@ class Notation:
     dimensions   dimensions of symbols, so that masses come first and rates last; symbols without a dimension are
                  between
     flat         whether vectors are printed as lists of components instead of columns, for a short page
+    sign         the decimal sign
     """
 
-    def __init__(self, dimensions: Mapping[Any, Dimension | None] | None = None, flat: bool = False):
-        self.known_dimensions, self.flat = dimensions or {}, flat
+    def __init__(self, dimensions: Mapping[Any, Dimension | None] | None = None, flat: bool = False, sign: str = "."):
+        self.known_dimensions, self.flat, self.sign = dimensions or {}, flat, sign
         self._places = {str(letter): n for n, letter in enumerate(self.known_dimensions)}
         self._known: dict[Any, Layout] = {}  # a cache: all formats of a page need the same layouts
         self._results: dict[Any, Layout] = {}
@@ -422,14 +423,14 @@ class Notation:
 
     def _amount(self, expr: ex.Amount | ex.MatrixAmount) -> Layout:
         number, unit, _ = expr.args
-        inner = decimal(number) if isinstance(number, Rational) else self.layout(number)
+        inner = decimal(number, self.sign) if isinstance(number, Rational) else self.layout(number)
         if unit.name in ex.IN_DEGREES:
             return row(inner, DEGREE_SIGN)
         return row(inner, THIN_SPACE, unit_behind_number(unit.name)) if unit.name else inner
 
     _methods: tuple[tuple[Any, Callable[[Any, Any], Layout]], ...] = (
         (Rational, _rational),
-        (Rounded, lambda self, expr: rounded_number(decimal_text(expr))),
+        (Rounded, lambda self, expr: rounded_number(decimal_text(expr), self.sign)),
         (Symbol, lambda self, expr: layout_of_name(expr.name)),
         (MatrixSymbol, _vector_or_tensor),
         (Pi, lambda self, _: Name("pi")),

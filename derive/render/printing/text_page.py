@@ -122,8 +122,8 @@ class _Page:
 
     def _drawing(self, illustration: Illustration) -> str:
         """Return the description of a drawing with its caption below."""
-        figure = self.words.labels["figure"]
-        shown = self._wrapped((Text(f"[{figure.lower()}: "), *illustration.alt, Text("]")))
+        figure, described = self.words.labels["figure"], self.words.labels["described"]
+        shown = self._wrapped((Text(f"[{described}: "), *illustration.alt, Text("]")))
         if illustration.number is None:
             return shown
         return shown + "\n" + self._wrapped((Text(f"{figure} {illustration.number}. "), *illustration.caption))

@@ -1,0 +1,55 @@
+"""Each language has the phrases of English: the same files and keys, with the same names in each phrase."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import pytest
+import yaml
+from jinja2.meta import find_undeclared_variables
+
+from derive.page.template import environment
+from tests.courses import ROOT
+
+PHRASES = ROOT / "templates" / "phrases"
+LANGUAGES = sorted(folder.name for folder in PHRASES.iterdir() if folder.name != "en")
+OF_THE_LANGUAGE = ("labels.language", "labels.own_name", "labels.verdicts", "laws")
+ENVIRONMENT = environment()
+
+
+def phrases_of(folder: Path, file: str) -> dict[str, Any]:
+    """Return the phrases of a file by their keys; the forms of a term are together under one key."""
+    return dict(_flat(yaml.load((folder / file).read_text(), Loader=yaml.CSafeLoader), ()))
+
+
+def _flat(value: Any, keys: tuple[str, ...]) -> Iterator[tuple[str, Any]]:
+    name = ".".join(keys)
+    if name in OF_THE_LANGUAGE or not isinstance(value, Mapping) or keys[:1] == ("terms",) and len(keys) == 2:
+        yield name, value
+    else:
+        for key, each in value.items():
+            yield from _flat(each, (*keys, key))
+
+
+def names_in(phrase: Any) -> set[str]:
+    texts = phrase.values() if isinstance(phrase, Mapping) else phrase if isinstance(phrase, list) else [phrase]
+    return {name for text in texts for name in find_undeclared_variables(ENVIRONMENT.parse(text))}
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_each_language_is_complete(language: str) -> None:
+    files = sorted(file.name for file in (PHRASES / "en").glob("*.yaml"))
+    assert sorted(file.name for file in (PHRASES / language).glob("*.yaml")) == files
+    unlike: list[str] = []
+    for file in files:
+        ours, theirs = (phrases_of(PHRASES / name, file) for name in ("en", language))
+        added = {key for key in theirs if key not in ours and not key.startswith("terms.")}
+        unlike += [f"{file}: {key}" for key in sorted({*ours} - {*theirs} | added)]
+        unlike += [
+            f"{file}: {key} uses {sorted(names_in(theirs[key]))}, not {sorted(names_in(phrase))}"
+            for key, phrase in ours.items()
+            if key in theirs and key not in OF_THE_LANGUAGE and names_in(phrase) != names_in(theirs[key])
+        ]
+    assert not unlike, "\n".join(unlike)
