@@ -54,3 +54,6 @@ def test_each_language_is_complete(language: str) -> None:
             if key in theirs and key not in OF_THE_LANGUAGE and names_in(phrase) != names_in(theirs[key])
         ]
     assert not unlike, "\n".join(unlike)
+    rules = phrases_of(PHRASES / language, "report.yaml")  # English derives other names from the keys of the rules
+    tasks = phrases_of(PHRASES / language, "rubric.yaml")
+    assert not {key.removeprefix("tasks.") for key in tasks} - {key.removeprefix("labels.rules.") for key in rules}
