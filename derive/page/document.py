@@ -503,8 +503,7 @@ class _Writer:
         own = names_of_step(step, self.words, self.dimensions.get(step.symbol))
         override = self.problem.wording.get(step.key, {})
         own |= {"amounts": self._amounts(step), **in_turn(step, self.rest, self.words)}
-        slider = dict(step.words).get("slider", "")
-        own |= {"slider": self.words.term("body")} if slider not in self.problem.statement.text else {}
+        own |= {"slider": self.words.term("body")} if not self._states(dict(step.words).get("slider", "")) else {}
         prose = override.get(step.outcome) or override.get(ANY_OUTCOME)
         if prose is not None:
             nodes = self._told(prose.pieces, own, partial(self.formulas.in_solution, key=step.key))
@@ -514,6 +513,10 @@ class _Writer:
         if following and both:
             own = {**names_of_step(following, self.words, self.dimensions.get(following.symbol)), **own}
         return filled(both or self.words.phrase(step, self.before), own)  # a phrase cannot mention keys of other steps
+
+    def _states(self, name: str) -> bool:
+        """Return whether the statement uses the name that the author gave to a body."""
+        return name in self.problem.statement.text
 
     def _amounts(self, step: Step) -> tuple[Inline, ...]:
         """Return the unit conversions of the numbers that this step is the first to substitute."""
