@@ -178,7 +178,8 @@ class _Printing:
 
     @cached_property
     def notation(self) -> Notation:
-        return _notation(tuple(self.document.dimensions.items()), self.level is Level.BRIEF, self.words.sign)
+        known = tuple(self.document.dimensions.items())
+        return _notation(known, self.level is Level.BRIEF, self.words.sign, self.words.in_body)
 
     @cached_property
     def files(self) -> Files:
@@ -253,9 +254,9 @@ class _Printing:
 
 
 @lru_cache(maxsize=4)
-def _notation(dimensions: tuple[tuple[Any, Dimension | None], ...], flat: bool, sign: str) -> Notation:
+def _notation(dimensions: tuple[tuple[Any, Dimension | None], ...], flat: bool, sign: str, in_body: str) -> Notation:
     """Return the notation for these dimensions. A notation caches the layout of every expression, so it is reused."""
-    return Notation(dict(dimensions), flat=flat, sign=sign)
+    return Notation(dict(dimensions), flat=flat, sign=sign, in_body=in_body)
 
 
 def _source_faults(compared: Sequence[Told], notation: Notation) -> tuple[SourceFault, ...]:

@@ -98,7 +98,7 @@ class _Hints:
             return []
         self._introduce(letters_in(expressions_in([each for _, letters in items for each in letters])))
         told = [self._item(name, letters) for name, letters in items]
-        listed = tuple(node for i, nodes in enumerate(told) for node in ((Text("; "), *nodes) if i else nodes))
+        listed = tuple(node for nodes in told for node in (self.words.semicolon, *nodes))[1:]
         return [Paragraph(filled(self.words.labels["sought"], {"items": listed, "several": len(told) > 1}))]
 
     def _name(self, step: Step) -> str:

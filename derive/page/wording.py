@@ -240,6 +240,15 @@ class Phrases:
             return nodes
         return tuple(replace(node, text=self.number(node.text)) if isinstance(node, Text) else node for node in nodes)
 
+    @property
+    def in_body(self) -> str:
+        """Return the index of a rate of change in the body frame: (dL/dt)_body."""
+        return str(self.labels["language"].get("body", "body"))
+
+    @property
+    def semicolon(self) -> Text:
+        return Text(f"{self.labels['language'].get('semicolon', ';')} ")
+
     def compared(self, rule: str) -> set[str]:
         """Return the names whose values the phrases of a rule compare with words."""
         tables = (self.rules, self.setups, self.clauses)

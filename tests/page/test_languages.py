@@ -1,5 +1,5 @@
-"""Each language has the phrases of English: the same files and keys. A phrase prints the same names; it may do without a
-name that English only tests, such as the number of equations."""
+"""Each language has the phrases of English: the same files and keys. A phrase prints the same names; it may do without
+a name that English only tests, such as the number of equations."""
 
 from __future__ import annotations
 
@@ -57,11 +57,11 @@ def test_each_language_is_complete(language: str) -> None:
         ours, theirs = (phrases_of(PHRASES / name, file) for name in ("en", language))
         added = {key for key in theirs if key not in ours and not key.startswith(MAY_HAVE_MORE)}
         unlike += [f"{file}: {key}" for key in sorted({*ours} - {*theirs} | added)]
-        unlike += [
-            f"{file}: {key} uses {sorted(names_in(theirs[key]))}, not {sorted(names_in(phrase))}"
-            for key, phrase in ours.items()
-            if key in theirs and key not in OF_THE_LANGUAGE and not names_printed(phrase) <= names_in(theirs[key]) <= names_in(phrase)
-        ]
+        for key, phrase in ours.items():
+            if key in theirs and key not in OF_THE_LANGUAGE:
+                used = names_in(theirs[key])
+                if not names_printed(phrase) <= used <= names_in(phrase):
+                    unlike.append(f"{file}: {key} uses {sorted(used)}, not {sorted(names_in(phrase))}")
     assert not unlike, "\n".join(unlike)
     rules = phrases_of(PHRASES / language, "report.yaml")  # English derives other names from the keys of the rules
     tasks = phrases_of(PHRASES / language, "rubric.yaml")
