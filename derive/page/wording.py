@@ -298,15 +298,15 @@ _TOKEN = re.compile("\x00(\\d+)\x00")
 
 
 class _Printed(str):
-    """The token of a node in a template; `<<name.form>>` is the token of another form of a word."""
+    """The token of a node in a template. `<<name.form>>` is the token of another form of a word; the forms of anything
+    else, such as a formula, are all the same."""
 
-    forms: Mapping[str, str]
+    forms: Mapping[str, str] | None = None
 
     def __getattr__(self, name: str) -> str:
-        forms: Mapping[str, str] = self.__dict__.get("forms", {})
-        if name not in forms:
+        if name.startswith("_") or self.forms is not None and name not in self.forms:
             raise AttributeError(name)
-        return forms[name]
+        return self if self.forms is None else self.forms[name]
 
 
 class _Nodes:
@@ -321,8 +321,8 @@ class _Nodes:
         if not isinstance(value, Inline | tuple):
             return value
         printed = _Printed(self._numbered(value))
-        forms = value.forms if isinstance(value, Forms) else {}
-        printed.forms = {name: self._numbered(form) for name, form in forms.items()}
+        if isinstance(value, Forms):
+            printed.forms = {name: self._numbered(form) for name, form in value.forms.items()}
         return printed
 
     def _numbered(self, value: Inline | tuple[Inline, ...]) -> str:

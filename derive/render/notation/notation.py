@@ -100,10 +100,18 @@ class Notation:
                  between
     flat         whether vectors are printed as lists of components instead of columns, for a short page
     sign         the decimal sign
+    body         the index of a rate of change that is seen in the body frame
     """
 
-    def __init__(self, dimensions: Mapping[Any, Dimension | None] | None = None, flat: bool = False, sign: str = "."):
-        self.known_dimensions, self.flat, self.sign = dimensions or {}, flat, sign
+    def __init__(
+        self,
+        dimensions: Mapping[Any, Dimension | None] | None = None,
+        flat: bool = False,
+        sign: str = ".",
+        body: str = "body",
+    ):
+        self.known_dimensions, self.flat = dimensions or {}, flat
+        self.sign, self.body = sign, body
         self._places = {str(letter): n for n, letter in enumerate(self.known_dimensions)}
         self._known: dict[Any, Layout] = {}  # a cache: all formats of a page need the same layouts
         self._results: dict[Any, Layout] = {}
@@ -322,7 +330,7 @@ class Notation:
         return self._differentiated("d", expr.args[0], Name("t"))
 
     def _body_rate(self, expr: ex.BodyRate) -> Layout:
-        return Lowered(Fenced(self._rate(expr)), "body")
+        return Lowered(Fenced(self._rate(expr)), self.body)
 
     def _component(self, expr: ex.Component) -> Layout:
         return Lowered(Fenced(self.layout(expr.args[0])), expr.args[1].name)
