@@ -36,7 +36,7 @@ def explain(root: Path, problem_id: str, key: str | None, as_json: bool) -> str 
     derivation, values, *_ = derived(problem)
     steps = {step.key: step for step in [*derivation.steps, *values.values()]}
     known, _ = dimension_table(problem.dimensions, steps.values())
-    notation = Notation(known, sign=words.sign, in_body=words.in_body)
+    notation = Notation(known, sign=words.sign, body=words.labels["language"]["body_frame"])
     found = {each: explanation_of(steps[each], problem, derivation, values, words) for each in _wanted(key, steps)}
     if as_json:
         facts = [explanation.facts() for explanation in found.values()]

@@ -178,8 +178,9 @@ class _Printing:
 
     @cached_property
     def notation(self) -> Notation:
-        known = tuple(self.document.dimensions.items())
-        return _notation(known, self.level is Level.BRIEF, self.words.sign, self.words.in_body)
+        words = self.words
+        dimensions = tuple(self.document.dimensions.items())
+        return _notation(dimensions, self.level is Level.BRIEF, words.sign, words.labels["language"]["body_frame"])
 
     @cached_property
     def files(self) -> Files:
@@ -254,9 +255,9 @@ class _Printing:
 
 
 @lru_cache(maxsize=4)
-def _notation(dimensions: tuple[tuple[Any, Dimension | None], ...], flat: bool, sign: str, in_body: str) -> Notation:
+def _notation(dimensions: tuple[tuple[Any, Dimension | None], ...], flat: bool, sign: str, body: str) -> Notation:
     """Return the notation for these dimensions. A notation caches the layout of every expression, so it is reused."""
-    return Notation(dict(dimensions), flat=flat, sign=sign, in_body=in_body)
+    return Notation(dict(dimensions), flat=flat, sign=sign, body=body)
 
 
 def _source_faults(compared: Sequence[Told], notation: Notation) -> tuple[SourceFault, ...]:

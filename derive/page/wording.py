@@ -241,11 +241,6 @@ class Phrases:
         return tuple(replace(node, text=self.number(node.text)) if isinstance(node, Text) else node for node in nodes)
 
     @property
-    def in_body(self) -> str:
-        """Return the index of a rate of change in the body frame: (dL/dt)_body."""
-        return str(self.labels["language"].get("body", "body"))
-
-    @property
     def semicolon(self) -> Text:
         return Text(f"{self.labels['language'].get('semicolon', ';')} ")
 
@@ -307,15 +302,15 @@ _TOKEN = re.compile("\x00(\\d+)\x00")
 
 
 class _Printed(str):
-    """The token of a node in a template; `<<name.form>>` is the token of another form of a word."""
+    """The token of a node in a template. `<<name.form>>` is the token of another form of a word; the forms of anything
+    else, such as a formula, are all the same."""
 
-    forms: Mapping[str, str]
+    forms: Mapping[str, str] | None = None
 
     def __getattr__(self, name: str) -> str:
-        forms: Mapping[str, str] = self.__dict__.get("forms", {})
-        if name not in forms:
+        if name.startswith("_") or self.forms is not None and name not in self.forms:
             raise AttributeError(name)
-        return forms[name]
+        return self if self.forms is None else self.forms[name]
 
 
 class _Nodes:
@@ -330,8 +325,8 @@ class _Nodes:
         if not isinstance(value, Inline | tuple):
             return value
         printed = _Printed(self._numbered(value))
-        forms = value.forms if isinstance(value, Forms) else {}
-        printed.forms = {name: self._numbered(form) for name, form in forms.items()}
+        if isinstance(value, Forms):
+            printed.forms = {name: self._numbered(form) for name, form in value.forms.items()}
         return printed
 
     def _numbered(self, value: Inline | tuple[Inline, ...]) -> str:

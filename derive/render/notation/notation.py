@@ -100,7 +100,7 @@ class Notation:
                  between
     flat         whether vectors are printed as lists of components instead of columns, for a short page
     sign         the decimal sign
-    in_body      the index of a rate of change in the body frame, (dL/dt)_body
+    body         the index of a rate of change that is seen in the body frame
     """
 
     def __init__(
@@ -108,9 +108,10 @@ class Notation:
         dimensions: Mapping[Any, Dimension | None] | None = None,
         flat: bool = False,
         sign: str = ".",
-        in_body: str = "body",
+        body: str = "body",
     ):
-        self.known_dimensions, self.flat, self.sign, self.in_body = dimensions or {}, flat, sign, in_body
+        self.known_dimensions, self.flat = dimensions or {}, flat
+        self.sign, self.body = sign, body
         self._places = {str(letter): n for n, letter in enumerate(self.known_dimensions)}
         self._known: dict[Any, Layout] = {}  # a cache: all formats of a page need the same layouts
         self._results: dict[Any, Layout] = {}
@@ -329,7 +330,7 @@ class Notation:
         return self._differentiated("d", expr.args[0], Name("t"))
 
     def _body_rate(self, expr: ex.BodyRate) -> Layout:
-        return Lowered(Fenced(self._rate(expr)), self.in_body)
+        return Lowered(Fenced(self._rate(expr)), self.body)
 
     def _component(self, expr: ex.Component) -> Layout:
         return Lowered(Fenced(self.layout(expr.args[0])), expr.args[1].name)
