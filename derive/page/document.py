@@ -516,7 +516,7 @@ class _Writer:
 
     def _states(self, name: str) -> bool:
         """Return whether the statement uses the name that the author gave to a body."""
-        return name in self.problem.statement.text
+        return name.casefold() in self.problem.statement.text.casefold()
 
     def _amounts(self, step: Step) -> tuple[Inline, ...]:
         """Return the unit conversions of the numbers that this step is the first to substitute."""

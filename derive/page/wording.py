@@ -103,6 +103,7 @@ class Chain:
     """The place in a sentence where the lines of its step are printed."""
 
 
+_PRINTED_NAME = re.compile(r"<<(\w+)(?:\.\w+)?>>")
 _DECIMAL_POINT = re.compile(r"(?<=[0-9])\.(?=[0-9])")
 
 AND = " and "  # key of a phrase for two steps: outcome of the first, AND, rule of the second
@@ -188,7 +189,8 @@ class Phrases:
         keys = [f"{step.outcome}{AFTER}{preceded_by}", step.outcome]
         if before is not None and (before.rule, before.outcome) == (step.rule, step.outcome):
             told = of_rule.get(step.outcome, "")
-            words = [{name: word for name, word in each.words if f"<<{name}>>" in told} for each in (before, step)]
+            printed = set(_PRINTED_NAME.findall(told))
+            words = [{name: word for name, word in each.words if name in printed} for each in (before, step)]
             keys[:0] = [f"{step.outcome}{AFTER}{SAME}"] if words[0] == words[1] else []
         phrase = next((of_rule[key] for key in keys if key in of_rule), None)
         if phrase is None:
