@@ -121,3 +121,11 @@ def test_an_unknown_language_is_an_error_at_its_place() -> None:
     with pytest.raises(Rejected, match="no phrases of the language `xx`") as caught:
         phrases(templates_of(ROOT), Language("xx"))
     assert "`de`" in (caught.value.complaints[0].help or "")
+
+
+def test_each_french_name_has_the_forms_that_phrases_use() -> None:
+    used = set(re.findall(r"<<\w+\.(\w+)>>", "".join(file.read_text() for file in (PHRASES / "fr").glob("*.yaml"))))
+    words = phrases(templates_of(ROOT), Language("fr"))
+    tables = {**words.terms, "own_name": words.labels["own_name"]}
+    assert used == {"nom", "de", "a"}
+    assert not {name for name, forms in tables.items() if isinstance(forms, Mapping) and not used <= forms.keys()}
