@@ -124,7 +124,7 @@ def used_by(page: str, folder: Path) -> set[str]:
                 (root / "problems" / sort / script.name).symlink_to(script)
     noted = noted_phrases()
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(printed, "phrases", lambda _: noted)
+        patch.setattr(printed, "phrases", lambda *_: noted)
         for level in (detail,) if detail else (None, "full"):
             rendered_once(root, problem_id, level, only={"text"})
     return {key for key in noted.used if key.partition(".")[0] in OF_PAGES}
