@@ -156,10 +156,7 @@ Inline = NewParagraph | Text | Math | DimensionMark | UnitMark | Ref | ProblemRe
 
 @dataclass(frozen=True)
 class Phrases:
-    """The phrases of one language: see the files of `templates/phrases/en`.
-
-    sign   the decimal sign of numbers
-    """
+    """The phrases of one language: see the files of `templates/phrases/en`."""
 
     rules: Mapping[str, Mapping[str, str]]
     routes: Mapping[str, Mapping[str, str]]
@@ -176,7 +173,11 @@ class Phrases:
     drawings: Mapping[str, str]
     grades: Mapping[str, str]
     labels: Mapping[str, Any]
-    sign: str = "."
+
+    @property
+    def sign(self) -> str:
+        """Return the decimal sign of numbers."""
+        return "," if self.labels["language"]["decimal"] == DecimalSign.COMMA else "."
 
     def phrase(self, step: Step, before: Step | None = None) -> str:
         """Return the phrase for the sentence of a step; the phrase may depend on the step shown just before.
@@ -293,8 +294,9 @@ def phrases(templates: Templates, language: Language = ENGLISH) -> Phrases:
 @lru_cache(maxsize=4)
 def _phrases(folders: tuple[Path, ...], written: tuple[tuple[str, int], ...], decimal: DecimalSign | None) -> Phrases:
     read = read_phrases(folders)
-    sign = decimal or read["labels"]["language"]["decimal"]
-    return Phrases(**read, sign="," if sign == DecimalSign.COMMA else ".")
+    if decimal:
+        read["labels"]["language"]["decimal"] = decimal.value
+    return Phrases(**read)
 
 
 # --- filling ---
@@ -304,15 +306,15 @@ _TOKEN = re.compile("\x00(\\d+)\x00")
 
 
 class _Printed(str):
-    """The token of a node in a template. `<<name.form>>` is the token of another form of a word; the forms of anything
-    else, such as a formula, are all the same."""
+    """The token of a node in a template; `<<name.form>>` is the token of another form of a word."""
 
-    forms: Mapping[str, str] | None = None
+    forms: Mapping[str, str]
 
     def __getattr__(self, name: str) -> str:
-        if name.startswith("_") or self.forms is not None and name not in self.forms:
+        forms: Mapping[str, str] = self.__dict__.get("forms", {})
+        if name not in forms:
             raise AttributeError(name)
-        return self if self.forms is None else self.forms[name]
+        return forms[name]
 
 
 class _Nodes:
