@@ -12,7 +12,6 @@ import os
 import re
 import tempfile
 from collections.abc import Iterator, Mapping
-from dataclasses import fields
 from functools import cache
 from pathlib import Path
 from random import Random
@@ -88,9 +87,7 @@ def noted_phrases() -> _NotedPhrases:
     used: set[str] = set()
     read = read_phrases([ROOT / "templates" / "phrases" / "en"])
     plain = {"rules", "routes", "reasons"}  # the methods above note the phrases that they choose from these
-    noted = _NotedPhrases(
-        **{f.name: read[f.name] if f.name in plain else _Noted(read[f.name], used) for f in fields(Phrases)}
-    )
+    noted = _NotedPhrases(**{name: table if name in plain else _Noted(table, used) for name, table in read.items()})
     object.__setattr__(noted, "used", used)
     return noted
 
@@ -120,7 +117,7 @@ def used_by(page: str, folder: Path) -> set[str]:
                 (root / "problems" / sort / script.name).symlink_to(script)
     noted = noted_phrases()
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(printed, "phrases", lambda _: noted)
+        patch.setattr(printed, "phrases", lambda *_: noted)
         for level in (detail,) if detail else (None, "full"):
             rendered_once(root, problem_id, level, only={"text"})
     return {key for key in noted.used if key.partition(".")[0] in OF_PAGES}

@@ -240,7 +240,7 @@ def class_is_older(root: Path, set_id: str, engine: Engine) -> list[Complaint]:
 
 
 def _inputs(root: Path, set_id: str, heading: ProblemSet, engine: Engine, seed: str) -> str:
-    recipe = recipe_of(root, None, heading.evidence)
+    recipe = recipe_of(root, set_id, None, heading.evidence)
     files = [file_digest(root / path) for path in heading.inputs]
     course = folder_digest(root / "problems" / set_id, "*")
     return digest("class", recipe_digest(recipe), engine.identity, seed, course, *files)

@@ -78,7 +78,7 @@ def _files(
     else:
         known = numbers_of(problem, placement, drawing)
         told = sorted(_within(data, known))
-    seen = data, told, _within(data, notation.known_dimensions), width, alt
+    seen = data, told, _within(data, notation.known_dimensions), width, alt, notation.sign
     key = digest("drawing", engine_digest("matplotlib"), repr(seen))
     svg, zero, pdf = (cache.get(key) or b"").partition(b"\0")
     if not zero:

@@ -10,6 +10,7 @@ from textwrap import wrap
 
 from derive.building.solution import derived
 from derive.course.problem import load_problem
+from derive.course.problem_set import language_of
 from derive.course.yaml_tree import abridged
 from derive.errors import Complaint, Misused, did_you_mean
 from derive.page.explanation import Explanation, Section, explanation_of, told_of
@@ -29,10 +30,12 @@ Rows = list[tuple[str, ...]]
 
 def explain(root: Path, problem_id: str, key: str | None, as_json: bool) -> str | Rows:
     """Return the explanation of the step with that key; without a key, a table with a row for each step."""
-    problem, words = load_problem(root, problem_id), phrases(templates_of(root))
+    problem = load_problem(root, problem_id)
+    words = phrases(templates_of(root), language_of(root, problem.set_id))
     derivation, values, *_ = derived(problem)
     steps = {step.key: step for step in [*derivation.steps, *values.values()]}
-    notation = Notation(dimension_table(problem.dimensions, steps.values())[0])
+    known, _ = dimension_table(problem.dimensions, steps.values())
+    notation = Notation(known, sign=words.sign, body=words.labels["language"]["body_frame"])
     found = {each: explanation_of(steps[each], problem, derivation, values, words) for each in _wanted(key, steps)}
     if as_json:
         facts = [explanation.facts() for explanation in found.values()]

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from derive.course.parts import POINTS, Question, points_in_all, points_text
-from derive.course.problem_set import mapping_in, path_of
+from derive.course.problem_set import language_of, mapping_in, path_of
 from derive.course.prose import Prose, TexFormula
 from derive.course.schema import check_keys, keys_of
 from derive.course.written import ProblemKeys, written_problem
@@ -87,8 +87,8 @@ def _title_with_mathematics(root: Path, problem_id: str) -> str:
     from derive.render.printing.text_page import inline_text
 
     problem = load_problem(root, problem_id)
-    words = phrases(templates_of(root))
+    words = phrases(templates_of(root), language_of(root, problem.set_id))
     names: dict[str, Any] = {g.name: given_words(g, problem.measured, words) for g in problem.givens}
     names.update({m.name: Text(m.name) for m in problem.title.mentions if m.name not in names})
     title = told(problem.title.pieces, {**AXIS_NAMES, **names}, lambda name, place: None, formula=_unread)
-    return inline_text(title, Notation(problem.dimensions))
+    return inline_text(title, Notation(problem.dimensions, sign=words.sign))

@@ -33,6 +33,7 @@ def preload(root: Path, derives: bool, draws: bool, set_id: str = "") -> None:
     """
     for name in (*PRINTING, *(DERIVING if derives else ()), *(DRAWING if draws else ())):
         import_module(name)
+    from derive.course.problem_set import language_of
     from derive.page.template import templates_of
     from derive.page.wording import phrases
     from derive.render.printing.templates import compile_templates
@@ -43,7 +44,7 @@ def preload(root: Path, derives: bool, draws: bool, set_id: str = "") -> None:
         with suppress(DeriveError):  # each problem shows the error itself
             read_ahead(root, set_id)
     with suppress(DeriveError):  # each problem reports such errors itself
-        phrases(templates_of(root))
+        phrases(templates_of(root), language_of(root, set_id))
         compile_templates(templates_of(root))
     if draws:
         from derive.render.drawing.lettering import letters_of

@@ -19,7 +19,7 @@ from derive.building.solved import Solved
 from derive.course.names import HINTS, KEY, EvidenceShown
 from derive.course.parts import points_text
 from derive.course.problem import Problem
-from derive.course.problem_set import ProblemSet, problem_set
+from derive.course.problem_set import ProblemSet, language_of, problem_set
 from derive.course.prose import PROBLEM
 from derive.course.reference.comparison import Told
 from derive.course.reference.statements import reference_paths
@@ -140,7 +140,7 @@ class _Printing:
 
     @cached_property
     def words(self) -> Phrases:
-        return phrases(self.templates)
+        return phrases(self.templates, language_of(self.problem.root, self.problem.set_id))
 
     @cached_property
     def heading(self) -> ProblemSet | None:
@@ -177,7 +177,9 @@ class _Printing:
 
     @cached_property
     def notation(self) -> Notation:
-        return _notation(tuple(self.document.dimensions.items()), self.level is Level.BRIEF)
+        words = self.words
+        dimensions = tuple(self.document.dimensions.items())
+        return _notation(dimensions, self.level is Level.BRIEF, words.sign, words.labels["language"]["body_frame"])
 
     @cached_property
     def files(self) -> Files:
@@ -251,9 +253,9 @@ class _Printing:
 
 
 @lru_cache(maxsize=4)
-def _notation(dimensions: tuple[tuple[Any, Dimension | None], ...], flat: bool) -> Notation:
+def _notation(dimensions: tuple[tuple[Any, Dimension | None], ...], flat: bool, sign: str, body: str) -> Notation:
     """Return the notation for these dimensions, which caches the layout of expressions."""
-    return Notation(dict(dimensions), flat=flat)
+    return Notation(dict(dimensions), flat=flat, sign=sign, body=body)
 
 
 def _source_faults(compared: Sequence[Told], notation: Notation) -> tuple[SourceFault, ...]:

@@ -8,23 +8,42 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
+from contextlib import suppress
+from dataclasses import astuple
 from pathlib import Path
 
 from derive import FOLDER
 from derive.building.cache import PACKAGES, digest, engine_digest, file_digest, package_version
+from derive.course.problem_set import language_of
+from derive.errors import DeriveError
 
 MODULES = "the modules of derive"
 EDITED = "edited during the build"  # instead of a digest
 OPTIONS = DETAIL, EVIDENCE, ONLY, ENGINE = "--detail", "--evidence", "--only", "--engine"
 OWN = "templates of derive"
+LANGUAGE = "the language of the set"
 
 Recipe = Mapping[str, str]
 
 
-def recipe_of(root: Path, detail: str | None, evidence: str) -> dict[str, str]:
-    """Return the recipe of pages."""
+def recipe_of(root: Path, set_id: str, detail: str | None, evidence: str) -> dict[str, str]:
+    """Return the recipe of the pages of a set."""
     packages = {name: package_version(name) or "" for name in PACKAGES}
-    return {MODULES: engine_digest(), **packages, **_templates(root), DETAIL: detail or "", EVIDENCE: evidence}
+    return {
+        MODULES: engine_digest(),
+        **packages,
+        **_templates(root),
+        **_language(root, set_id),
+        DETAIL: detail or "",
+        EVIDENCE: evidence,
+    }
+
+
+def _language(root: Path, set_id: str) -> dict[str, str]:
+    """Return the digest of the language of a set; nothing if its file cannot be read."""
+    with suppress(DeriveError):
+        return {LANGUAGE: digest(*map(str, astuple(language_of(root, set_id))))}
+    return {}
 
 
 def of_documents(recipe: Recipe, engine: str) -> dict[str, str]:

@@ -80,7 +80,7 @@ def document_on_request(root: Path, heading: ProblemSet, problems: Sequence[Rend
 
 def document_page(root: Path, heading: ProblemSet, problems: Sequence[Rendered], kind: str) -> str:
     """Return a document that is made only on request, or the sheet, as one page for a browser."""
-    label = phrases(templates_of(root)).labels["documents"][kind]
+    label = phrases(templates_of(root), heading.language).labels["documents"][kind]
     listed = _listed(problems, kind)
     printed = [(each.name, each.number, each.problem.documents.get(f"{kind}.html", "")) for each in listed]
     numbered = equations_numbered(zip([each.number for each in listed], told_once(printed), strict=True))
@@ -147,7 +147,7 @@ def _document(root: Path, template: str, heading: ProblemSet, problems: Sequence
 
 def _facts(root: Path, heading: ProblemSet, problems: Sequence[Listed]) -> dict[str, Any]:
     """Return the data that the template of a whole document can use."""
-    words: Phrases = phrases(templates_of(root))
+    words: Phrases = phrases(templates_of(root), heading.language)
     return {
         "set_id": Tex(heading.id),
         "heading": heading,
@@ -156,6 +156,7 @@ def _facts(root: Path, heading: ProblemSet, problems: Sequence[Listed]) -> dict[
         "problems": problems,
         "detail": problems[0].problem.detail if problems else Level.STANDARD.value,
         "total": _total(problems),
+        "number": words.number,
         "worth": lambda points: words.worth(Fraction(points)) if points else "",
         "rows": _rows(problems, words),
         "columns_of_counts": COUNTED,

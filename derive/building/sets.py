@@ -27,9 +27,17 @@ from derive.building.scratch import sweep
 from derive.building.set_names import check_asked, set_folder
 from derive.building.signed import regular_content
 from derive.building.staleness import left_older
-from derive.building.tex import Engine, by_the_clock, chosen_engine, chosen_name, prepare, typeset
+from derive.building.tex import (
+    Engine,
+    by_the_clock,
+    chosen_engine,
+    chosen_name,
+    lacks_hyphenation,
+    prepare,
+    typeset,
+)
 from derive.building.workers import TIME_LIMIT, Bug, Crew, Job, Outcome, done, job_of, under_way
-from derive.course.names import INDEX, LOGO, ON_A_PAGE, REPORT, SHEET, SOLUTIONS, EvidenceShown
+from derive.course.names import ENGLISH, INDEX, LOGO, ON_A_PAGE, REPORT, SHEET, SOLUTIONS, EvidenceShown
 from derive.errors import Complaint, DeriveError, Misused
 from derive.render.formats import built_formats
 from derive.render.rendered import Files, Rendered
@@ -132,7 +140,7 @@ class _Build:
         self.cache = Cache(outputs / CACHE, fresh=options.force)
         self.manifest = Manifest.read(outputs)
         self.documents = with_asked(self.manifest.documents, options.documents)
-        self.made_by = recipe_of(root, options.detail, options.evidence or self.manifest.evidence)
+        self.made_by = recipe_of(root, set_id, options.detail, options.evidence or self.manifest.evidence)
         self.made_by[ONLY] = self._kinds_of_each_problem()
         self.anew = options.force or self.manifest.engine != engine_digest(*PACKAGES)
         self.result = Report(set_id)
@@ -189,6 +197,10 @@ class _Build:
         self.prepares = not os.listdir(at_hand().name)  # all workers share the TeX formats in this folder
         reading = partial(problem_set, self.root, self.set_id)
         heading = done(Job(f"`problems/{self.set_id}/set.yaml`", reading, self.options.limit))
+        if heading.language.name != ENGLISH.name and lacks_hyphenation(self.engine):
+            message = f"no word is hyphenated: this TeX has no patterns for the language `{heading.language.name}`"
+            help_line = "install a complete TeX and choose it with `--engine`"
+            self.result.warnings.append(Complaint("no-hyphenation", message, help=help_line, severity="warning"))
         self.manifest.evidence = heading.evidence
         self.documents = named_documents(heading, self.manifest, self.options.documents)
         self.made_by[EVIDENCE] = self.options.evidence or heading.evidence

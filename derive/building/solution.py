@@ -23,6 +23,7 @@ from derive.building.solved import Solved, steps_key
 from derive.course.names import EvidenceShown
 from derive.course.parts import Question
 from derive.course.problem import Problem, problem_and_faults, run_solve
+from derive.course.problem_set import language_of
 from derive.course.reference.comparison import comparisons
 from derive.course.reference.statements import reference_paths
 from derive.course.stock import told_at
@@ -78,7 +79,9 @@ def rendered(
     problem, faults = problem_and_faults(root, problem_id, chosen)
     with faults:
         _check_characters(problem)
-    phrases(templates_of(root))  # raises errors in the phrases before anything is derived
+    phrases(
+        templates_of(root), language_of(root, problem.set_id)
+    )  # raises errors in the phrases before anything is derived
     problem = with_known_observations(problem, faults)
     with faults:
         solved, failures = _solved(problem, NO_CACHE if faults else cache, begun, faults)

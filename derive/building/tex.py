@@ -225,6 +225,12 @@ def _passes(engine: Engine, source: Path, timeout: float, *options: str, most: i
     return None
 
 
+def lacks_hyphenation(engine: Engine) -> bool:
+    """Return whether the engine is that of the wheel without patterns for languages other than English."""
+    patterns = engine.path.parents[2] / "texmf-dist" / "tex" / "generic" / "hyph-utf8"
+    return engine.name == WHEEL and not patterns.is_dir()
+
+
 def by_the_clock(seconds: float) -> float:
     """Return the limit of the wall-clock time for a limit of the processor time."""
     return seconds + BUSY

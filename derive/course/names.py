@@ -6,6 +6,7 @@ The document "solutions" is for students, "problems" has the questions, and "rep
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass
 from enum import StrEnum
 
 NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,63}")
@@ -23,6 +24,25 @@ class Paper(StrEnum):
 
     LETTER = "letter"
     A4 = "a4"
+
+
+class DecimalSign(StrEnum):
+    """The sign between the whole part of a number and its decimals."""
+
+    POINT = "point"
+    COMMA = "comma"
+
+
+@dataclass(frozen=True)
+class Language:
+    """The language of pages, which is the name of a folder of phrases, and their decimal sign; without a sign, pages
+    have that of the language."""
+
+    name: str = "en"
+    decimal: DecimalSign | None = None
+
+
+ENGLISH = Language()
 
 
 class EvidenceShown(StrEnum):

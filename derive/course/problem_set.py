@@ -8,7 +8,17 @@ from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
-from derive.course.names import DOCUMENTS, INDEX, NAME, OF_EVERY_SET, EvidenceShown, Paper
+from derive.course.names import (
+    DOCUMENTS,
+    ENGLISH,
+    INDEX,
+    NAME,
+    OF_EVERY_SET,
+    DecimalSign,
+    EvidenceShown,
+    Language,
+    Paper,
+)
 from derive.course.schema import TEXT, Reader, Record, key, keys_of, list_of, one_of, read_record, wrong_type
 from derive.course.yaml_tree import Mapping, Scalar, Sequence, Tree, Word, read_yaml, shape_of
 from derive.errors import Complaint, DeriveError, Faults, Misused, Rejected, did_you_mean, nearest
@@ -40,6 +50,7 @@ class ProblemSet:
     evidence: EvidenceShown = EvidenceShown.NONE
     documents: tuple[tuple[str, str], ...] = THOSE_OF_EVERY_SET
     paper: Paper = Paper.LETTER
+    language: Language = ENGLISH
     student: str = ""  # the student for whom a document is made
 
     @property
@@ -101,6 +112,8 @@ class CourseKeys(Record):
     logo: Word | None = key("a PNG file in the folder of the course, for the title of each document of a set", TEXT)
     evidence: str | None = key("how much solutions show about their verification", one_of(tuple(EvidenceShown)))
     paper: str | None = key("the size of the pages, by default `letter`", one_of(tuple(Paper)))
+    language: Word | None = key("the language of the pages: a folder of `templates/phrases`, by default `en`", TEXT)
+    decimal: str | None = key("the decimal sign, by default that of the language", one_of(tuple(DecimalSign)))
 
 
 @dataclass(frozen=True)
@@ -231,7 +244,23 @@ def problem_set(root: Path, set_id: str) -> ProblemSet:
         EvidenceShown(own("evidence") or EvidenceShown.NONE),
         tuple((str(kind), str(file)) for kind, file in written.documents.items()) or THOSE_OF_EVERY_SET,
         Paper(own("paper") or Paper.LETTER),
+        language_of(root, set_id),
     )
+
+
+def language_of(root: Path, set_id: str) -> Language:
+    """Return the language of the pages of a set. The file of the set may be missing, or have errors in other keys."""
+    faults, keys = Faults(), keys_of(CourseKeys)
+    found: dict[str, str] = {}
+    for path in (COURSE, f"problems/{set_id}/set.yaml"):
+        node = mapping_in(root, path, "the file", quickly=True) if (root / path).is_file() else None
+        for name in ("language", "decimal"):
+            under = node.get(name) if node else None
+            value = keys[name].reader.read(under, name, faults) if under is not None else None
+            found |= {name: value} if value else {}
+    faults.stop()
+    decimal = found.get("decimal")
+    return Language(found.get("language", Language.name), DecimalSign(decimal) if decimal else None)
 
 
 def _logo(root: Path, path: Word, faults: Faults) -> bytes | None:

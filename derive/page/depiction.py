@@ -115,6 +115,7 @@ def depictions(
             except Rejected as error:
                 faults += error.complaints
                 continue
+            alt, caption = words.numbers(alt), caption if own else words.numbers(caption)
             found.append((index, Depicted(drawing, placement, at, alt, numbers.get(drawing.key), caption)))
     return [depicted for _, depicted in sorted(found, key=lambda entry: entry[0])], faults
 

@@ -175,7 +175,7 @@ class _Writer:
         stated = self._told(problem.statement.pieces, formula=in_question)
         illustrations = self._illustrations()
         parts = tuple(self._part(i, part, illustrations) for i, part in enumerate(problem.parts))
-        statement = stated_once(stated, self.words.labels["with"]) + self._assumed()
+        statement = stated_once(stated, self.words.labels["with"], self.words.labels["and"]) + self._assumed()
         asked = [node for part in parts for node in part.ask]
         statement += numbers_left(problem, [*statement, *asked], self.words)
         limits = None if self.level is Level.BRIEF else self._limits()
@@ -503,7 +503,7 @@ class _Writer:
         own = names_of_step(step, self.words, self.dimensions.get(step.symbol))
         override = self.problem.wording.get(step.key, {})
         own |= {"amounts": self._amounts(step), **in_turn(step, self.rest, self.words)}
-        own |= {"slider": self.words.term("body")} if not self._states(own.get("slider", ())) else {}
+        own |= {"slider": self.words.term("body")} if not self._states(dict(step.words).get("slider", "")) else {}
         prose = override.get(step.outcome) or override.get(ANY_OUTCOME)
         if prose is not None:
             nodes = self._told(prose.pieces, own, partial(self.formulas.in_solution, key=step.key))
@@ -514,9 +514,9 @@ class _Writer:
             own = {**names_of_step(following, self.words, self.dimensions.get(following.symbol)), **own}
         return filled(both or self.words.phrase(step, self.before), own)  # a phrase cannot mention keys of other steps
 
-    def _states(self, word: tuple[Inline, ...]) -> bool:
+    def _states(self, name: str) -> bool:
         """Return whether the statement uses the name that the author gave to a body."""
-        return all(isinstance(each, Text) and each.text in self.problem.statement.text for each in word)
+        return name.casefold() in self.problem.statement.text.casefold()
 
     def _amounts(self, step: Step) -> tuple[Inline, ...]:
         """Return the unit conversions of the numbers that this step is the first to substitute."""

@@ -122,5 +122,5 @@ def _with_mention(paragraph: Block, figures: Sequence[Illustration], words: Phra
     mention: tuple[Inline, ...] = filled(words.drawings["mentioned"], _named(figures, words))
     if said.endswith(")"):  # in the parentheses that are there
         mention = (*_named(figures, words)["figures"], Text(")"))
-        return replace(paragraph, nodes=(*before, Text(f"{said[:-1]}; "), *mention, Text(f"{end}{space}")))
+        return replace(paragraph, nodes=(*before, Text(said[:-1]), words.semicolon, *mention, Text(f"{end}{space}")))
     return replace(paragraph, nodes=(*before, Text(f"{said} "), *mention, Text(f"{end}{space}")))

@@ -98,7 +98,7 @@ class _Hints:
             return []
         self._introduce(letters_in(expressions_in([each for _, letters in items for each in letters])))
         told = [self._item(name, letters) for name, letters in items]
-        listed = tuple(node for i, nodes in enumerate(told) for node in ((Text("; "), *nodes) if i else nodes))
+        listed = tuple(node for nodes in told for node in (self.words.semicolon, *nodes))[1:]
         return [Paragraph(filled(self.words.labels["sought"], {"items": listed, "several": len(told) > 1}))]
 
     def _name(self, step: Step) -> str:
@@ -106,7 +106,10 @@ class _Hints:
         if step.rule in self.words.labels["unnamed"] or not isinstance(step.symbol, LETTERS):
             return ""
         name = self.words.rule(step.rule)
-        return f"the {name}" if step.symbol is None else name
+        if step.symbol is not None:
+            return name
+        (told,) = filled(self.words.labels["of_relation"], {"name": name})
+        return told.text if isinstance(told, Text) else name
 
     def _item(self, name: str, letters: Sequence[Any]) -> tuple[Inline, ...]:
         """Return symbols followed by their common name: `I_1, I_2 (principal moment)`."""

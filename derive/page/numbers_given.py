@@ -50,7 +50,7 @@ def numbers_of_cases(cases: Iterable[Sequence[Measured]], words: Phrases) -> tup
     shared = [each for each in first if each.symbol not in changed] if changed else []
     listed = [_listed([each for each in case if each not in shared]) for case in cases]
     labelled = [(Text(f"({case_label(i)}) "), *numbers) for i, numbers in enumerate(listed)]
-    own = tuple(node for case in labelled for node in (Text("; "), *case))[1:]
+    own = tuple(node for case in labelled for node in (words.semicolon, *case))[1:]
     return joined([_listed(shared), own], words.labels["and"]) if shared else own
 
 

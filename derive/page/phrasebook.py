@@ -11,12 +11,13 @@ import yaml
 from derive.course.yaml_tree import Source, abridged, read_source, yaml_tree
 from derive.errors import Complaint, Place, Rejected, did_you_mean
 
-SHOWN_AS = "templates/phrases/en"
+SHOWN_AS = "templates/phrases"
 OF_EVERY_PAGE = "page.yaml"
 MAX_PHRASES = 20_000
 
 _ANY, _TEXT = "*", "text"
 _TABLE = {_ANY: _TEXT}
+_FORMS = "text, or a table of its forms"
 _SHAPE: dict[str, Any] = {
     "rules": {_ANY: _TABLE},
     "routes": {_ANY: _TABLE},
@@ -27,16 +28,17 @@ _SHAPE: dict[str, Any] = {
     "clauses": {_ANY: _TABLE},
     "tasks": _TABLE,
     "laws": _TABLE,
-    "terms": _TABLE,
+    "terms": {_ANY: _FORMS},
     "bodies": _TABLE,
     "sizes": _TABLE,
     "drawings": _TABLE,
     "grades": _TABLE,
     "labels": {
         _ANY: _TEXT,
-        "points": [_TEXT],
         "unnamed": [_TEXT],
         "verdicts": [_TEXT],
+        "language": _TABLE,
+        "own_name": _TABLE,
         "rules": _TABLE,
         "explain": _TABLE,
         "documents": _TABLE,
@@ -76,7 +78,7 @@ class PhraseTable(dict[str, Any]):
 def no_phrase(key: str, rule: str, outcome: str, of_rule: Mapping[str, str]) -> Complaint:
     """Return the error for a step without a sentence; it shows the rule's phrases, or names the file to edit."""
     message, place = f"`{key}`: no phrase for `{rule}` with the outcome `{outcome}`", None
-    help_line = f"write `rules: {{{rule}: {{{outcome}: ...}}}}` in {SHOWN_AS}/{rule.partition('.')[0]}.yaml"
+    help_line = f"write `rules: {{{rule}: {{{outcome}: ...}}}}` in {SHOWN_AS}/en/{rule.partition('.')[0]}.yaml"
     if isinstance(of_rule, PhraseTable):
         place, known = _place(of_rule.source, of_rule.keys_above), ", ".join(f"`{name}`" for name in of_rule)
         help_line = f"the rule has phrases for {known}: write one for `{outcome}` too"
@@ -96,14 +98,12 @@ def read_phrases(folders: Sequence[Path]) -> PhraseTable:
             _replace(page, _phrases_of(file), ())
     for name in _SHAPE:
         page[name]  # this access raises an error if the table is missing
-    if len(page["labels"]["points"]) != 2:
-        _wrong(page.source, ("labels", "points"), "a word for one point and one for several points")
     page["reasons"]["general"]
     return page
 
 
 def _phrases_of(file: Path) -> PhraseTable:
-    shown_as = f"{SHOWN_AS}/{file.name}"
+    shown_as = f"{SHOWN_AS}/{file.parent.name}/{file.name}"
     source = read_source(file, shown_as)
     try:
         loaded = yaml.load(source.text, Loader=yaml.CSafeLoader)
@@ -129,11 +129,11 @@ def _add(page: PhraseTable, topic: PhraseTable) -> None:
 def _replace(known: PhraseTable, own: PhraseTable, keys: tuple[str, ...]) -> None:
     """Put the phrases of a course in the places of those of derive; a phrase that derive does not use is an error."""
     for name, phrases in own.items():
-        if name not in known:
+        if name not in known and keys != ("terms",):  # a course may have words for the names of its own bodies
             message = f"derive has no phrase `{'.'.join((*keys, name))}` that this one could replace"
             place = _place(own.source, (*keys, name))
             raise Rejected(Complaint("phrases", message, place, help=did_you_mean(name, known)))
-        if isinstance(phrases, PhraseTable):
+        if isinstance(phrases, PhraseTable) and isinstance(known.get(name), PhraseTable):
             _replace(known[name], phrases, (*keys, name))
         else:
             known[name] = phrases
@@ -150,6 +150,8 @@ class _Checked:
         self.count += 1
         if self.count > MAX_PHRASES:
             _wrong(self.source, keys, f"one of at most {MAX_PHRASES} phrases, but there are more")
+        if shape == _FORMS:
+            shape = _TABLE if isinstance(value, dict) else _TEXT
         if shape == _TEXT:
             return self.text(value, keys)
         if isinstance(shape, list):

@@ -13,11 +13,11 @@ _NAMES = "|".join(sorted((name for name in UNIT_NAMES if name not in _READ_AS_WO
 _UNIT = rf"(?:{_WORDS}|(?:{_NAMES})[\^0-9\u2070-\u207b\u00b2\u00b3\u00b9]*)(?![A-Za-z])"
 _GAP = re.compile(rf"(?<=[0-9])\s+(?={_UNIT})")
 _WITHIN = re.compile(rf"((?<![0-9])[0-9.]+{NO_BREAK}[A-Za-z]+[\^0-9]*) (?={_UNIT}(?:/|[ ,;.)]|$))")
-_PERCENT = re.compile(r"(?<=[0-9])\s+(?=%)")
+_PERCENT = re.compile(r"(?<=[0-9])[ \n]+(?=%)")
 
 
 def unbroken(text: str) -> str:
-    """Return text with a no-break space between each number and its unit, and without a space before `%`."""
+    """Return text with a no-break space between each number and its unit, and without a plain space before `%`."""
     if not any(character.isdigit() for character in text):
         return text
     return _WITHIN.sub(rf"\1{NO_BREAK}", _GAP.sub(NO_BREAK, _PERCENT.sub("", text)))

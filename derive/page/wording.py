@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -25,6 +25,7 @@ from derive.algebra.expressions import AXES, IN_DEGREES, TIME, Amount, Relation,
 from derive.algebra.kinds import unit_of_dimension, unit_of_kind
 from derive.algebra.rounding import rounded_form
 from derive.course.given import Given, Measured
+from derive.course.names import ENGLISH, DecimalSign, Language
 from derive.course.parts import points_text
 from derive.course.problem import Problem
 from derive.course.prose import Mention, TexFormula
@@ -102,6 +103,9 @@ class Chain:
     """The place in a sentence where the lines of its step are printed."""
 
 
+_PRINTED_NAME = re.compile(r"<<(\w+)(?:\.\w+)?>>")
+_DECIMAL_POINT = re.compile(r"(?<=[0-9])\.(?=[0-9])")
+
 AND = " and "  # key of a phrase for two steps: outcome of the first, AND, rule of the second
 AFTER = " after "  # key of a phrase: outcome, AFTER, outcome or rule of the step just before
 SAME = "same"  # in place of the outcome after AFTER: the step just before has the same rule, outcome and words
@@ -134,6 +138,19 @@ class NewParagraph:
     """The end of a paragraph within a text, such as the remarks of a problem."""
 
 
+class Forms(tuple["Inline", ...]):
+    """A word with its forms by name, such as the cases of a noun: `<<part>>` prints the first form, `<<part.gen>>`
+    another."""
+
+    forms: Mapping[str, tuple[Inline, ...]]
+
+    @classmethod
+    def of(cls, forms: Mapping[str, tuple[Inline, ...]]) -> Forms:
+        made = cls(next(iter(forms.values())))
+        made.forms = forms
+        return made
+
+
 Inline = NewParagraph | Text | Math | DimensionMark | UnitMark | Ref | ProblemRef | Chain | ToldOnce | ToldIn
 
 
@@ -150,12 +167,17 @@ class Phrases:
     clauses: Mapping[str, Mapping[str, str]]
     tasks: Mapping[str, str]
     laws: Mapping[str, str]
-    terms: Mapping[str, str]
+    terms: Mapping[str, str | Mapping[str, str]]
     bodies: Mapping[str, str]
     sizes: Mapping[str, str]
     drawings: Mapping[str, str]
     grades: Mapping[str, str]
     labels: Mapping[str, Any]
+
+    @property
+    def sign(self) -> str:
+        """Return the decimal sign of numbers."""
+        return "," if self.labels["language"]["decimal"] == DecimalSign.COMMA else "."
 
     def phrase(self, step: Step, before: Step | None = None) -> str:
         """Return the phrase for the sentence of a step; the phrase may depend on the step shown just before.
@@ -168,7 +190,8 @@ class Phrases:
         keys = [f"{step.outcome}{AFTER}{preceded_by}", step.outcome]
         if before is not None and (before.rule, before.outcome) == (step.rule, step.outcome):
             told = of_rule.get(step.outcome, "")
-            words = [{name: word for name, word in each.words if f"<<{name}>>" in told} for each in (before, step)]
+            printed = set(_PRINTED_NAME.findall(told))
+            words = [{name: word for name, word in each.words if name in printed} for each in (before, step)]
             keys[:0] = [f"{step.outcome}{AFTER}{SAME}"] if words[0] == words[1] else []
         phrase = next((of_rule[key] for key in keys if key in of_rule), None)
         if phrase is None:
@@ -205,8 +228,24 @@ class Phrases:
         """Return `1 point` or `2.5 points`, "" if there are no points, or the label of an extra question."""
         if extra:
             return str(self.labels["extra"])
-        one, many = self.labels["points"]
-        return "" if points is None else f"{points_text(points)} {one if points == 1 else many}"
+        if points is None:
+            return ""
+        names = {"points": self.number(points_text(points)), "value": points}
+        return "".join(node.text for node in filled(self.labels["worth"], names) if isinstance(node, Text))
+
+    def number(self, text: str) -> str:
+        """Return text with the decimal sign of the page in place of each decimal point."""
+        return text if self.sign == "." else _DECIMAL_POINT.sub(self.sign, text)
+
+    def numbers(self, nodes: tuple[Inline, ...]) -> tuple[Inline, ...]:
+        """Return words of the engine with the decimal sign of the page in the numbers of their text."""
+        if self.sign == ".":
+            return nodes
+        return tuple(replace(node, text=self.number(node.text)) if isinstance(node, Text) else node for node in nodes)
+
+    @property
+    def semicolon(self) -> Text:
+        return Text(f"{self.labels['language'].get('semicolon', ';')} ")
 
     def compared(self, rule: str) -> set[str]:
         """Return the names whose values the phrases of a rule compare with words."""
@@ -214,8 +253,13 @@ class Phrases:
         return {name for table in tables for phrase in table.get(rule, {}).values() for name in names_compared(phrase)}
 
     def term(self, word: str) -> tuple[Inline, ...]:
-        """Return the text for a code word of a step or input: `diagonal` is "a long diagonal"."""
-        return filled(self.terms.get(word, word), AXIS_NAMES)
+        """Return the text for a code word of a step or input, with its forms: `diagonal` is "a long diagonal". A word
+        without a text is a name that the author chose."""
+        told = self.terms.get(word)
+        if isinstance(told, str):
+            return filled(told, AXIS_NAMES)
+        forms: Mapping[str, str] = told or self.labels["own_name"]
+        return Forms.of({name: filled(form, {**AXIS_NAMES, "name": Text(word)}) for name, form in forms.items()})
 
     def body(self, id: str) -> str:
         """Return the text for a kind of body: "a hollow ball" for `thick_shell`; by default the id of the kind with an
@@ -231,22 +275,46 @@ class Phrases:
         return self.sizes.get(id) or id.replace("_", " ")
 
 
-def phrases(templates: Templates) -> Phrases:
-    """Return the phrases of the templates; they are read again if the files have changed."""
-    folders = tuple(folder / "phrases" / "en" for folder in templates.folders)
+def phrases(templates: Templates, language: Language = ENGLISH) -> Phrases:
+    """Return the phrases of a language; they are read again if the files have changed."""
+    below = [folder / "phrases" for folder in templates.folders]
+    known = sorted({page.parent.name for folder in below for page in folder.glob(f"*/{OF_EVERY_PAGE}")})
+    if language.name not in known:
+        message, place = (
+            f"there are no phrases of the language `{language.name}`",
+            getattr(language.name, "place", None),
+        )
+        help_line = f"the languages are {', '.join(f'`{name}`' for name in known)}"
+        raise Rejected(Complaint("no-such-language", message, place, help=help_line))
+    folders = tuple(folder / language.name for folder in below if (folder / language.name).is_dir())
     files = (file for folder in folders for file in sorted(folder.glob("*.yaml")))
-    return _phrases(folders, tuple((str(file), file.stat().st_mtime_ns) for file in files))
+    return _phrases(folders, tuple((str(file), file.stat().st_mtime_ns) for file in files), language.decimal)
 
 
 @lru_cache(maxsize=4)
-def _phrases(folders: tuple[Path, ...], written: tuple[tuple[str, int], ...]) -> Phrases:
-    return Phrases(**read_phrases(folders))
+def _phrases(folders: tuple[Path, ...], written: tuple[tuple[str, int], ...], decimal: DecimalSign | None) -> Phrases:
+    read = read_phrases(folders)
+    if decimal:
+        read["labels"]["language"]["decimal"] = decimal.value
+    return Phrases(**read)
 
 
 # --- filling ---
 
 _IN_PROSE = environment()
 _TOKEN = re.compile("\x00(\\d+)\x00")
+
+
+class _Printed(str):
+    """The token of a node in a template; `<<name.form>>` is the token of another form of a word."""
+
+    forms: Mapping[str, str]
+
+    def __getattr__(self, name: str) -> str:
+        forms: Mapping[str, str] = self.__dict__.get("forms", {})
+        if name not in forms:
+            raise AttributeError(name)
+        return forms[name]
 
 
 class _Nodes:
@@ -260,6 +328,12 @@ class _Nodes:
             return ""  # an empty text is false in a condition of a phrase
         if not isinstance(value, Inline | tuple):
             return value
+        printed = _Printed(self._numbered(value))
+        if isinstance(value, Forms):
+            printed.forms = {name: self._numbered(form) for name, form in value.forms.items()}
+        return printed
+
+    def _numbered(self, value: Inline | tuple[Inline, ...]) -> str:
         self.found.append(value)
         return f"\x00{len(self.found) - 1}\x00"
 
@@ -310,7 +384,7 @@ def names_compared(template: str) -> frozenset[str]:
 
 
 def _place_of(template: str) -> Place:
-    return template.place if isinstance(template, Phrase) else Place(f"{SHOWN_AS}/{OF_EVERY_PAGE}", 1)
+    return template.place if isinstance(template, Phrase) else Place(f"{SHOWN_AS}/en/{OF_EVERY_PAGE}", 1)
 
 
 def told(
@@ -461,11 +535,11 @@ def given_words(given: Given, measured: Iterable[Measured], words: Phrases) -> t
     return *names, Text(f" {words.labels['with']} "), *joined([_stated(symbol, amounts) for symbol in behind], last)
 
 
-def stated_once(nodes: Sequence[Inline], last: str) -> tuple[Inline, ...]:
+def stated_once(nodes: Sequence[Inline], last: str, also: str) -> tuple[Inline, ...]:
     """Show the number of a symbol only at its first occurrence: `a = 10 cm`, then `a`.
 
-    `last` is the word between an expression and its symbols, as in `a/2 with a = 10 cm`. If a known symbol is the only
-    symbol after this word, the word and the symbol are removed.
+    `last` is the word between an expression and its symbols, as in `a/2 with a = 10 cm`, and `also` is "and". If a
+    known symbol is the only symbol after this word, the word and the symbol are removed.
     """
     kept: list[Inline] = []
     known: set[Any] = set()
@@ -478,7 +552,7 @@ def stated_once(nodes: Sequence[Inline], last: str) -> tuple[Inline, ...]:
             known.add(letter.expr)
             continue
         del kept[-2:]
-        alone = kept[-2:-1] == [Text(f" {last} ")] and nodes[i + 1 : i + 2] != (Text(" and "),)
+        alone = kept[-2:-1] == [Text(f" {last} ")] and nodes[i + 1 : i + 2] != (Text(f" {also} "),)
         if alone:
             del kept[-2:]
     return tuple(kept)

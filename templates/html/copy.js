@@ -3,11 +3,11 @@ for (const display of document.querySelectorAll(".display[data-tex]")) {
   const button = document.createElement("button");
   button.type = "button";
   button.className = "copy";
-  button.textContent = "Copy LaTeX";
+  button.textContent = "<< labels.web.copy >>";
   button.addEventListener("click", async () => {
     await navigator.clipboard.writeText(display.dataset.tex);
-    button.textContent = "Copied";
-    setTimeout(() => { button.textContent = "Copy LaTeX"; }, 1500);
+    button.textContent = "<< labels.web.copied >>";
+    setTimeout(() => { button.textContent = "<< labels.web.copy >>"; }, 1500);
   });
   display.append(button);
 }

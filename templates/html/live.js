@@ -31,5 +31,5 @@ events.onmessage = (event) => {
 };
 events.onerror = () => {
   complaints.hidden = false;
-  complaints.querySelector("pre").textContent = "The preview has ended.";
+  complaints.querySelector("pre").textContent = "<< labels.web.ended >>";
 };

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from derive.course.names import EvidenceShown, Paper
+from derive.course.names import ENGLISH, DecimalSign, EvidenceShown, Language, Paper
 from derive.course.problem_set import PNG, ProblemSet, problem_set
 from derive.errors import Rejected
 
@@ -33,6 +33,20 @@ def test_a_set_has_the_keys_of_its_course(tmp_path: Path) -> None:
 def test_a_key_of_the_set_overrides_the_key_of_its_course(tmp_path: Path) -> None:
     found = read(tmp_path, "course: Mechanics\npaper: a4\n", "course: Waves\npaper: letter\n")
     assert (found.course, found.paper) == ("Waves", Paper.LETTER)
+
+
+@pytest.mark.parametrize(
+    ("of_course", "of_set", "language"),
+    [
+        ("", "", ENGLISH),
+        ("language: de\n", "", Language("de")),
+        ("language: de\n", "language: fr\n", Language("fr")),
+        ("language: de\ndecimal: point\n", "", Language("de", DecimalSign.POINT)),
+        ("decimal: comma\n", "language: de\n", Language("de", DecimalSign.COMMA)),
+    ],
+)
+def test_the_language_and_the_decimal_sign(tmp_path: Path, of_course: str, of_set: str, language: Language) -> None:
+    assert read(tmp_path, f"course: Waves\n{of_course}", of_set).language == language
 
 
 def test_without_the_file_of_a_course_the_set_names_the_course(tmp_path: Path) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, is_dataclass, replace
 from math import ceil, floor, log10
 from typing import Any, TypeAlias
 
@@ -22,6 +22,7 @@ from derive.render.notation.breaking import terms_of
 from derive.render.notation.latex import unit_latex
 from derive.render.notation.notation import Notation
 
+_DECIMAL_POINT = re.compile(r"(?<=[0-9])\.(?=[0-9])")
 MOST_ACROSS, MOST_UP = 6, 4  # greatest numbers of intervals between the ticks of the two axes
 NAME = 17.0  # in points: the space for the name of an extremum above or below a curve
 MOST_NAME = 0.25  # greatest part of the height of a panel for the names at one side
@@ -144,6 +145,22 @@ def panel_of(
     height: float = HEIGHT,
 ) -> Panel:
     """Return the panel of these curves; `height` is the usual height of a panel between its axes, in points."""
+    made = _panel(plot, own, curves, notation, letter, height)
+    return made if notation.sign == "." else _with_commas(made)
+
+
+def _with_commas(value: Any) -> Any:
+    """Return a panel, or a part of one, with a decimal comma in each text."""
+    if isinstance(value, str):
+        return _DECIMAL_POINT.sub("{,}", value)
+    if isinstance(value, tuple):
+        return tuple(map(_with_commas, value))
+    if is_dataclass(value) and not isinstance(value, type):
+        return replace(value, **{each.name: _with_commas(getattr(value, each.name)) for each in fields(value)})
+    return value
+
+
+def _panel(plot: Plot, own: Sequence[Curve], curves: Curves, notation: Notation, letter: str, height: float) -> Panel:
     if own[0].path:
         return path_panel(plot, own, curves, notation, letter)
     if own[0].portrait:

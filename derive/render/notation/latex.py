@@ -213,7 +213,7 @@ class _Printer:
     def show(self, layout: Layout) -> str:
         match layout:
             case Digits(digits):
-                return digits
+                return digits.replace(",", "{,}")
             case Name():
                 return _name(layout)
             case Upright(text):

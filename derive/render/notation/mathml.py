@@ -5,6 +5,7 @@ Decision 0024 compares the converters. The page's style sheet adds what MathML C
 
 from __future__ import annotations
 
+import re
 from functools import cache
 from html import unescape
 
@@ -50,9 +51,11 @@ def of_latex(formula: str, inline: bool = False) -> Html:
     converted = _converter().convert_with_local_state(formula, displaystyle=not inline)
     # The page puts a display formula within a row of its own, so the formula is not a block.
     converted = converted.replace('<math display="block">', '<math displaystyle="true">', 1)
+    converted = _DECIMAL_COMMA.sub(r"<mn>\1,\2</mn>", converted)
     return Html(converted.replace(APPLIED, unescape(APPLIED)))  # XML does not define the name of this character
 
 
+_DECIMAL_COMMA = re.compile(r'<mn>(\d+)</mn><mo rspace="0">,</mo><mn>(\d+)</mn>')  # the converter reads 1{,}5 so
 APPLIED = "&ApplyFunction;"
 
 

@@ -99,10 +99,19 @@ class Notation:
     dimensions   dimensions of symbols, so that masses come first and rates last; symbols without a dimension are
                  between
     flat         whether vectors are printed as lists of components instead of columns, for a short page
+    sign         the decimal sign
+    body         the index of a rate of change that is seen in the body frame
     """
 
-    def __init__(self, dimensions: Mapping[Any, Dimension | None] | None = None, flat: bool = False):
+    def __init__(
+        self,
+        dimensions: Mapping[Any, Dimension | None] | None = None,
+        flat: bool = False,
+        sign: str = ".",
+        body: str = "body",
+    ):
         self.known_dimensions, self.flat = dimensions or {}, flat
+        self.sign, self.body = sign, body
         self._places = {str(letter): n for n, letter in enumerate(self.known_dimensions)}
         self._known: dict[Any, Layout] = {}  # a cache: all formats of a page need the same layouts
         self._results: dict[Any, Layout] = {}
@@ -321,7 +330,7 @@ class Notation:
         return self._differentiated("d", expr.args[0], Name("t"))
 
     def _body_rate(self, expr: ex.BodyRate) -> Layout:
-        return Lowered(Fenced(self._rate(expr)), "body")
+        return Lowered(Fenced(self._rate(expr)), self.body)
 
     def _component(self, expr: ex.Component) -> Layout:
         return Lowered(Fenced(self.layout(expr.args[0])), expr.args[1].name)
@@ -422,14 +431,14 @@ class Notation:
 
     def _amount(self, expr: ex.Amount | ex.MatrixAmount) -> Layout:
         number, unit, _ = expr.args
-        inner = decimal(number) if isinstance(number, Rational) else self.layout(number)
+        inner = decimal(number, self.sign) if isinstance(number, Rational) else self.layout(number)
         if unit.name in ex.IN_DEGREES:
             return row(inner, DEGREE_SIGN)
         return row(inner, THIN_SPACE, unit_behind_number(unit.name)) if unit.name else inner
 
     _methods: tuple[tuple[Any, Callable[[Any, Any], Layout]], ...] = (
         (Rational, _rational),
-        (Rounded, lambda self, expr: rounded_number(decimal_text(expr))),
+        (Rounded, lambda self, expr: rounded_number(decimal_text(expr), self.sign)),
         (Symbol, lambda self, expr: layout_of_name(expr.name)),
         (MatrixSymbol, _vector_or_tensor),
         (Pi, lambda self, _: Name("pi")),

@@ -43,14 +43,14 @@ from derive.render.notation.layout import (
 )
 
 
-def decimal(number: Rational) -> Layout:
+def decimal(number: Rational, point: str = ".") -> Layout:
     """Return a number in decimals: 1.5, not 3/2, or 2.657*10^-26; 1/3 remains a fraction."""
     sign = (MINUS,) if number < 0 else ()
     places = _places(number.q)
     if places is None:
         return row(*sign, Fraction(Digits(str(abs(number.p))), Digits(str(number.q))))
     power, front = _power_of_ten(abs(number))
-    digits = Digits(_point_before(_places(front.q) or 0, front))
+    digits = Digits(_point_before(_places(front.q) or 0, front).replace(".", point))
     return row(*sign, digits, TIMES, times_ten_to(power)) if power else row(*sign, digits)
 
 
@@ -76,11 +76,11 @@ def unit_behind_number(name: str) -> Layout:
     return Upright(f"{only_below[1]}^-{only_below[2] or 1}" if only_below else name)
 
 
-def rounded_number(text: str) -> Layout:
+def rounded_number(text: str, point: str = ".") -> Layout:
     """Return a rounded number such as -1.50 or 2.66*10^-26 with all its digits, including final zeros."""
     digits, _, power = text.lstrip("-").partition("e")
     sign = [MINUS] if text.startswith("-") else []
-    return row(*sign, Digits(digits), *([TIMES, times_ten_to(int(power))] if power else []))
+    return row(*sign, Digits(digits.replace(".", point)), *([TIMES, times_ten_to(int(power))] if power else []))
 
 
 def _power_of_ten(number: Rational) -> tuple[int, Rational]:

@@ -109,7 +109,7 @@ class HtmlPage:
         return self.rubric.get(part.label, ())
 
     def worth_of(self, credit: Credit) -> str:
-        return points_text(credit.points)
+        return self.words.number(points_text(credit.points))
 
     def result_of(self, credit: Credit) -> Html:
         """Return the results of a step; the browser may break a formula between two sides, or within one side."""

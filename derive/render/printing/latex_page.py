@@ -127,7 +127,7 @@ class LatexPage:
         return self.rubric.get(part.label, ())
 
     def worth_of(self, credit: Credit) -> str:
-        return points_text(credit.points)
+        return self.words.number(points_text(credit.points))
 
     def result_of(self, credit: Credit) -> Tex:
         """Return the results of a step in one row."""

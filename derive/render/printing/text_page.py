@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import textwrap
 from collections.abc import Mapping, Sequence
 
@@ -38,9 +39,12 @@ def page_text(document: Document, words: Phrases, notation: Notation) -> str:
     return _Page(standalone(document), words, notation).text()
 
 
+_BLANKS = re.compile(r"(?:[^\S\xa0]|(?<!«)\xa0(?![;:?!%»]))+")  # a French sign keeps its no-break space
+
+
 def inline_text(nodes: Sequence[Inline], notation: Notation, numbers: Mapping[str, Number] | None = None) -> str:
     """Return running text; `numbers` are the numbers of equations to which the text may refer."""
-    return " ".join("".join(_node(node, notation, numbers or {}) for node in nodes).split())
+    return _BLANKS.sub(" ", "".join(_node(node, notation, numbers or {}) for node in nodes)).strip()
 
 
 def _node(node: Inline, notation: Notation, numbers: Mapping[str, Number]) -> str:
@@ -122,8 +126,8 @@ class _Page:
 
     def _drawing(self, illustration: Illustration) -> str:
         """Return the description of a drawing with its caption below."""
-        figure = self.words.labels["figure"]
-        shown = self._wrapped((Text(f"[{figure.lower()}: "), *illustration.alt, Text("]")))
+        figure, described = self.words.labels["figure"], self.words.labels["described"]
+        shown = self._wrapped((Text(f"[{described}: "), *illustration.alt, Text("]")))
         if illustration.number is None:
             return shown
         return shown + "\n" + self._wrapped((Text(f"{figure} {illustration.number}. "), *illustration.caption))
