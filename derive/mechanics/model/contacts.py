@@ -11,7 +11,7 @@ from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Mul, Symbol, sqrt
 from derive.algebra.expressions import Relation, as_expr, depends_on_time, scalar
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected, Spelled, Unverified
-from derive.mechanics.bodies.placed import PlacedBody
+from derive.mechanics.bodies.placed import PlacedBody, PointOfBody
 from derive.mechanics.kinematics.places import Axes, Location
 from derive.mechanics.model.connection import Connection, PointForce, end_of, is_end
 from derive.mechanics.model.constraint import Constraint, StaticLimit
@@ -171,6 +171,12 @@ def contact(
     elif force:
         raise Rejected(Complaint("unused-key", "`force` is the symbol of the static friction, so it needs `static`"))
     return replace(touch, forces=tuple(_forces_of(touch, found))), *found
+
+
+def point_of_contact(of: Any, on: Any) -> PointOfBody:
+    """The particle of a body that touches a surface; `of` and `on` as in `contact`."""
+    touch = _contact(of, on)
+    return PointOfBody(touch.at.components, body=touch.of)
 
 
 def _check_carried(touch: Contact, rough: bool) -> None:

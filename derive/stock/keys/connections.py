@@ -41,9 +41,10 @@ from derive.mechanics import (
     wound_string,
 )
 from derive.mechanics.kinematics.places import Location
+from derive.mechanics.model.contacts import point_of_contact
 from derive.stock.keys.deferred import Deferred, Material
 from derive.stock.keys.parts import components_of, direction_of, force_letter, list_of_parts, named_bodies
-from derive.stock.keys.places import COMPONENTS, PLACE, Places, WrittenPlace, point_called
+from derive.stock.keys.places import COMPONENTS, PLACE, Places, WrittenPlace, check_not_contact, point_called
 
 X = "x"  # the symbol for the horizontal distance in the formula of a curve
 SURFACE_SHAPES = (
@@ -244,6 +245,14 @@ class ContactKeys(Record):
             named |= self._friction(own, known)
         forces = tuple(map(str, [*self.symbols(known.places.axes_of_motion), *self._components(known)]))
         return Deferred(_named_contact, (self._name(),), named, forces=forces, place=self.places[""])
+
+    def touched_by(self, known: Connected) -> tuple[str, Deferred[Any]] | None:
+        """Return the name of the body that touches the surface, and its point of contact; None for a particle and for
+        a fixed corner."""
+        body = self._body(known)
+        if not isinstance(body, Material) or body.body not in known.places.bodies:
+            return None
+        return body.body, Deferred(point_of_contact, (body, self._surface(known)), place=self.places[""])
 
     def _name(self) -> str:
         """Return the name of the body that touches the surface, `ladder` for `ladder.end`, or the name of a place;
@@ -473,6 +482,8 @@ def material(name: Word, known: Connected) -> Material:
     if body not in known.bodies:
         help_line = did_you_mean(body, known.bodies)
         rejected("no-such-body", f"`{body}` is not a body or particle of this system", name.place, help_line)
+    if body in known.places.bodies:
+        check_not_contact(name)
     return Material(body, point_called(point) if point else None)
 
 
