@@ -262,10 +262,10 @@ class ContactKeys(Record):
     def _components(self, known: Connected) -> list[Word]:
         """Return the symbols that the components of the friction without slipping may have in space; none in a
         plane."""
-        rolling = self.friction.rolling if isinstance(self.friction, FrictionKeys) else None
-        if rolling is None or not known.places.turns:  # only a body that moves in space has axes
+        symbol = self.friction.symbol if isinstance(self.friction, FrictionKeys) else None
+        if symbol is None or "z" not in known.places.axes_of_motion:
             return []
-        components = [Word.at(f"{rolling}_{axis}", rolling.place) for axis in "xyz"]
+        components = [Word.at(f"{symbol}_{axis}", symbol.place) for axis in "xyz"]
         return [word for word in components if force_letter(word, known.letters)]
 
     def _friction(self, own: FrictionKeys, known: Connected) -> dict[str, Any]:
