@@ -720,9 +720,13 @@ def _in_a_field(matrix: ImmutableDenseMatrix) -> tuple[DomainMatrix, dict[Expr, 
     these symbols. The entries of the result are rational functions."""
     found = sorted(matrix.atoms(Function), key=str)
     powers = sorted((p for p in matrix.atoms(Pow) if not p.exp.is_Integer), key=str)
-    roots = list(dict.fromkeys(Pow(p.base, Rational(1, p.exp.q)) if p.exp.is_Rational else p for p in powers))
-    names = {f: Dummy(f"u_{i}") for i, f in enumerate([*roots, *found])}
-    of_roots = {p: names[Pow(p.base, Rational(1, p.exp.q))] ** p.exp.p for p in powers if p.exp.is_Rational}
+    bases: dict[Expr, Expr] = {}  # a base is the same in factored and in expanded form
+    roots = {
+        p: Pow(bases.setdefault(p.base.expand(), p.base), Rational(1, p.exp.q)) if p.exp.is_Rational else p
+        for p in powers
+    }
+    names = {f: Dummy(f"u_{i}") for i, f in enumerate([*dict.fromkeys(roots.values()), *found])}
+    of_roots = {p: names[root] ** (p.exp.p if p.exp.is_Rational else 1) for p, root in roots.items()}
     return DomainMatrix.from_Matrix(Matrix(matrix.xreplace({**names, **of_roots}))).to_field(), names
 
 
