@@ -495,7 +495,7 @@ def _multiplier(
 ) -> Quantity:
     found = _solution(problem)
     value = _gathered(problem, found[each.force])
-    length = gradient_length(each, problem.lagrangian)
+    length = gradient_length(each, problem.lagrangian) if each.enforcer != "motor" else None  # a torque, not a force
     is_force = length is None or is_zero(length - 1)
     shown = {"length": (length, tidied(sqrt(length**2)))} if length is not None and not is_force else {}
     below = is_force and len(each.acting) == 1 and sign_known(explicit(found[each.force])) == -1
