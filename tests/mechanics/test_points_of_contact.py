@@ -1,11 +1,11 @@
-"""`ball.contact`: the particle of a body that touches a surface."""
+"""`ball.contact`, the particle of a body that touches a surface; and a rigid joint, whose couple acts at no point."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
 import pytest
-from sympy import symbols
+from sympy import sin, symbols
 
 from derive.algebra.equality import equal
 from derive.algebra.expressions import rate, scalar
@@ -30,6 +30,22 @@ statement: A ball.
 parts:
   - ask: Find its motion.
     answer: [acceleration_x, acceleration_phi]
+"""
+WELDED = """\
+title: Two rods
+solve: system
+symbols: {m: mass, l: length, g: acceleration}
+given:
+  coordinates: {phi: angle, x: length, y: length, psi: angle}
+  bodies:
+    one: {shape: rod, length: l, mass: m, from: [0, 0], along: [sin(phi), -cos(phi)]}
+    two: {shape: rod, length: l, mass: m, centre: [x, y], along: [sin(psi), -cos(psi)]}
+  gravity: g
+  joints: {of: two.end, to: one.far_end, force: R, torque: C}
+statement: Two rods.
+parts:
+  - ask: Find the motion.
+    answer: [acceleration_phi, C]
 """
 M, a, P, c = symbols("M a P c", positive=True)
 
@@ -88,3 +104,24 @@ def test_a_wrong_point_of_contact_is_refused(tmp_path: Path, monkeypatch: pytest
     )
     with pytest.raises(DeriveError):
         solved(tmp_path, BALL)
+
+
+def test_drag_at_the_contact_of_a_rolling_ball_does_nothing(tmp_path: Path) -> None:
+    rolls = edited(
+        BALL,
+        ("{x: length, y: length, phi", "{x: length, phi"),
+        ("centre: [x, y]", "centre: [x, a]"),
+        ("normal: N, friction: none", "friction: rolling"),
+        ("forces: {components: [P, 0], at: ball.contact}", "damping: {constant: c, at: ball.contact}"),
+        ("[acceleration_x, acceleration_phi]", "acceleration_x"),
+    )
+    assert equal(solved(tmp_path, rolls)["acceleration_x"].value, 0)
+
+
+def test_the_couple_of_a_rigid_joint(tmp_path: Path) -> None:
+    """A rigid rod of length 2l on a hinge: phi_ddot = -3 g sin(phi)/(4 l); the couple on its lower half is
+    C = -m g l sin(phi)/8."""
+    found = solved(tmp_path, WELDED)
+    phi, m, l, g = scalar("psi"), *symbols("m l g", positive=True)
+    assert equal(found["acceleration_phi"].value, -3 * g * sin(phi) / (4 * l))
+    assert equal(found["C"].value, -m * g * l * sin(phi) / 8)
