@@ -15,7 +15,7 @@ from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.solving.presentation import presented, without_positive
 from derive.solving.unknowns import left_over, mark_for, unknown_of, with_unknown, without_factors_beside
-from derive.steps.signs import sign_for_all, sign_known
+from derive.steps.signs import DECIDES, sign_for_all, sign_known
 from derive.steps.step import Quantity
 
 
@@ -202,6 +202,9 @@ def unsolvable(of: Quantity, unknown: Expr, factor: Expr | None = None, power: i
         message = f"`{of.key}` cannot be solved for {unknown}: it would be divided by {factor}, whose sign is unknown"
         letters = ", ".join(sorted(f"`{s}`" for s in factor.free_symbols))
         help_line = f"declare the sign of {letters}: `positive` before the kind, or a range, `in (0, pi/2)`"
+        more, less = sides_without_minus(factor)
+        if more != 0 and less != 0 and all(sign_known(s) is not None for s in factor.free_symbols):
+            help_line = f"{DECIDES} {less} < {more}"
         return Rejected(Complaint("no-condition", message, help=help_line))
     message = f"`{of.key}` cannot be solved for {unknown}: it is not linear in {unknown}"
     if power > 1:
