@@ -15,7 +15,7 @@ from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.solving.presentation import presented, without_positive
 from derive.solving.unknowns import left_over, mark_for, unknown_of, with_unknown, without_factors_beside
-from derive.steps.signs import sign_for_all, sign_known
+from derive.steps.signs import DECIDES, sign_for_all, sign_known
 from derive.steps.step import Quantity
 
 
@@ -187,16 +187,21 @@ def divided_out(difference: Expr, alone: Expr, solved: Expr) -> tuple[Expr, ...]
     return {1: (factor,), -1: (-factor,)}.get(sign_known(factor) or 0, ())
 
 
+class NotLinear(Rejected):
+    """The error for a result that is not linear in an unknown, nor in its square."""
+
+
 def unsolvable(of: Quantity, unknown: Expr, factor: Expr | None = None, power: int = 1) -> Rejected:
     if factor is not None:
         message = f"`{of.key}` cannot be solved for {unknown}: it would be divided by {factor}, whose sign is unknown"
         letters = ", ".join(sorted(f"`{s}`" for s in factor.free_symbols))
         help_line = f"declare the sign of {letters}: `positive` before the kind, or a range, `in (0, pi/2)`"
+        more, less = sides_without_minus(factor)
+        if more != 0 and less != 0 and all(sign_known(s) is not None for s in factor.free_symbols):
+            help_line = f"{DECIDES} {less} < {more}"
         return Rejected(Complaint("no-condition", message, help=help_line))
     message = f"`{of.key}` cannot be solved for {unknown}: it is not linear in {unknown}"
-    other = (
-        f"write `{unknown**power}` in place of `{unknown}`"
-        if power > 1
-        else "give another symbol on which this result depends"
-    )
-    return Rejected(Complaint("no-condition", message, help=other))
+    if power > 1:
+        help_line = f"write `{unknown**power}` in place of `{unknown}`"
+        return Rejected(Complaint("no-condition", message, help=help_line))
+    return NotLinear(Complaint("no-condition", message, help="give another symbol on which this result depends"))

@@ -175,8 +175,10 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         of = {each.force.name: each for each in self.system.constraints}
         for part in self.described.acting:
             if "static" in part.named:
+                name = part.named["force"]
+                contact = [of[each] for each in (name, *(f"{name}_{axis}" for axis in "xyz")) if each in of]
                 with told_at(part.place):
-                    state_static_friction(of[part.named["force"]], self.by_name.one)
+                    state_static_friction(contact, self.by_name.one)
 
     def _draw_forces(self) -> None:
         """Draw the forces on each particle and each body.

@@ -231,7 +231,8 @@ def test_a_limit_by_the_normal_force_of_another_contact_is_refused(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     limit = contacts.StaticLimit
-    monkeypatch.setattr(contacts, "StaticLimit", lambda coefficient, _: limit(coefficient, Symbol("K", real=True)))
+    other = Symbol("K", real=True)
+    monkeypatch.setattr(contacts, "StaticLimit", lambda coefficient, _, **more: limit(coefficient, other, **more))
     text = edited(library("ladder_at_rest"), ("for: tan(theta)", "for: mu_s"))
     assert "could not be confirmed" in refused(tmp_path, text)
 
@@ -394,6 +395,49 @@ def test_a_bound_that_the_letter_cannot_satisfy_is_not_a_condition(tmp_path: Pat
     assert solved(tmp_path, CEILING)["slip"].step.outcome == "cannot"
 
 
-def test_static_friction_on_a_rail_has_no_single_limit(tmp_path: Path) -> None:
-    (said, *_) = messages(tmp_path, edited(BLOCK, ("-sin(alpha)]}", "-sin(alpha)], side: both}")))
-    assert "a rail also pulls" in said
+RAIL = edited(BLOCK, ("-sin(alpha)]}", "-sin(alpha)], side: both}"))
+
+
+def test_static_friction_on_a_rail_that_is_known_to_push(tmp_path: Path) -> None:
+    assert str(solved(tmp_path, RAIL)["slip"].value) == "mu_s >= tan(alpha)"
+
+
+def test_a_rail_may_also_pull(tmp_path: Path) -> None:
+    equations = edited(RAIL, WITHOUT, ("answer: slip", "answer: equations_of_motion"))
+    assert "Abs(F) <= mu_s*Abs(N)" in assumed(tmp_path, equations)
+    lifted = edited(RAIL, ("  gravity: g\n", "  gravity: g\n  forces: {components: [0, P], at: block}\n"))
+    assert any("is not known to be positive" in each for each in messages(tmp_path, lifted))
+    without = edited(lifted, WITHOUT, ("answer: slip", "answer: [F, N]"))
+    assert "Abs(F) <= mu_s*Abs(N)" in assumed(tmp_path, without)
+
+
+IN_SPACE = edited(
+    BLOCK,
+    ("{x: length, y: length}", "{x: length, y: length, z: length}"),
+    ("at: [x, y]", "at: [x, y, z]"),
+    (
+        "{through: [0, 0], along: [cos(alpha), -sin(alpha)]}",
+        "{through: [0, 0, 0], normal: [sin(alpha), 0, cos(alpha)]}",
+    ),
+    WITHOUT,
+    ("answer: slip", "answer: [F_x, F_y, N]"),
+)
+
+
+def test_the_magnitude_of_static_friction_in_space_has_a_limit(tmp_path: Path) -> None:
+    assert "sqrt(F_x**2 + F_y**2) <= N*mu_s" in assumed(tmp_path, IN_SPACE)
+    asked = edited(
+        IN_SPACE, ("statement: A", "  results: {s: {slips: F_x, for: mu_s}}\nstatement: A"), ("[F_x,", "[s, F_x,")
+    )
+    assert any("only one component of the friction" in each for each in messages(tmp_path, asked))
+    steep = IN_SPACE.replace("static: mu_s", "static: 0.3").replace("(alpha)", "(60 deg)")
+    assert any("the square of the static friction is at most" in each for each in messages(tmp_path, steep))
+
+
+def test_a_friction_that_is_not_along_a_surface_in_space_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    right = contacts._ways_along
+    monkeypatch.setattr(contacts, "_ways_along", lambda touch: {**right(touch), "y": touch.normal})
+    with pytest.raises(DeriveError):
+        solved(tmp_path, IN_SPACE)

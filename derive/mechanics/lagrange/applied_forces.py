@@ -131,7 +131,9 @@ def squares_of_velocity(damper: Damper, moving: Sequence[Symbol]) -> Expr:
     velocity = _velocity_of(damper.at, moving)
     if not damper.point.held and not all(v in {ZERO, *map(rate, moving)} for v in velocity):
         return squares_of_rates(damper.at, moving)
-    squares = [Pow(v, 2) for v in (damper.velocity(moving) if damper.point.held else velocity) if v != 0]
+    if damper.point.held:  # the particle at the contact of a rolling body is at rest
+        velocity = [ZERO if is_zero(v) else v for v in damper.velocity(moving)]
+    squares = [Pow(v, 2) for v in velocity if v != 0]
     return Terms(*squares) if len(squares) > 1 else squares[0] if squares else ZERO
 
 

@@ -379,12 +379,14 @@ def constraint_rate_in_rates(facts: Judged) -> bool:
 
 def names_the_enforcer(facts: Judged, outcome: str) -> bool:
     """Whether the object that the sentence names, such as a string, enforces the constraint; friction must enforce a
-    constraint on velocities. A sentence with the word "formula" names no object, so it is accepted."""
+    constraint on velocities, and the couple of a rigid joint acts at no point. A sentence with the word "formula"
+    names no object, so it is accepted."""
     of, word = facts.inputs["of"], facts.words.get("enforcer")
     if word == "formula":
         return True
     is_own = is_zero(of.residual - facts.inputs["condition"])
-    return bool(word == of.enforcer and of.forces and is_own and (word != "friction" or of.in_rates))
+    acts = bool(of.forces) or word == "joint"
+    return bool(word == of.enforcer and acts and is_own and (word != "friction" or of.in_rates))
 
 
 def _keeps_one_constant(facts: Judged) -> bool:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import Any
 
-from sympy import Add, Dummy, Expr, Function, ImmutableDenseMatrix, Integer, Matrix, Pow, Symbol, sqrt
+from sympy import Add, Dummy, Expr, Function, ImmutableDenseMatrix, Integer, Matrix, Pow, Rational, Symbol, sqrt
 from sympy.core.symbol import Str
 from sympy.polys.matrices import DomainMatrix
 from sympy.polys.matrices.exceptions import DMError
@@ -54,6 +54,7 @@ __all__ = ["accelerations", "constraint_force", "constraint_rate", "multipliers"
 ZERO = Integer(0)
 MOST = 9  # greatest number of unknowns in one linear system
 MOST_NAMED = 6  # greatest number of equations that a sentence names
+MOST_WITH_ROOTS = 250  # greatest number of operations in a solution with different roots
 MOST_SUBSTITUTED = 4  # greatest number of substitutions that a sentence states
 
 
@@ -493,7 +494,7 @@ def _multiplier(
 ) -> Quantity:
     found = _solution(problem)
     value = _gathered(problem, found[each.force])
-    length = gradient_length(each, problem.lagrangian)
+    length = gradient_length(each, problem.lagrangian) if each.enforcer != "motor" else None  # a torque, not a force
     is_force = length is None or is_zero(length - 1)
     shown = {"length": (length, tidied(sqrt(length**2)))} if length is not None and not is_force else {}
     below = is_force and len(each.acting) == 1 and sign_known(explicit(found[each.force])) == -1
@@ -696,17 +697,34 @@ def _solved(problem: _Problem) -> dict[Symbol, Expr]:
         solved = whole[:, :count].lu_solve(whole[:, count:]).to_Matrix()
     except DMError:
         raise _undetermined(problem, matrix) from None
+    _check_short(solved, names)
     back = {dummy: f for f, dummy in names.items()}
     return {u: by_squares(value.xreplace(back)) for u, value in zip(unknowns, solved, strict=True)}
+
+
+def _check_short(solved: Matrix, names: Mapping[Expr, Dummy]) -> None:
+    """Reject solutions of many terms with different roots of sums, such as the lengths of two oblique strings: SymPy
+    needs minutes to simplify them, and they fill a page."""
+    roots = [f for f in names if isinstance(f, Pow) and isinstance(f.base, Add)]
+    if len(roots) > 1 and max(value.count_ops() for value in solved) > MOST_WITH_ROOTS:
+        message = f"the accelerations contain {roots[0]} and {roots[1]}, and have too many terms"
+        help_line = "ask for `equations_of_motion`, which are short because they contain the constraint forces"
+        raise Rejected(Complaint("too-hard", message, help=help_line))
 
 
 def _in_a_field(matrix: ImmutableDenseMatrix) -> tuple[DomainMatrix, dict[Expr, Dummy]]:
     """Return the matrix with symbols in place of sines, cosines and roots, and a mapping from the replaced functions to
     these symbols. The entries of the result are rational functions."""
     found = sorted(matrix.atoms(Function), key=str)
-    roots = sorted((p for p in matrix.atoms(Pow) if not p.exp.is_Integer), key=str)
-    names = {f: Dummy(f"u_{i}") for i, f in enumerate([*roots, *found])}
-    return DomainMatrix.from_Matrix(Matrix(matrix.xreplace(names))).to_field(), names
+    powers = sorted((p for p in matrix.atoms(Pow) if not p.exp.is_Integer), key=str)
+    bases: dict[Expr, Expr] = {}  # a base is the same in factored and in expanded form
+    roots = {
+        p: Pow(bases.setdefault(p.base.expand(), p.base), Rational(1, p.exp.q)) if p.exp.is_Rational else p
+        for p in powers
+    }
+    names = {f: Dummy(f"u_{i}") for i, f in enumerate([*dict.fromkeys(roots.values()), *found])}
+    of_roots = {p: names[root] ** (p.exp.p if p.exp.is_Rational else 1) for p, root in roots.items()}
+    return DomainMatrix.from_Matrix(Matrix(matrix.xreplace({**names, **of_roots}))).to_field(), names
 
 
 def _is_singular(matrix: ImmutableDenseMatrix) -> bool:

@@ -26,16 +26,20 @@ ZERO, ONE = Integer(0), Integer(1)
 
 @dataclass(frozen=True)
 class StaticLimit:
-    """The largest static friction: |F| <= mu_s N.
+    """The largest static friction: |F| <= mu_s N, for a rail |F| <= mu_s |N|.
 
     coefficient   the coefficient of static friction, mu_s
     normal        the symbol of the normal force of the same contact
     slider        the name of the body that would slip, if the author gave one: "block"
+    of_rail       whether the normal force may have either sign
+    in_space      whether the friction has two components, and the limit is that of its magnitude
     """
 
     coefficient: Expr
     normal: Symbol
     slider: str = ""
+    of_rail: bool = False
+    in_space: bool = False
 
     @property
     def words(self) -> dict[str, str]:

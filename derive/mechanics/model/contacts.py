@@ -11,7 +11,7 @@ from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Mul, Symbol, sqrt
 from derive.algebra.expressions import Relation, as_expr, depends_on_time, scalar
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected, Spelled, Unverified
-from derive.mechanics.bodies.placed import PlacedBody
+from derive.mechanics.bodies.placed import PlacedBody, PointOfBody
 from derive.mechanics.kinematics.places import Axes, Location
 from derive.mechanics.model.connection import Connection, PointForce, end_of, is_end
 from derive.mechanics.model.constraint import Constraint, StaticLimit
@@ -137,7 +137,8 @@ def contact(
                this direction; in space it may be left out, and must be if the coordinates allow other directions of
                slip. With `rolling` or `static`, the friction on the body is positive in this direction
     static     the coefficient of static friction mu_s: the material points in contact do not move over each other, so
-               a round body rolls; this requires |F| <= mu_s N
+               a round body rolls; this requires |F| <= mu_s N, for a rail |F| <= mu_s |N|, and in space
+               sqrt(F_x^2 + F_y^2) <= mu_s N
     force      with `static`: the symbol of the friction F, in newtons, positive as for `rolling`
     Equal and opposite forces act on the material points of the body and of the surface. The distance of a round body
     from the surface is the distance of its centre from the surface, minus the radius of the body. In space, a disc, a
@@ -171,6 +172,12 @@ def contact(
     elif force:
         raise Rejected(Complaint("unused-key", "`force` is the symbol of the static friction, so it needs `static`"))
     return replace(touch, forces=tuple(_forces_of(touch, found))), *found
+
+
+def point_of_contact(of: Any, on: Any) -> PointOfBody:
+    """The particle of a body that touches a surface; `of` and `on` as in `contact`."""
+    touch = _contact(of, on)
+    return PointOfBody(touch.at.components, body=touch.of)
 
 
 def _check_carried(touch: Contact, rough: bool) -> None:
@@ -268,6 +275,8 @@ def _reject_normal(letter: str, touch: Contact) -> None:
     where = ", ".join(map(str, touch.at.components))
     message = f"the coordinates keep the body on the surface at ({where}), so `{letter}` does not appear"
     help_line = "give the body a coordinate for its distance from the surface, so that the normal force keeps it there"
+    if isinstance(touch.of, PlacedBody) and isinstance(touch.surface, Curve):
+        help_line = "only coordinates can keep a round body on a curve: leave out `normal`, and write `{rolling: F}`"
     raise Rejected(Complaint("not-an-unknown", message, help=help_line))
 
 
@@ -344,17 +353,11 @@ def _ways_along(touch: Contact) -> dict[str, Location]:
 
 
 def _static_limit(touch: Contact, coefficient: Any, normal: str) -> StaticLimit:
-    if touch.surface.is_two_sided:
-        message = "a rail also pulls, so its static friction has no single limit mu_s N"
-        raise Rejected(Complaint("wrong-argument", message, help="describe a surface, without `side: both`"))
     mu = _coefficient(touch, coefficient, normal or "N")
-    if len(touch.at.components) == 3:
-        message = "static friction with a coefficient needs a plane of motion; this system moves in space"
-        raise Rejected(Complaint("wrong-argument", message, help="leave out the coefficient: `friction: rolling`"))
     if sign_known(mu) != 1:
         message = f"the coefficient of static friction {mu} is not known to be positive"
         raise Rejected(Complaint("sign", message, help="declare its letter as `positive number`"))
-    return StaticLimit(mu, scalar(normal))
+    return StaticLimit(mu, scalar(normal), of_rail=touch.surface.is_two_sided, in_space=len(touch.at.components) == 3)
 
 
 def _along(touch: Contact, direction: Any) -> Location:

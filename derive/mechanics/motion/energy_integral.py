@@ -203,7 +203,10 @@ def _check_one_coordinate(energy: Quantity, value: Expr, q: Coordinate) -> None:
         message = (
             f"`speed_from_energy` needs an energy of only {q.symbol.name} and its rate, but `{energy.key}` has {what}"
         )
-        raise Rejected(Complaint("wrong-argument", message))
+        help_line = None
+        if others:
+            help_line = f"with `put_in`, substitute the value of {others[0].name} or, from its momentum, of its rate"
+        raise Rejected(Complaint("wrong-argument", message, help=help_line))
 
 
 RATE_BY_ENERGY = Rule(

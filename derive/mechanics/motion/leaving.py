@@ -18,7 +18,7 @@ from derive.mechanics.motion import claims
 from derive.mechanics.motion.facts import ByEnergy
 from derive.mechanics.motion.turning_points import condition_to_reach, part_of_the_way, squared_by_energy
 from derive.solving.attainable import existence
-from derive.solving.relations import conditions_told, divided_out, number_of, positive, solved_for_unknown, unsolvable
+from derive.solving.relations import NotLinear, conditions_told, divided_out, number_of, positive, solved_for_unknown
 from derive.solving.unknowns import (
     left_over,
     letter_of,
@@ -113,9 +113,7 @@ def leaves_contact(force: Quantity, letter: Letter, start: Value, key: str = "le
     if sign_known(at_start) != 1:
         message = f"`leaves_contact`: `{force.key}` is not known to be positive at {unknown} = {start}"
         raise Rejected(Complaint("no-contact", message, help="give the value at which the surfaces touch"))
-    result = solved_for_unknown(force, pushing, "=", unknown)
-    if result.left != unknown:
-        raise unsolvable(force, unknown)
+    result = _place_of_loss(force, pushing, unknown)
     solved = result.right
     speed = ByEnergy.behind(force, letter_of(unknown))
     if speed is not None:
@@ -165,6 +163,19 @@ def leaves_contact(force: Quantity, letter: Letter, start: Value, key: str = "le
         ),
         key=key,
     )
+
+
+def _place_of_loss(force: Quantity, pushing: Expr, unknown: Expr) -> Relation:
+    """Return the place where the force vanishes; reject a force that is not linear in the unknown."""
+    try:
+        result = solved_for_unknown(force, pushing, "=", unknown)
+    except NotLinear:
+        result = None
+    if result is None or result.left != unknown:
+        message = f"`{force.key}` is not linear in {unknown}, so the place where it vanishes has no closed form here"
+        help_line = "ask for this force, and plot it under `drawings` to show where it vanishes; no flight begins there"
+        raise Rejected(Complaint("no-condition", message, help=help_line))
+    return result
 
 
 def _enforcer(force: Quantity) -> str:

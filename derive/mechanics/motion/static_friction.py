@@ -67,10 +67,18 @@ def static_friction(friction: Quantity) -> Constraint:
         kept = ancestor.fact(Constrained)
         for each in kept.constraints if kept is not None else ():
             if each.force == friction.symbol and each.limit is not None:
+                _check_in_plane(each.limit, friction)
                 return each
     help_line = "describe the contact with `friction: {static: mu_s, force: F}`, and give F"
     message = f"`{friction.key}` is not the friction of a contact with a coefficient of static friction"
     raise Rejected(Complaint("no-contact", message, help=help_line))
+
+
+def _check_in_plane(limit: StaticLimit, friction: Quantity) -> None:
+    if limit.in_space:
+        message = f"`slips` needs a plane of motion, but {friction.symbol} is only one component of the friction"
+        help_line = "leave `slips` out: the page states the condition for the magnitude of the friction"
+        raise Rejected(Complaint("wrong-argument", message, help=help_line))
 
 
 def friction_of(friction: Quantity, normal: Quantity) -> Friction:
@@ -79,6 +87,10 @@ def friction_of(friction: Quantity, normal: Quantity) -> Friction:
     if normal.symbol != constraint.limit.normal:
         message = f"`slips`: `{normal.key}` is not the normal force of this contact"
         raise Rejected(Complaint("different-subjects", message, help=f"give {constraint.limit.normal}"))
+    if constraint.limit.of_rail and sign_known(explicit(number_of(normal))) != 1:
+        message = f"`slips`: the normal force {constraint.limit.normal} of a rail is not known to be positive"
+        help_line = "leave `slips` out: the page states the condition |F| <= mu_s |N|"
+        raise Rejected(Complaint("sign", message, help=help_line))
     return Friction(friction, normal, constraint, constraint.limit)
 
 

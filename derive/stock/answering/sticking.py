@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
-from sympy import Abs, Symbol
+from sympy import Abs, Add, Expr, sqrt
 
 from derive.algebra.expressions import Factors, Relation, explicit
 from derive.algebra.tidy import tidied
@@ -18,34 +18,42 @@ from derive.steps.step import Quantity
 SLIPS, DERIVED = "motion.slips", {"lagrange.multiplier", "lagrange.acceleration"}
 
 
-def state_static_friction(contact: Constraint, answer: Callable[[str, str], Quantity]) -> None:
+def state_static_friction(contact: Sequence[Constraint], answer: Callable[[str, str], Quantity]) -> None:
     """Assume |F| <= mu_s N for a contact with static friction, if no step of the page derives this condition.
 
-    contact   the constraint of a contact with static friction
+    contact   the constraints that the friction of the contact enforces: one in a plane, one or two in space
     answer    a function of the name of an answer and of the key of one of its steps; it returns this step
 
     Nothing is assumed if the derived forces are known to satisfy the condition. The condition is solved for mu_s if
     possible.
     Errors: the condition is known to be false.
     """
-    steps, limit = established(), contact.limit
-    if limit is None or any(each.step.rule == SLIPS and contact.force in _names(each) for each in steps):
+    steps, limit, forces = established(), contact[0].limit, [each.force for each in contact]
+    if limit is None or any(each.step.rule == SLIPS and forces[0] in _names(each) for each in steps):
         return
     if any(each.step.rule in DERIVED for each in steps):
-        _assume_solved(answer("multipliers", contact.force.name), answer("multipliers", limit.normal.name), limit)
+        found = [answer("multipliers", force.name) for force in forces]
+        _assume_solved(found, answer("multipliers", limit.normal.name), limit)
     else:
-        _assume_letters(contact.force, limit)
+        _assume_letters(forces, limit)
 
 
 def _names(step: Quantity) -> tuple[object, ...]:
     return tuple(dict(step.step.roles).values())
 
 
-def _assume_letters(force: Symbol, limit: StaticLimit) -> None:
-    assume(Relation(Abs(force), "<=", Factors(limit.coefficient, limit.normal)))
+def _assume_letters(forces: Sequence[Expr], limit: StaticLimit) -> None:
+    size = Abs(forces[0]) if len(forces) == 1 else sqrt(Add(*(force**2 for force in forces)))
+    normal = Abs(limit.normal) if limit.of_rail else limit.normal
+    assume(Relation(size, "<=", Factors(limit.coefficient, normal)))
 
 
-def _assume_solved(friction: Quantity, normal: Quantity, limit: StaticLimit) -> None:
+def _assume_solved(frictions: Sequence[Quantity], normal: Quantity, limit: StaticLimit) -> None:
+    symbols = [friction.symbol for friction in frictions]
+    if limit.in_space or limit.of_rail and sign_known(explicit(normal.value)) != 1:
+        _assume_if_unknown(frictions, normal, limit)
+        return
+    friction = frictions[0]
     F, most = explicit(friction.value), limit.coefficient * explicit(normal.value)
     side = sign_known(F)
     excess = sign_known(side * F - most) if side is not None else None
@@ -59,7 +67,19 @@ def _assume_solved(friction: Quantity, normal: Quantity, limit: StaticLimit) -> 
     if len(conditions) == 1:
         assume(conditions[0])
     else:
-        _assume_letters(friction.symbol, limit)
+        _assume_letters(symbols, limit)
+
+
+def _assume_if_unknown(frictions: Sequence[Quantity], normal: Quantity, limit: StaticLimit) -> None:
+    """Assume that the magnitude of the friction is at most mu_s |N|, unless this is known to be true."""
+    square = tidied(Add(*(explicit(friction.value) ** 2 for friction in frictions)))
+    most = limit.coefficient**2 * explicit(normal.value) ** 2
+    excess = sign_known(tidied(square - most))
+    if excess == 1:
+        message = f"the body slips: the square of the static friction is at most {most}, but the motion needs {square}"
+        raise Rejected(Complaint("contradiction", message))
+    if excess is None:
+        _assume_letters([friction.symbol for friction in frictions], limit)
 
 
 def _conditions(friction: Quantity, normal: Quantity, limit: StaticLimit) -> list[Relation]:

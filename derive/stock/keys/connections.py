@@ -41,9 +41,10 @@ from derive.mechanics import (
     wound_string,
 )
 from derive.mechanics.kinematics.places import Location
+from derive.mechanics.model.contacts import point_of_contact
 from derive.stock.keys.deferred import Deferred, Material
 from derive.stock.keys.parts import components_of, direction_of, force_letter, list_of_parts, named_bodies
-from derive.stock.keys.places import COMPONENTS, PLACE, Places, WrittenPlace, point_called
+from derive.stock.keys.places import COMPONENTS, PLACE, Places, WrittenPlace, check_not_contact, point_called
 
 X = "x"  # the symbol for the horizontal distance in the formula of a curve
 SURFACE_SHAPES = (
@@ -245,16 +246,24 @@ class ContactKeys(Record):
         forces = tuple(map(str, [*self.symbols(known.places.axes_of_motion), *self._components(known)]))
         return Deferred(_named_contact, (self._name(),), named, forces=forces, place=self.places[""])
 
+    def touched_by(self, known: Connected) -> tuple[str, Deferred[Any]] | None:
+        """Return the name of the body that touches the surface, and its point of contact; None for a particle and for
+        a fixed corner."""
+        body = self._body(known)
+        if not isinstance(body, Material) or body.body not in known.places.bodies:
+            return None
+        return body.body, Deferred(point_of_contact, (body, self._surface(known)), place=self.places[""])
+
     def _name(self) -> str:
         """Return the name of the body or place that touches the surface, `ladder` for `ladder.end`, if there is one."""
         return (self.of.name or "").partition(".")[0].replace("_", " ")
 
     def _components(self, known: Connected) -> list[Word]:
         """Return the symbols of the components of the friction without slipping in space; none in a plane."""
-        rolling = self.friction.rolling if isinstance(self.friction, FrictionKeys) else None
-        if rolling is None or not known.places.turns:  # only a body that moves in space has axes
+        symbol = self.friction.symbol if isinstance(self.friction, FrictionKeys) else None
+        if symbol is None or "z" not in known.places.axes_of_motion:
             return []
-        components = [Word.at(f"{rolling}_{axis}", rolling.place) for axis in "xyz"]
+        components = [Word.at(f"{symbol}_{axis}", symbol.place) for axis in "xyz"]
         return [word for word in components if force_letter(word, known.letters)]
 
     def _friction(self, own: FrictionKeys, known: Connected) -> dict[str, Any]:
@@ -471,6 +480,8 @@ def material(name: Word, known: Connected) -> Material:
     if body not in known.bodies:
         help_line = did_you_mean(body, known.bodies)
         rejected("no-such-body", f"`{body}` is not a body or particle of this system", name.place, help_line)
+    if body in known.places.bodies:
+        check_not_contact(name)
     return Material(body, point_called(point) if point else None)
 
 

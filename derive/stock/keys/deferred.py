@@ -11,8 +11,8 @@ from dataclasses import dataclass, field
 from typing import Any, Generic, TypeVar
 
 from derive.course.stock import told_at
-from derive.errors import Place
-from derive.mechanics.bodies.placed import PointOfBody
+from derive.errors import Complaint, Place, Rejected
+from derive.mechanics.bodies.placed import PlacedBody, PointOfBody
 from derive.mechanics.kinematics.places import Location
 from derive.mechanics.model.acted_on import WrongPart
 
@@ -72,7 +72,11 @@ class Material:
             return known[self.body]
         if self.point is None:
             return PointOfBody((known[self.body].at + self.by).components, body=known[self.body])
-        found = known[self.body].place_of(self.point)
+        body = known[self.body]
+        if not isinstance(body, PlacedBody):
+            message = f"`{self.body}` is a particle, so it has no point `{self.point}`"
+            raise Rejected(Complaint("no-such-point", message, help=f"write `{self.body}`"))
+        found = body.place_of(self.point)
         return found if self.by is None else found + self.by
 
 

@@ -112,7 +112,7 @@ class CollisionKeys(Record):
     def name(self) -> str:
         return str(self.letter or "K")
 
-    def brings(self, letters: InLetters, size: int) -> list[str]:
+    def brings(self, letters: InLetters, axes: str) -> list[str]:
         """Return the symbols of the impulse of this collision."""
         if self.letter is not None and not is_letter(self.letter):
             rejected(
@@ -122,7 +122,7 @@ class CollisionKeys(Record):
                 "write `impulse: K`",
             )
         place = self.letter.place if self.letter is not None else self.places[""]
-        names = [self.name] if self.along else [f"{self.name}_{axis}" for axis in ("xy" if size == 2 else "xyz")]
+        names = [self.name] if self.along else [f"{self.name}_{axis}" for axis in axes]
         help_line = "leave it out of `symbols`, or give the impulse another symbol, `impulse: K`"
         return [letters.unused(Word.at(name, place), help_line) for name in names]
 
@@ -161,9 +161,8 @@ class ImpactKeys(Record):
             tuple(found[slice(*ends)]) for ends in pairwise((0, len(both), len(both) + len(self.at), len(found)))
         )
         brought: list[str] = []
-        for one, act in zip(self.collisions, acts[len(self.impulses) :], strict=True):
-            _, end, *_ = act.of
-            brought += one.brings(letters, len(end.components))
+        for one in self.collisions:
+            brought += one.brings(letters, places.axes_of_motion)
         brought += [letters.unused(Word.at(f"J_{force}", self.places[""]), "use another symbol") for force in forces]
         return DescribedImpact(
             acts=acts,

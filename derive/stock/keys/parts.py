@@ -95,7 +95,9 @@ class ForceKeys(Record):
     """The keys of one entry of `forces:`, a force at a place or a torque on an angle."""
 
     components: tuple[Tree, ...] = key("its components in space", COMPONENTS)
-    at: WrittenPlace | None = key("the place where it acts", PLACE)
+    at: WrittenPlace | None = key(
+        "the place where it acts; `ball.contact` is the particle of the body `ball` that touches a surface", PLACE
+    )
     of: Word | None = key(
         "the body or particle on which the force acts, if `at` does not move with it: the contact of a sliding ball; "
         "`massless` for a massless part",
@@ -116,7 +118,7 @@ class ForceKeys(Record):
                 "of": named_bodies("of", [self.of], bodies, MASSLESS),
                 "by": named_bodies("by", [self.by], bodies, GROUND),
             }
-            return Deferred(force, (components, places.at(self.at, "at")), bodies=named, place=self.places[""])
+            return Deferred(force, (components, places.acted_on(self.at)), bodies=named, place=self.places[""])
         if beside := self.of or self.by:
             message = "`of` and `by` belong to a force at a place, but this is a torque"
             rejected("unused-key", message, beside.place, "leave them out")
@@ -135,13 +137,17 @@ class DampingKeys(Record):
         SCALAR,
         required=True,
     )
-    at: WrittenPlace | None = key("the place whose velocity the drag opposes", PLACE)
+    at: WrittenPlace | None = key(
+        "the place whose velocity the drag opposes; at `ball.contact`, the velocity of the particle of the body `ball` "
+        "that touches a surface",
+        PLACE,
+    )
     of: Word | None = key("the body or particle on which the drag acts, if `at` does not move with it", TEXT)
     on: Tree | None = key("in place of `at`, the coordinate whose rate the drag opposes", SCALAR)
 
     def part(self, places: Places, letters: InLetters, bodies: Collection[str]) -> Deferred[Any]:
         if self.at is not None and self.on is None:
-            of = (letters.value(self.constant, "constant", "damping constant"), places.at(self.at, "at"))
+            of = (letters.value(self.constant, "constant", "damping constant"), places.acted_on(self.at))
             named = {"of": named_bodies("of", [self.of], bodies, MASSLESS)}
             return Deferred(damping, of, bodies=named, place=self.places[""])
         if self.at is not None or self.on is None:

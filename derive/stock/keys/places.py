@@ -31,12 +31,14 @@ from derive.course.yaml_tree import Mapping as MappingNode
 from derive.course.yaml_tree import Scalar, Sequence, Tree, Word
 from derive.errors import Complaint, Faults, Place, Rejected, did_you_mean, rejected
 from derive.mechanics import X, Y, Z, point, space
+from derive.mechanics.bodies.placed import PointOfBody
 from derive.mechanics.kinematics.coordinates import function_of_time, kind_of_rate
 from derive.mechanics.kinematics.places import Axes, Location
-from derive.stock.keys.deferred import Material
+from derive.stock.keys.deferred import Deferred, Material
 from derive.stock.keys.formulas import OfKnownDimension
 
 ANGLE, LENGTH, CHARGE = "angle", "length", "charge"
+CONTACT = "contact"  # the point of a body that touches a surface: `ball.contact`
 
 
 def _sort(node: Tree, name: str, faults: Faults) -> SortOfLetter:
@@ -169,6 +171,14 @@ def point_called(name: str) -> str:
     return "centre" if name == "centre_of_mass" else name
 
 
+def check_not_contact(name: Word) -> None:
+    """Reject the point of contact of a body, unless a force or a drag acts there."""
+    if name.endswith(f".{CONTACT}"):
+        message = f"nothing can be fastened at `{name}`, because other particles of the body touch the surface later"
+        help_line = "only `at` of a force or of drag may name this point; a string that unwinds is `wound_on` the body"
+        rejected("no-such-point", message, name.place, help_line)
+
+
 class Places:
     """The named places and axes of a description, each computed when it is needed."""
 
@@ -187,6 +197,7 @@ class Places:
         self.turns = turns
         self.letters = letters
         self.bodies = {str(name) for name in bodies}
+        self.contacts: dict[str, list[Deferred[PointOfBody]]] = {}  # for each body, the points where it touches
         self.on_the_way: list[str] = []
         self.first: tuple[int, str] | None = None  # number of components of the first place, and its name
 
@@ -205,7 +216,11 @@ class Places:
         written = self.written.get(name) or self.carried.get(name)
         body, _, point = name.partition(".")
         if written is None and body in self.bodies:
+            check_not_contact(name)
             return Material(body, point_called(point or "centre"))
+        if written is None and point and body in self.carried:
+            message = f"`{body}` is a particle, so it has no point `{point}`"
+            rejected("no-such-point", message, name.place, f"write `{body}`")
         if written is None:
             known = [*self.written, *self.carried, *self.bodies]
             help_line = did_you_mean(name, known) or "give it under `places`, or write its components"
@@ -229,6 +244,21 @@ class Places:
             found = self.axes(way.axes).place(*components) if way.axes else point(*components)
             self._check_size(found, name)
             return self.named(way.start) + found if way.start else found
+
+    def acted_on(self, written: WrittenPlace) -> Location | Material | Deferred[PointOfBody]:
+        """Return the place of a force or a drag. `ball.contact` is the particle of the body `ball` that touches a
+        surface."""
+        body, _, point = (written.name or "").partition(".")
+        if body not in self.bodies or point != CONTACT:
+            return self.at(written, "at")
+        found = self.contacts.get(body, [])
+        if len(found) != 1:
+            count = "several contacts" if found else "no contact"
+            message = f"{count} of this system name `{body}` under `of`, so `{written.name}` is not one point"
+            message = message if found else message.replace(" name ", " names ")
+            help_line = "give the components of the place under `at`, and the body under `of` of the force"
+            rejected("no-such-point", message, written.place, help_line)
+        return found[0]
 
     def ends(self, start: WrittenPlace, end: WrittenPlace) -> list[Location | Material]:
         """Return the two places between which something acts."""

@@ -286,6 +286,8 @@ def _parts(written: SystemKeys, places: Places, known: InLetters, faults: Faults
     acting += pulleys.values()
     if len(surfaces) == len(written.surfaces) and len(pulleys) == len(written.pulleys):
         acting += of_each(_connections(written), connected)
+        for name, point in filter(None, (one.touched_by(connected) for one in written.contacts)):
+            places.contacts.setdefault(name, []).append(point)
     for i, name in enumerate(written.wires):
         if name in written.wires[:i]:
             faults.error("twice", f"`{name}` is on a wire twice", name.place, help="leave one of them out")
