@@ -342,6 +342,11 @@ class DrawingKeys(Record):
         "the two ends of the vertical axis of curves, such as `[-1 J, 2 J]`; by default, the axis shows whole curves",
         ENDS,
     )
+    per: tuple[Formula, ...] = key(
+        "the quantities by which the two axes of a plot are divided, such as `[r_0, G*M*m/r_0]`: answers or formulas, "
+        "horizontal before vertical; `1` leaves an axis in its unit, and a phase portrait has a third one for its levels",
+        list_of(FORMULA, "a list of quantities such as `[r_0, G*M*m/r_0]`", each="a quantity"),
+    )
     cases: tuple[dict[Word, Tree], ...] = key(
         "numbers for letters, one mapping for each curve of a plot; a later mapping needs only the numbers that differ "
         "from those of the first",

@@ -315,6 +315,8 @@ class Plot:
     diagram          the equilibria of a bifurcation diagram, in which `label` is their coordinate
     places           the values of the variable for which the solution has a symbol, such as r_0, with these symbols
     then             the value that the curves keep after their range
+    per              the quantities by which the axes are divided, each with its name: horizontal, vertical, and for a
+                     phase portrait the energy of the levels
     """
 
     key: str
@@ -334,6 +336,7 @@ class Plot:
     diagram: Diagram | None = None
     places: tuple[tuple[Any, Any], ...] = ()
     then: Any = None
+    per: tuple[tuple[Any, Any], ...] = ()
 
     @property
     def each(self) -> tuple[Plot, ...]:
@@ -367,7 +370,8 @@ class Plot:
         outlines = [value for each in self.outlines for value in (each.expr, *each.corners)]
         in_plane = {letter for each in self.outlines for letter in each.plane}
         kept = () if self.then is None else (self.then,)
-        return letters_in((*self.shown, *others, *kept, *self.values, *outlines)) - in_plane
+        divisors = [value for _, value in self.per]
+        return letters_in((*self.shown, *others, *kept, *self.values, *outlines, *divisors)) - in_plane
 
     @property
     def ends(self) -> tuple[Any, ...]:

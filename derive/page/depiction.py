@@ -28,6 +28,7 @@ from derive.figures.branches import BranchLine
 from derive.figures.extrema import MINIMUM
 from derive.figures.polhodes import order_of
 from derive.page.plots import (
+    Axis,
     Curve,
     Curves,
     curve_letters,
@@ -557,8 +558,8 @@ def _curves(problem: Problem, plot: m.Plot, placement: Placement | None, words: 
     curves = curves_of(problem, plot, placement)
     first = curves.curves[0]
     names = {
-        "quantity": joined([_named(label) for label in plot.labels], words.labels["and"]),
-        "variable": _named(plot.named_across),
+        "quantity": joined([_divided(label, curves.up) for label in plot.labels], words.labels["and"]),
+        "variable": _divided(plot.named_across, curves.variable),
         "lower": with_unit(first.lower * curves.variable.per_unit, curves.variable.unit),
         "upper": with_unit(first.upper * curves.variable.per_unit, curves.variable.unit),
     }
@@ -579,6 +580,11 @@ def _curves(problem: Problem, plot: m.Plot, placement: Placement | None, words: 
     return _spaced([*told, *_shared(curves, words)])
 
 
+def _divided(label: Any, axis: Axis) -> Any:
+    """Return the name of an axis, divided by the quantity that divides the axis if there is one."""
+    return _named(label if axis.per is None else label / axis.per)
+
+
 def _spaced(told: Sequence[tuple[Inline, ...]]) -> tuple[Inline, ...]:
     """Return sentences with a space between them."""
     return tuple(node for i, nodes in enumerate(told) for node in ((Text(" "),) if i else ()) + nodes)
@@ -594,20 +600,24 @@ def _portraits(plot: m.Plot, curves: Curves, words: Phrases, names: dict[str, An
         own = {
             "letter": letter,
             "numbers": joined(_put_in(curve.numbers), last),
-            "low": with_unit(curve.portrait.low, plot.unit_up),
-            "high": with_unit(curve.portrait.high, plot.unit_up),
-            "up": _named(plot.label),
-            "values": joined([(Text(with_unit(value, plot.levels.unit)),) for value, _ in curve.portrait.values], last),
-            "thick": joined(_thick(plot.levels, curve.portrait.values), last),
+            "low": with_unit(curve.portrait.low * curves.up.per_unit, curves.up.unit),
+            "high": with_unit(curve.portrait.high * curves.up.per_unit, curves.up.unit),
+            "up": _divided(plot.label, curves.up),
+            "values": joined([(Text(_level(value, curves)),) for value, _ in curve.portrait.values], last),
+            "thick": joined(_thick(plot.levels, curve.portrait.values, curves), last),
         }
         yield filled(words.drawings["portrait_values"], own)
 
 
-def _thick(levels: m.Levels, numbers: Sequence[tuple[float, bool]]) -> list[tuple[Inline, ...]]:
+def _level(value: float, curves: Curves) -> str:
+    return with_unit(value * curves.levels.per_unit, curves.levels.unit)
+
+
+def _thick(levels: m.Levels, numbers: Sequence[tuple[float, bool]], curves: Curves) -> list[tuple[Inline, ...]]:
     """Return the values on the thick curves: formulas, or numbers with their unit."""
     every = zip(levels.values, numbers, strict=True)
     return [
-        (Math(value),) if value.free_symbols else (Text(with_unit(number, levels.unit)),)
+        (Math(value),) if value.free_symbols else (Text(_level(number, curves)),)
         for (value, _), (number, is_thick) in every
         if is_thick
     ]
@@ -649,7 +659,7 @@ def _part(line: BranchLine, curves: Curves, varies: bool) -> dict[str, Any]:
 def _paths(plot: m.Plot, curves: Curves, words: Phrases, names: dict[str, Any]) -> Iterator[tuple[Inline, ...]]:
     """Yield words for the quantities of a path, and for the ends of the path in each panel."""
     assert plot.across is not None
-    names |= {"across": _named(plot.across.label), "several": len(curves.curves) > 1}
+    names |= {"across": _divided(plot.across.label, curves.across), "several": len(curves.curves) > 1}
     yield filled(words.drawings["path"], names)
     across, up = curves.across, curves.up
     for letter, curve in zip(curve_letters(curves), curves.curves, strict=True):
@@ -695,7 +705,7 @@ def _turns(plot: m.Plot, curves: Curves, curve: Curve, words: Phrases) -> list[t
             words.drawings["extremum"],
             {
                 "kind": words.drawings[extremum.kind],
-                "variable": _named(plot.variable),
+                "variable": _divided(plot.variable, curves.variable),
                 "at": with_unit(extremum.at * curves.variable.per_unit, curves.variable.unit) if extremum.at else "0",
                 "value": told_value(curves.up, extremum),
             },

@@ -138,8 +138,10 @@ class StockAnswers(Answers[W]):
             plotted = Plotted(drawing, self.by_name.named, self.coordinates, lambda: self.drawn_surfaces, shown)
             if drawing.is_portrait:
                 plotted.draw_levels()
+                plotted.measure()
             elif drawing.is_of_engine and drawing.against and drawing.range:
                 plotted.draw(drawing.against, drawing.range)
+                plotted.measure()
         return found
 
     def mark(self, drawings: Sequence[Placement]) -> None:
