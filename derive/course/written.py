@@ -344,7 +344,7 @@ class DrawingKeys(Record):
     )
     per: tuple[Formula, ...] = key(
         "the quantities by which the two axes of a plot are divided, such as `[r_0, G*M*m/r_0]`: answers or formulas, "
-        "horizontal before vertical; `1` leaves an axis in its unit, and a phase portrait has a third one for its levels",
+        "the horizontal axis first; `1` leaves an axis in its unit; a phase portrait needs a third one for its levels",
         list_of(FORMULA, "a list of quantities such as `[r_0, G*M*m/r_0]`", each="a quantity"),
     )
     cases: tuple[dict[Word, Tree], ...] = key(

@@ -114,7 +114,7 @@ class ShownMode:
     sort        "oscillating", "growing" or "free"
     degenerate  whether other modes have the same frequency
     lengths     what the lengths of the arrows show: "to_scale"; "of_letters" if the ratio of the displacements depends
-                on letters without numbers; "longer" if the arrow of a small displacement is longer than in this ratio;
+                on letters without numbers; "without_small" if a displacement is too small for an arrow;
                 or "alone" for a single mass
     letters     the letters on which the ratio depends
     moves       for each mass, in order: the mass; the directions of its displacement, such as ("right", "up"), or () at

@@ -24,6 +24,7 @@ from derive.course.placement import HIDDEN, STATEMENT, Placement, case_label
 from derive.course.problem import Problem
 from derive.errors import Complaint, Place, Rejected, did_you_mean
 from derive.figures import marks as m
+from derive.figures.annotations import PositiveDirection, PositiveRotation
 from derive.figures.branches import BranchLine
 from derive.figures.extrema import MINIMUM
 from derive.figures.polhodes import order_of
@@ -102,6 +103,7 @@ def depictions(
         elif index is not None and not outside[drawing.key]:
             own = placement.caption if placement else None
             caption = told(own.pieces, _lettered(drawing)) if own else _standard_caption(drawing, words, said)
+            caption += _positive(drawing, words, said) if caption else ()
             caption += _not_shown(drawing, words, bool(caption))
             at = STATEMENT if index == FOUND else chr(ord("a") + index)
             try:
@@ -152,6 +154,21 @@ def _standard_caption(drawing: m.Recorded, words: Phrases, said: set[str]) -> tu
     caption = _spaced([each for each in told if str(each) not in said])
     said.update(map(str, told[1:]))
     return caption
+
+
+def _positive(drawing: m.Recorded, words: Phrases, said: set[str]) -> tuple[Inline, ...]:
+    """Return the sentence about the thin arrow of a force diagram, to follow the caption; each is said once.
+
+    said   the sentences that earlier captions contain; a new sentence is added
+    """
+    marks = drawing.marks if isinstance(drawing, m.Drawing) else ()
+    sorts = {PositiveDirection: "positive_direction", PositiveRotation: "positive_rotation"}
+    told = [
+        filled(words.drawings[name], {}) for sort, name in sorts.items() if any(type(each) is sort for each in marks)
+    ]
+    new = [each for each in told if str(each) not in said]
+    said.update(map(str, new))
+    return ((Text(" "),) if new else ()) + _spaced(new)
 
 
 def _not_shown(drawing: m.Recorded, words: Phrases, follows: bool) -> tuple[Inline, ...]:
