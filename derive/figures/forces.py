@@ -240,11 +240,11 @@ def _positive(system: System, alone: BodyAlone) -> Iterator[Mark]:
         way = ImmutableDenseMatrix([derivative(c, q) for q in moving[:1] for c in of.at.components])
         if len(moving) == 1 and not coordinates_in(way) and is_zero(way.dot(way) - 1):
             yield PositiveDirection(column_of(of.at), way, label=moving[0])
-    if isinstance(of, PlacedBody) and of.is_plane and (of.turned.is_Symbol or (-of.turned).is_Symbol):
-        for mark in _outline(of):
-            if isinstance(mark, WheelMark):
-                angle = of.turned if of.turned.is_Symbol else -of.turned
-                yield PositiveRotation(mark.centre, mark.radius, angle == of.turned, label=angle)
+    turned = of.turned if isinstance(of, PlacedBody) and of.is_plane else None
+    angle = next((each for each in (turned, -turned) if each.is_Symbol), None) if isinstance(turned, Expr) else None
+    for mark in _outline(of) if angle is not None else ():
+        if isinstance(mark, WheelMark):
+            yield PositiveRotation(mark.centre, mark.radius, bool(angle == turned), label=angle)
 
 
 def _is_on_a_line(alone: BodyAlone) -> bool:

@@ -163,9 +163,8 @@ def _positive(drawing: m.Recorded, words: Phrases, said: set[str]) -> tuple[Inli
     """
     marks = drawing.marks if isinstance(drawing, m.Drawing) else ()
     sorts = {PositiveDirection: "positive_direction", PositiveRotation: "positive_rotation"}
-    told = [
-        filled(words.drawings[name], {}) for sort, name in sorts.items() if any(type(each) is sort for each in marks)
-    ]
+    kinds = {type(each) for each in marks}
+    told = [filled(words.drawings[name], {}) for sort, name in sorts.items() if sort in kinds]
     new = [each for each in told if str(each) not in said]
     said.update(map(str, new))
     return ((Text(" "),) if new else ()) + _spaced(new)

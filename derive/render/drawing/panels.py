@@ -231,8 +231,8 @@ def _point(
     for curve in own:
         (found,) = with_names([Extremum(at, value, MINIMUM)], curve.places, NEAR * (curve.upper - curve.lower))
         if found.name is not None:
-            value = "" if curves.variable.per is not None else f" = {_with_unit(x, curves.variable.unit)}"
-            return (x, y), f"${_mathtext(notation.layout(found.name))}{value}$"
+            told_x = "" if curves.variable.per is not None else f" = {_with_unit(x, curves.variable.unit)}"
+            return (x, y), f"${_mathtext(notation.layout(found.name))}{told_x}$"
     if is_zero and _has_tick(x, across):
         return (x, y), ""
     told = [to_three_figures(x, curves.variable.unit), *([] if is_zero else [to_three_figures(y, curves.up.unit)])]

@@ -91,9 +91,8 @@ class Plotted:
         found = run.drawings.pop()
         assert isinstance(found, Plot)
         if found.diagram is not None:
-            rejected(
-                "wrong-argument", "a bifurcation diagram has no `per`", written[0].place, "use a ratio in `against`"
-            )
+            message = "`per` has no effect on a bifurcation diagram"
+            rejected("wrong-argument", message, written[0].place, "write a ratio in `against`")
         units = [found.across.unit if found.across else unit_of_kind(found.of), found.unit_up]
         units += [found.levels.unit] if found.levels else []
         if len(written) != len(units):
