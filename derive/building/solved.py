@@ -78,7 +78,7 @@ def steps_key(problem: Problem) -> str:
     facts = (problem.id, problem.givens, problem.described, problem.symbols, problem.measured, problem.figures, asked)
     observed = (problem.observations, [part.observations for part in problem.parts])
     plots = [
-        (d.key, d.plot, d.curves, d.labels, d.surfaces, d.against, d.range, d.then, d.levels, d.over, d.per)
+        (d.key, d.plot, d.curves, d.labels, d.surfaces, d.against, d.range, d.then, d.levels, d.over, d.per, d.energies)
         for d in problem.drawings
         if d.is_of_engine or d.key in ON_REQUEST
     ]

@@ -60,6 +60,7 @@ class Placement:
         surfaces  the names of the surfaces that are drawn with a path
         then      the value that curves keep after the range
         up        the ends of the vertical axis of curves, outside of which they are not drawn
+        energies  the energies whose lines a potential energy shows
         per       the quantities by which the axes of a plot are divided
         panels    whether curves are together in one panel or apart; None if derive decides
     levels, over   for a phase portrait: the value on each curve, and the ranges of the two axes; `over` of a
@@ -80,6 +81,7 @@ class Placement:
     range: Range | None = field(default=None, repr=False)
     then: Formula | None = None
     up: Range | None = field(default=None, repr=False)
+    energies: tuple[Formula, ...] = ()
     per: tuple[Formula, ...] = ()
     cases: tuple[tuple[Measured, ...], ...] = ()
     like: Word | None = None
@@ -140,6 +142,7 @@ def placements(
             range=Range(written.ends) if written.ends else None,
             then=written.then,
             up=Range(written.up) if written.up else None,
+            energies=written.energies,
             per=written.per,
             cases=tuple(read_numbers(case, symbols, faults) for case in written.cases),
             like=written.like,

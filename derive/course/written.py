@@ -342,6 +342,11 @@ class DrawingKeys(Record):
         "the two ends of the vertical axis of curves, such as `[-1 J, 2 J]`; by default, the axis shows whole curves",
         ENDS,
     )
+    energies: tuple[Formula, ...] = key(
+        "for the curve of a potential energy: energies such as `[-3/8*G*M*m/r_0]`, each drawn as a horizontal line "
+        "where a motion with this energy is possible",
+        list_of(FORMULA, "a list of energies such as `[m*g*l/2]`", each="an energy"),
+    )
     per: tuple[Formula, ...] = key(
         "the quantities by which the two axes of a plot are divided, such as `[r_0, G*M*m/r_0]`: answers or formulas, "
         "the horizontal axis first; `1` leaves an axis in its unit; a phase portrait needs a third one for its levels",

@@ -317,6 +317,7 @@ class Plot:
     then             the value that the curves keep after their range
     per              the quantities by which the axes are divided, each with its name: horizontal, vertical, and for a
                      phase portrait the energy of the levels
+    energies         energies whose lines the curve of a potential energy shows
     """
 
     key: str
@@ -337,6 +338,7 @@ class Plot:
     places: tuple[tuple[Any, Any], ...] = ()
     then: Any = None
     per: tuple[tuple[Any, Any], ...] = ()
+    energies: tuple[Any, ...] = ()
 
     @property
     def each(self) -> tuple[Plot, ...]:
@@ -370,7 +372,7 @@ class Plot:
         outlines = [value for each in self.outlines for value in (each.expr, *each.corners)]
         in_plane = {letter for each in self.outlines for letter in each.plane}
         kept = () if self.then is None else (self.then,)
-        divisors = [value for _, value in self.per]
+        divisors = [*(value for _, value in self.per), *self.energies]
         return letters_in((*self.shown, *others, *kept, *self.values, *outlines, *divisors)) - in_plane
 
     @property

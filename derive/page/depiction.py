@@ -593,7 +593,16 @@ def _curves(problem: Problem, plot: m.Plot, placement: Placement | None, words: 
         own = {"letter": letter, "numbers": joined(numbers, last), "turns": turns, "count": len(curve.extrema)}
         own["own_name"] = _named(curve.label) if curves.labels_differ else ()
         told.append(filled(words.drawings["curve"], own))
+        told += [filled(words.drawings["height"], each) for each in _heights(curve, curves)]
     return _spaced([*told, *_shared(curves, words)])
+
+
+def _heights(curve: Curve, curves: Curves) -> Iterator[dict[str, Any]]:
+    """Yield the names for the words about each horizontal line of a potential energy."""
+    for energy, ranges in curve.heights:
+        for start, end in ranges:
+            ends = [with_unit(x * curves.variable.per_unit, curves.variable.unit) for x in (start, end)]
+            yield {"value": with_unit(energy * curves.up.per_unit, curves.up.unit), "start": ends[0], "end": ends[1]}
 
 
 def _divided(label: Any, axis: Axis) -> Any:

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from itertools import pairwise
 from math import dist
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -58,6 +59,7 @@ class Curve:
     diagram  the branches of a bifurcation diagram
     places   the values of the variable for which the solution has a symbol, with these symbols
     then     the value that the curve keeps after its range
+    heights  energies at which a line is drawn: each with the ends of the ranges where the curve is lower
     """
 
     expr: Expr
@@ -74,6 +76,7 @@ class Curve:
     diagram: Bifurcations | None = None
     places: tuple[tuple[Any, float], ...] = ()
     then: float | None = None
+    heights: tuple[tuple[float, Path], ...] = ()
 
     @cached_property
     def spots(self) -> Path:
@@ -446,7 +449,18 @@ def _curve(
         then = None if plot.then is None else float(plot.then.xreplace(numbers))
         if then is not None and abs(float(expr.subs(plot.variable, upper)) - then) > NEAR * (abs(then) or 1.0):
             rejected("wrong-argument", f"a curve of `{plot.key}` does not end at the value of `then`", None)
-        return Curve(expr, plot.variable, lower, upper, own, found, plot.label, places=places, then=then)
+        energies = [expr_of.xreplace(numbers) for expr_of in plot.energies]
+        heights = tuple((float(energy), _below(expr, energy, plot.variable, lower, upper)) for energy in energies)
+        return Curve(
+            expr, plot.variable, lower, upper, own, found, plot.label, places=places, then=then, heights=heights
+        )
+
+
+def _below(expr: Expr, energy: Expr, variable: Symbol, lower: float, upper: float) -> Path:
+    """Return the ranges of the variable in which a potential energy is less than an energy."""
+    crossed = [lower, *zeros(expr - energy, variable, lower, upper), upper]
+    lowest = [float((expr - energy).subs(variable, (one + other) / 2)) < 0 for one, other in pairwise(crossed)]
+    return tuple(both for both, is_below in zip(pairwise(crossed), lowest, strict=True) if is_below)
 
 
 def with_names(found: Sequence[Extremum], places: Sequence[tuple[Any, float]], near: float) -> tuple[Extremum, ...]:

@@ -96,6 +96,7 @@ class Panel:
     changes          the bifurcations
     shape            height divided by width; None for the usual shape
     points           zeros of a curve, or points at which two curves meet, with their names
+    heights          horizontal lines at energies, from one end to the other
     is_signed        whether a curve changes its sign, so that a thin line shows zero
     has_open         whether the dots of maxima are open, because they are unstable equilibria
     """
@@ -115,6 +116,7 @@ class Panel:
     branches: tuple[tuple[str, tuple[Part, ...]], ...] = ()
     changes: tuple[Mark, ...] = ()
     points: tuple[tuple[Spot, str], ...] = ()
+    heights: tuple[tuple[Spot, Spot], ...] = ()
     is_signed: bool = False
     has_open: bool = False
 
@@ -195,6 +197,7 @@ def curve_panel(
     below, above = (tall * (_room(len(lowest), height) if kind in lowest else MARGIN) for kind in (True, False))
     below, above = (0.0, 0.0) if curves.ends_up else (below, above)
     power_up = _power(low, high, curves.up)
+    across_by, up_by = curves.variable.per_unit, curves.up.per_unit
     return Panel(
         traces=traces,
         values=(start, low - below, end, high + above),
@@ -209,6 +212,12 @@ def curve_panel(
             _point(*each, curves, own, across, notation)
             for each in curves.points(own)
             if not _is_tick_at_end(each, across, curves)
+        ),
+        heights=tuple(
+            ((start * across_by, energy * up_by), (end * across_by, energy * up_by))
+            for curve in own
+            for energy, ranges in curve.heights
+            for start, end in ranges
         ),
         is_signed=low < -BARELY * tall and high > BARELY * tall,
         has_open=curves.has_unstable,

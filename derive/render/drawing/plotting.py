@@ -454,7 +454,7 @@ def _beside_turn(spot: Spot, is_lowest: bool, size: tuple[float, float], paper: 
 
 def _dots_of_thin_lines(panel: Panel, frame: Frame) -> list[Spot]:
     """Return points of the line at zero and of the lines from the extrema to the horizontal axis."""
-    lines = [frame.spots(_line_to_axis(turn, frame)) for turn in panel.turns]
+    lines = [frame.spots(line) for line in (*(_line_to_axis(turn, frame) for turn in panel.turns), *panel.heights)]
     if panel.is_signed:
         zero = frame.spot((0.0, 0.0))[1]
         lines.append(((frame.paper[0], zero), (frame.paper[2], zero)))
@@ -527,6 +527,8 @@ def _pieces(panel: Panel, frame: Frame, gaps: Sequence[tuple[int, Extent]]) -> I
         yield Stroke(((left, zero), (right, zero)), "thin")
     for turn in panel.turns:
         yield Stroke(frame.spots(_line_to_axis(turn, frame)), "hidden")
+    for line in panel.heights:
+        yield Stroke(frame.spots(line), "level")
     yield from line_of(panel, frame, gaps)
     yield Stroke(((left, above), (left, below), (right, below)), "frame")
     for x, _ in panel.across:

@@ -84,12 +84,17 @@ class Plotted:
         self._keep(unit)
 
     def measure(self) -> None:
-        """Add the quantities by which the axes are divided to the recorded plot."""
+        """Add the energies of lines and the quantities by which the axes are divided to the recorded plot."""
         run, written = current_run.get(), self.drawing.per
-        if run is None or not written:
+        if run is None or not (written or self.drawing.energies):
             return
         found = run.drawings.pop()
         assert isinstance(found, Plot)
+        if self.drawing.energies:
+            found = self._with_energies(found)
+        if not written:
+            run.drawings.append(found)
+            return
         if found.diagram is not None:
             message = "`per` has no effect on a bifurcation diagram"
             rejected("wrong-argument", message, written[0].place, "write a ratio in `against`")
@@ -107,6 +112,20 @@ class Plotted:
             per.append((shown.label, shown.expr))
             keys += shown.keys
         run.drawings.append(replace(found, per=tuple(per), keys=tuple(dict.fromkeys(keys))))
+
+    def _with_energies(self, found: Plot) -> Plot:
+        """Return the plot with the energies of its lines, which must be the curve of an energy."""
+        written = self.drawing.energies
+        shown = [self._shown(each.scalar) for each in written]
+        energy = dimension_of_kind("energy")
+        if found.across or found.levels or found.diagram or found.others or _dimension(found.unit_up) != energy:
+            message = f"`energies` has no effect on `{found.key}`, which is not the curve of an energy"
+            rejected("wrong-argument", message, written[0].place, "leave it out")
+        for each, node in zip(shown, written, strict=True):
+            if each.expr != 0 and _dimension(each.unit) != energy:
+                rejected("wrong-argument", f"`{node}` is in {each.unit or 'no unit'}, not in J", node.place)
+        keys = tuple(dict.fromkeys((*found.keys, *(key for each in shown for key in each.keys))))
+        return replace(found, energies=tuple(each.expr for each in shown), keys=keys)
 
     def _curves(self, answers: Sequence[Word], against: Word, ends: Range) -> None:
         """Draw the curves of several answers, which must have the same unit because they share the vertical axis."""
