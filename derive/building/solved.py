@@ -82,6 +82,7 @@ def steps_key(problem: Problem) -> str:
         for d in problem.drawings
         if d.is_of_engine or d.key in ON_REQUEST
     ]
-    marks = [(d.key, d.like, [mark.written for mark in d.marks]) for d in problem.drawings if d.marks or d.like]
+    marked = [each for each in problem.drawings if each.marks or each.like or each.without]
+    marks = [(d.key, d.like, d.without, [mark.written for mark in d.marks]) for d in marked]
     read = (problem.reference, repr(problem.limits), repr(observed), repr(plots), repr(marks))
     return digest("steps", engine_digest("sympy", "mpmath"), *texts, *read, repr(facts))

@@ -54,6 +54,7 @@ class Placement:
         view      the azimuth and the elevation of the direction from which a drawing in space is seen, in degrees
         like      the name of the drawing whose contents this further drawing repeats
         marks     the marks that the problem adds to the drawing
+        without   the labels of marks that the drawing leaves out
         plot      one answer, whose curve the engine draws, or two answers or formulas, whose path the engine draws
         curves    several answers, whose curves the engine draws in one plot
         labels    the names of the axes of a path, in place of its formulas
@@ -86,6 +87,7 @@ class Placement:
     cases: tuple[tuple[Measured, ...], ...] = ()
     like: Word | None = None
     marks: tuple[MarkKeys, ...] = ()
+    without: tuple[Word, ...] = ()
     plot: tuple[Formula, ...] = ()
     curves: tuple[Word, ...] = ()
     labels: tuple[Word, ...] = ()
@@ -147,6 +149,7 @@ def placements(
             cases=tuple(read_numbers(case, symbols, faults) for case in written.cases),
             like=written.like,
             marks=written.marks,
+            without=written.without,
             plot=written.plot or (),
             curves=written.curves,
             labels=written.labels,

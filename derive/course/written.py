@@ -286,6 +286,11 @@ class DrawingKeys(Record):
         "mass, a length, a velocity or an angle. Marks of a body under a new name make a further drawing of it",
         MARKS_OF_DRAWING,
     )
+    without: tuple[Word, ...] = key(
+        "if `solve` is `system`, `body` or `rotation`: letters such as `[x, y]`; the drawing leaves out the marks that "
+        "have them as labels, such as dimension lines in a figure of forces",
+        list_of(TEXT, "a list of letters such as `[x, y]`", each="a letter"),
+    )
     view: tuple[float, float] | None = key(
         "for a drawing in space: the direction from which it is seen, `front` (from x), `side` (from -y), `top` (from "
         "z) or its angles; by default `{azimuth: 25, elevation: 18}` or, if something would be hidden, a better view",

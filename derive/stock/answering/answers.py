@@ -147,7 +147,7 @@ class StockAnswers(Answers[W]):
     def mark(self, drawings: Sequence[Placement]) -> None:
         """Add the marks of the problem to the drawings, and make the further drawings that are like another one."""
         for drawing in drawings:
-            if drawing.adds or drawing.like:
+            if drawing.adds or drawing.like or drawing.without:
                 Marked(drawing, self.place_of_mark).add()
 
     def place_of_mark(self, node: Tree, name: str, letters: InLetters) -> MatrixBase:
