@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 SUFFIXES = ("pdf", "svg")
 POINTS_PER_CM = 72 / 2.54
 WIDTH, HEIGHT = 5.0, 4.2  # centimetres, without labels
-BESIDE_STATEMENT = 0.82  # the height of a drawing of the statement, divided by the usual height
+BESIDE_STATEMENT = 0.74  # the height of a drawing of the statement, divided by the usual height
 WIDE, LOW = 7.0, 0.4  # a drawing without a given width is made WIDE if its height is at most LOW times its width
 # A drawing without a given width is made larger if the position of a label costs more than CROWDED, or if the drawing
 # has at least MANY labels and more than DENSE labels per square centimetre. It is not made larger if the greatest cost

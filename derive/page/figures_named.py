@@ -2,9 +2,9 @@
 
 A figure that no text of the author mentions is mentioned in parentheses at the end of the sentence before it, or, if
 the part begins with the figure, of the first sentence after it. If the sentence before it leads to a formula, a plot or
-a normal mode has a sentence of its own after the formula: "Figure 2 shows x as a function of t." A figure of forces is
-mentioned at the start of the sentence after it, which leads to the equations: "With the forces in Figure 2, the upward
-component is".
+a normal mode has a sentence of its own at the start of the next paragraph: "Figure 2 shows x as a function of t." A
+figure of forces is mentioned at the start of the sentence after it, which leads to the equations: "With the forces in
+Figure 2, the upward component is".
 """
 
 from __future__ import annotations
@@ -32,14 +32,15 @@ def figures_mentioned(
     """
     found: list[Block] = []
     waiting: list[Illustration] = []  # figures before the first sentence of the part
+    told: tuple[Inline, ...] = ()  # a sentence about the figures before, which begins the next paragraph
     groups = [list(group) for _, group in groupby(blocks, lambda block: isinstance(block, Illustration))]
     for together, following in zip(groups, [*groups[1:], []], strict=True):
         if not isinstance(together[0], Illustration):
             forces = [each for each in waiting if _shows_forces(drawings[each.key])]
             others = [each for each in waiting if each not in forces]
             together = _after_figures(together, others, words) if others else together
-            found += _with_forces(together, forces, words) if forces else together
-            waiting = []
+            found += _with_forces(together, forces, words) if forces else _after(told, together)
+            waiting, told = [], ()
             continue
         shown = [each for each in together if isinstance(each, Illustration)]
         new = [each for each in shown if each.number is not None and each.key not in mentioned]
@@ -48,7 +49,8 @@ def figures_mentioned(
         ends_with_formula = bool(found) and isinstance(found[-1], Display)
         can_tell = ends_with_formula and (not following or _begins_a_sentence(following))
         if new and can_tell and (said := _shown([drawings[each.key] for each in new], new, words)):
-            found.append(Paragraph(said))
+            told = said if following else ()
+            found += [] if following else [Paragraph(said)]
         elif new and not is_before_equations and (at := _sentence_before(found)) is not None:
             found[at] = _with_mention(found[at], new, words)
         else:
@@ -59,6 +61,14 @@ def figures_mentioned(
 
 def _shows_forces(drawing: m.Recorded) -> bool:
     return isinstance(drawing, m.Drawing) and drawing.forces_on is not None
+
+
+def _after(said: tuple[Inline, ...], blocks: list[Block]) -> list[Block]:
+    """Return the blocks, of which the first paragraph begins with a sentence."""
+    first = blocks[0]
+    return (
+        [Paragraph((*said, Text(" "), *first.nodes)), *blocks[1:]] if said and isinstance(first, Paragraph) else blocks
+    )
 
 
 def _shown(drawn: Sequence[m.Recorded], figures: Sequence[Illustration], words: Phrases) -> tuple[Inline, ...]:

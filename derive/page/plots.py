@@ -260,10 +260,10 @@ def _matters(
 def _divided_values(
     plot: Plot, numbers: Mapping[Any, Expr], first: Mapping[Any, Expr], ends: Sequence[Expr], share: float
 ) -> list[complex]:
-    """Return the values of a plot divided by its units at one place, whose position is fixed for the numbers `first`
-    in units of the axes."""
+    """Return the values of a plot divided by its units at one place: for a path, at a part of its range, otherwise at a
+    position that is fixed for the numbers `first` in units of the axes."""
     divisors = [[expr.xreplace(each) for _, expr in plot.per] for each in (numbers, first)]
-    lower, upper = (end.xreplace(first) for end in ends[:2])
+    lower, upper = (end.xreplace(numbers if plot.across else first) for end in ends[:2])
     at = lower + share * (upper - lower)
     moved = {plot.variable: at if plot.across else at * divisors[0][0] / divisors[1][0]}
     if plot.levels is not None:

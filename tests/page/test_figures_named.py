@@ -52,6 +52,6 @@ def test_a_figure_without_a_number_and_one_that_is_mentioned_have_no_sentence() 
 def test_a_plot_after_a_formula_has_a_sentence_of_its_own() -> None:
     formula = Display(())
     said = told(Paragraph((Text("The energy is"),)), formula, figure("curve", 2), Paragraph((Text("It is least"),)))
-    assert said == ["The energy is", "*", "Figure 2 shows U as a function of x.", "*", "It is least"]
+    assert said == ["The energy is", "*", "*", "Figure 2 shows U as a function of x. It is least"]
     said = told(Paragraph((Text("The energy is"),)), formula, figure("curve", 2), Paragraph((Text("and the force"),)))
     assert said == ["The energy is (Figure 2)", "*", "*", "and the force"], "the sentence goes on"

@@ -513,10 +513,10 @@ def _labels(own: Sequence[Curve]) -> tuple[Any, ...]:
 
 def _axis_name(symbols: Sequence[Any], axis: Axis, notation: Notation, power: int = 0, inline: bool = False) -> str:
     """Return the name of an axis, a quantity divided by its unit or by another quantity, and by a power of ten if there
-    is one: `U / J`, `v / (m/s)`, `U / (10^33 J)`, `r / r_0`. A quantity that is divided by pi/omega has a formula
-    without this fraction, `omega t/pi`."""
+    is one: `U / J`, `v / (m/s)`, `U / (10^33 J)`, `r / r_0`. A quantity that is divided by 1/omega has a formula
+    without this fraction, `omega t`."""
     layouts = [notation.layout(symbol) for symbol in symbols]
-    if axis.per is not None and len(symbols) == 1 and not fraction(axis.per)[0].free_symbols:
+    if axis.per is not None and len(symbols) == 1 and fraction(axis.per)[0] == 1:
         return f"${_mathtext(notation.layout(symbols[0] / axis.per), inline=True)}$"
     name = r",\,".join(_mathtext(layout, inline) for layout in layouts)
     divided = "" if axis.per is None else _mathtext(notation.layout(axis.per), inline=True)
