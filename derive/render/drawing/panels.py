@@ -41,6 +41,7 @@ FEWEST = 3  # least number of ticks, if smaller steps can give it
 AT_TICK = 1e-5  # greatest distance of a place from its tick, divided by the distance of the outermost ticks
 USUAL = (-2, 4)  # numbers at an axis have no factor 10^n if the power of ten of the greatest number is in this range
 
+_ROOT = re.compile(r"\\sqrt\{(?:[^{}]|\{[^{}]*\})*\}")
 _NAMED = re.compile(r"(?P<stem>[A-Za-z]+)_(?P<subscript>.+?)(?P<rate>_d+ot)?")  # such as x_1 or phi_1_dot
 
 Ticks: TypeAlias = tuple[tuple[float, str], ...]
@@ -522,7 +523,11 @@ def _axis_name(symbols: Sequence[Any], axis: Axis, notation: Notation, power: in
     divided = "" if axis.per is None else _mathtext(notation.layout(axis.per), inline=True)
     unit = [divided] if divided else [_mathtext_of_unit(axis.unit)] if axis.unit else []
     parts = [*([f"10^{{{power}}}"] if power else []), *unit]
-    is_product = len(parts) > 1 or any(sign in axis.unit for sign in " /") or bool(divided and axis.per.is_Mul)
+    is_product = (
+        len(parts) > 1
+        or any(sign in axis.unit for sign in " /")
+        or bool(divided and axis.per.is_Mul and not _ROOT.fullmatch(divided))
+    )
     divisor = r"\,".join(parts)
     divisor = f"({divisor})" if is_product else divisor
     over = rf"\,/\,{divisor}" if divisor else ""
