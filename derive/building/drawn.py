@@ -12,7 +12,7 @@ from sympy import Symbol
 
 from derive.algebra.expressions import explicit
 from derive.building.cache import Cache, digest, engine_digest
-from derive.course.placement import Placement
+from derive.course.placement import STATEMENT, Placement
 from derive.course.problem import Problem
 from derive.errors import Rejected
 from derive.figures.encoding import drawings_to_data
@@ -33,6 +33,7 @@ if TYPE_CHECKING:
 SUFFIXES = ("pdf", "svg")
 POINTS_PER_CM = 72 / 2.54
 WIDTH, HEIGHT = 5.0, 4.2  # centimetres, without labels
+BESIDE_STATEMENT = 0.74  # the height of a drawing of the statement, divided by the usual height
 WIDE, LOW = 7.0, 0.4  # the default width of a drawing that is low
 # A drawing without a given width is made larger if its labels are crowded: the position of one costs more than CROWDED,
 # or there are at least MANY labels and more than DENSE per square centimetre.
@@ -78,12 +79,13 @@ def _files(
     else:
         known = numbers_of(problem, placement, drawing)
         told = sorted(_within(data, known))
-    seen = data, told, _within(data, notation.known_dimensions), width, alt, notation.sign
+    shape = HEIGHT / WIDTH * (BESIDE_STATEMENT if shown.at == STATEMENT and width is None else 1.0)
+    seen = data, told, _within(data, notation.known_dimensions), width, shape, alt, notation.sign
     key = digest("drawing", engine_digest("matplotlib"), repr(seen))
     svg, zero, pdf = (cache.get(key) or b"").partition(b"\0")
     if not zero:
         try:
-            on_paper, on_screen = _drawn(drawing, known, notation, words, width, alt, cache)
+            on_paper, on_screen = _drawn(drawing, known, notation, words, (width, shape), alt, cache)
         except Rejected as error:  # the error of a mark does not name a place in the file
             place = placement.place if placement else problem.place_of("solve")
             raise Rejected(replace(c, place=c.place or place) for c in error.complaints) from None
@@ -104,11 +106,15 @@ def _drawn(
     seen: Mapping[Symbol, float] | Curves,
     notation: Notation,
     words: Phrases,
-    width: float | None,
+    size: tuple[float | None, float],
     alt: str,
     cache: Cache,
 ) -> tuple[Sheet, Sheet]:
-    """Return the drawing twice: with the font of a PDF, and with the font of formulas in a browser."""
+    """Return the drawing twice: with the font of a PDF, and with the font of formulas in a browser.
+
+    size   the given width, if there is one, and the height divided by the width
+    """
+    width, shape = size
     from derive.render.drawing.lettering import PAPER, SCREEN
 
     on_paper, on_screen = (partial(_letters, cache, font) for font in (PAPER, SCREEN))
@@ -127,13 +133,13 @@ def _drawn(
         sizes = OF_MODES
     made = []
     for wide in sizes:
-        pieces = picture(what, Numbers(seen), wide, (width or WIDTH) * HEIGHT / WIDTH)
+        pieces = picture(what, Numbers(seen), wide, (width or WIDTH) * shape)
         made.append((sheet_of(pieces, notation, alt, on_paper), pieces))
         if made[-1][0].height > LOW * made[-1][0].width:
             break
     sheet, pieces = made[-1]
     if not width and len(made) == 1 and what.mode is None and _is_crowded(sheet):
-        pieces = picture(what, Numbers(seen), WIDE, WIDE * HEIGHT / WIDTH)
+        pieces = picture(what, Numbers(seen), WIDE, WIDE * shape)
         larger = sheet_of(pieces, notation, alt, on_paper)
         sheet, pieces = (larger, pieces) if larger.crowding <= sheet.crowding + SLIGHT else made[0]
     return sheet, sheet_of(pieces, notation, alt, on_screen)

@@ -77,10 +77,11 @@ def steps_key(problem: Problem) -> str:
     facts = (problem.id, problem.givens, problem.described, problem.symbols, problem.measured, problem.figures, asked)
     observed = (problem.observations, [part.observations for part in problem.parts])
     plots = [
-        (d.key, d.plot, d.curves, d.labels, d.surfaces, d.against, d.range, d.then, d.levels, d.over)
+        (d.key, d.plot, d.curves, d.labels, d.surfaces, d.against, d.range, d.then, d.levels, d.over, d.per, d.energies)
         for d in problem.drawings
         if d.is_of_engine or d.key in ON_REQUEST
     ]
-    marks = [(d.key, d.like, [mark.written for mark in d.marks]) for d in problem.drawings if d.marks or d.like]
+    marked = [each for each in problem.drawings if each.marks or each.like or each.without]
+    marks = [(d.key, d.like, d.without, [mark.written for mark in d.marks]) for d in marked]
     read = (problem.reference, repr(problem.limits), repr(observed), repr(plots), repr(marks))
     return digest("steps", engine_digest("sympy", "mpmath"), *texts, *read, repr(facts))

@@ -54,12 +54,15 @@ class Placement:
         view      the azimuth and the elevation of the direction from which a drawing in space is seen, in degrees
         like      the name of the drawing whose contents this drawing repeats
         marks     the marks that the problem adds to the drawing
+        without   the labels of marks that the drawing leaves out
         plot      the plotted answer, or the two answers or formulas of a path
         curves    several answers that are plotted together
         labels    the names of the axes of a path, in place of its formulas
         surfaces  the names of the surfaces that are drawn with a path
         then      the value that curves keep after the range
         up        the ends of the vertical axis of curves
+        energies  the energies whose lines a potential energy shows
+        per       the quantities by which the axes of a plot are divided
         panels    whether curves are together in one panel or apart; None by default
     levels, over   for a phase portrait: the value on each curve, and the ranges of the two axes; for a bifurcation
                    diagram, `over` has the range of the vertical axis
@@ -79,9 +82,12 @@ class Placement:
     range: Range | None = field(default=None, repr=False)
     then: Formula | None = None
     up: Range | None = field(default=None, repr=False)
+    energies: tuple[Formula, ...] = ()
+    per: tuple[Formula, ...] = ()
     cases: tuple[tuple[Measured, ...], ...] = ()
     like: Word | None = None
     marks: tuple[MarkKeys, ...] = ()
+    without: tuple[Word, ...] = ()
     plot: tuple[Formula, ...] = ()
     curves: tuple[Word, ...] = ()
     labels: tuple[Word, ...] = ()
@@ -136,9 +142,12 @@ def placements(
             range=Range(written.ends) if written.ends else None,
             then=written.then,
             up=Range(written.up) if written.up else None,
+            energies=written.energies,
+            per=written.per,
             cases=tuple(read_numbers(case, symbols, faults) for case in written.cases),
             like=written.like,
             marks=written.marks,
+            without=written.without,
             plot=written.plot or (),
             curves=written.curves,
             labels=written.labels,

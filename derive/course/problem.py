@@ -325,6 +325,12 @@ def _check_panels(drawing: Placement, faults: Faults) -> None:
     if drawing.then and (len(drawing.plot) == 2 or drawing.is_diagram or drawing.levels or drawing.against != "t"):
         message = f"`then` has no effect on `{drawing.key}`, which is not a plot of curves against `t`"
         faults.error("unused-key", message, drawing.then.place, help="leave it out")
+    of_plots = [("per", drawing.per), ("energies", drawing.energies)]
+    for name, listed in [*of_plots] if not drawing.is_of_engine else [("without", drawing.without)]:
+        if listed:
+            what = "is a plot" if drawing.is_of_engine else "is not a plot of an answer"
+            message = f"`{name}` has no effect on `{drawing.key}`, which {what}"
+            faults.error("unused-key", message, listed[0].place, help="leave it out")
     for name, words in (("labels", drawing.labels), ("surfaces", drawing.surfaces)):
         if words and len(drawing.plot) != 2:
             message = f"`{name}` has no effect on `{drawing.key}`, which is not a path"

@@ -83,7 +83,15 @@ def _drawn(drawing: DrawingKeys) -> Iterator[str]:
         yield from _NAME.findall(mark.label or "")
     ends = [end for both in drawing.over.values() for end in both]
     alone = (drawing.against or "", drawing.then or "")
-    for formula in (*(drawing.plot or ()), *alone, *drawing.levels, *(drawing.ends or ()), *ends):
+    for formula in (
+        *(drawing.plot or ()),
+        *alone,
+        *drawing.per,
+        *drawing.energies,
+        *drawing.levels,
+        *(drawing.ends or ()),
+        *ends,
+    ):
         yield from _NAME.findall(formula)
 
 

@@ -285,6 +285,11 @@ class DrawingKeys(Record):
         "mass, a length, a velocity or an angle. Marks of a body under a new name make a further drawing of it",
         MARKS_OF_DRAWING,
     )
+    without: tuple[Word, ...] = key(
+        "if `solve` is `system`, `body` or `rotation`: letters such as `[x, y]`; the drawing leaves out the marks that "
+        "have them as labels, such as dimension lines in a figure of forces",
+        list_of(TEXT, "a list of letters such as `[x, y]`", each="a letter"),
+    )
     view: tuple[float, float] | None = key(
         "for a drawing in space: the direction from which it is seen, `front` (from x), `side` (from -y), `top` (from "
         "z) or its angles; by default `{azimuth: 25, elevation: 18}` or, if something would be hidden, a better view",
@@ -340,6 +345,16 @@ class DrawingKeys(Record):
     up: tuple[Formula, ...] | None = key(
         "the two ends of the vertical axis of curves, such as `[-1 J, 2 J]`; by default, the axis shows whole curves",
         ENDS,
+    )
+    energies: tuple[Formula, ...] = key(
+        "for the curve of a potential energy: energies such as `[-3/8*G*M*m/r_0]`, each drawn as a horizontal line "
+        "where a motion with this energy is possible",
+        list_of(FORMULA, "a list of energies such as `[m*g*l/2]`", each="an energy"),
+    )
+    per: tuple[Formula, ...] = key(
+        "the quantities by which the two axes of a plot are divided, such as `[r_0, G*M*m/r_0]`: answers or formulas, "
+        "the horizontal axis first; `1` leaves an axis in its unit; a phase portrait needs a third one for its levels",
+        list_of(FORMULA, "a list of quantities such as `[r_0, G*M*m/r_0]`", each="a quantity"),
     )
     cases: tuple[dict[Word, Tree], ...] = key(
         "numbers for letters, one mapping for each curve of a plot; a later mapping needs only the numbers that differ "

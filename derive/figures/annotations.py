@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import pairwise
-from math import acos, cos, degrees, hypot, pi, sin
+from math import acos, cos, degrees, hypot, pi, radians, sin
 from typing import Any, ClassVar
 
 from sympy import MatrixBase
@@ -41,6 +41,8 @@ SHORT = 3  # the components of a point are described only if they contain at mos
 RING = 0.16  # radius of a rotation arrow round an axis, relative to the size of the body
 HOLLOW = 2.3  # radius of the circle for a point on a body, in points
 EYE = 3.4  # radius of the circle for an axis along the line of sight, in points
+POSITIVE = 26.0, 11.0  # in points: distance from a particle to its arrow of a positive direction, and half its length
+AROUND_BODY = 115, 169  # in degrees: the part of a circle that the arrow of a positive rotation covers
 ROUND = 10.0  # least radius of a rotation arrow, in points
 STAND, CLEARANCE = 16.0, 8.0  # least height of a support, and least height of a body above the ground, in points
 
@@ -332,6 +334,49 @@ class ForceArrow(Arrow):
 
     def _length(self, paper: Paper) -> float:
         return paper.numbers.of(self.size) * FORCE / paper.scale
+
+
+@dataclass(frozen=True)
+class PositiveDirection(_Single):
+    """A thin arrow beside a particle in the direction in which a coordinate grows."""
+
+    along: Position
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        at, along = paper.numbers.vector(self.at), unit(paper.numbers.vector(self.along))
+        (x, y), ahead = paper.spots(at, plus(at, along, paper.reach))
+        u, v = direction((x, y), ahead)
+        off, half = POSITIVE
+        across, up = _square_to((u, v), (-1.0, 0.0))
+        x, y = x + off * across, y + off * up
+        ends = (x - half * u, y - half * v), (x + half * u, y + half * v)
+        return [Stroke(ends, "axis", head=True), Tag(self.label, ends[1], (u, v))]
+
+    def in_words(self) -> InWords | None:
+        return self._if_named("arrow", direction=_components(self.along))
+
+
+@dataclass(frozen=True)
+class PositiveRotation(_Single):
+    """A thin curved arrow around a round body in the plane, in the sense in which its angle grows.
+
+    radius             the radius of the body
+    counterclockwise   whether this sense is counterclockwise
+    """
+
+    radius: Any
+    counterclockwise: bool
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        x, y = paper.spot(paper.numbers.vector(self.at))
+        far = paper.numbers.of(self.radius) * paper.scale + CLEARANCE
+        turns = [radians(degree) for degree in range(*AROUND_BODY, 3)]
+        spots = tuple((x + far * cos(turn), y + far * sin(turn)) for turn in turns)
+        ends = spots if self.counterclockwise else spots[::-1]
+        return [Stroke(ends, "axis", head=True), Tag(self.label, ends[-1], direction((x, y), ends[-1]))]
+
+    def in_words(self) -> InWords | None:
+        return self._if_named("turn")
 
 
 @dataclass(frozen=True)

@@ -18,7 +18,7 @@ from derive.algebra.derivatives import derivative
 from derive.algebra.expressions import as_expr, explicit, rate, scalar
 from derive.algebra.ranges import fulfilling, rational_in_range
 from derive.algebra.tidy import tidied
-from derive.figures.annotations import FORCE, ForceArrow, PointMark
+from derive.figures.annotations import FORCE, ForceArrow, PointMark, PositiveDirection, PositiveRotation
 from derive.figures.connections import Connections, connections_of, distance_of
 from derive.figures.links import Link, angle_of_link, is_fixed, same
 from derive.figures.marks import Drawing, Mark
@@ -231,6 +231,22 @@ def draw_alone(system: System, bodies: Sequence[BodyAlone]) -> list[Drawing]:
     ]
 
 
+def _positive(system: System, alone: BodyAlone) -> Iterator[Mark]:
+    """Yield the positive direction of the coordinate of a particle whose forces are on one line, and the positive sense
+    of the angle of a round body, in a plane."""
+    of = alone.of
+    if _is_on_a_line(alone):
+        moving = [q for q in system.coordinates if any(derivative(c, q) != 0 for c in of.at.components)]
+        way = ImmutableDenseMatrix([derivative(c, q) for q in moving[:1] for c in of.at.components])
+        if len(moving) == 1 and not coordinates_in(way) and is_zero(way.dot(way) - 1):
+            yield PositiveDirection(column_of(of.at), way, label=moving[0])
+    turned = of.turned if isinstance(of, PlacedBody) and of.is_plane else None
+    angle = next((each for each in (turned, -turned) if each.is_Symbol), None) if isinstance(turned, Expr) else None
+    for mark in _outline(of) if angle is not None else ():
+        if isinstance(mark, WheelMark):
+            yield PositiveRotation(mark.centre, mark.radius, bool(angle == turned), label=angle)
+
+
 def _is_on_a_line(alone: BodyAlone) -> bool:
     """Whether a particle in a plane has forces along one line only."""
     if not isinstance(alone.of, Particle) or any(len(each.way) != 2 for each in alone.forces):
@@ -267,7 +283,7 @@ def _diagram(system: System, alone: BodyAlone, shares: Sequence[Rational], scene
         arrows[0] = replace(arrows[0], inside=True)
     angles = _angles(system, of, list(zip(drawn, lengths, strict=True)))
     values = {**scene.values, **stance_values(system)}
-    marks = [*outline, *_surfaces(touched, of), *arrows, *angles]
+    marks = [*outline, *_surfaces(touched, of), *arrows, *angles, *_positive(system, alone)]
     mass = None if isinstance(of, Pulley) else explicit(_mass(of))
     return drawing(alone.key, marks, values=values, leads_to=alone.leads_to, forces_on=mass, body_size=size)
 

@@ -114,7 +114,7 @@ class ShownMode:
     sort        "oscillating", "growing" or "free"
     degenerate  whether other modes have the same frequency
     lengths     what the lengths of the arrows show: "to_scale"; "of_letters" if the ratio of the displacements depends
-                on letters without numbers; "longer" if the arrow of a small displacement is longer than in this ratio;
+                on letters without numbers; "without_small" if a displacement is too small for an arrow;
                 or "alone" for a single mass
     letters     the letters on which the ratio depends
     moves       for each mass, in order: the mass; the directions of its displacement, such as ("right", "up"), or () at
@@ -315,6 +315,9 @@ class Plot:
     diagram          the equilibria of a bifurcation diagram, in which `label` is their coordinate
     places           the values of the variable for which the solution has a symbol, such as r_0, with these symbols
     then             the value that the curves keep after their range
+    per              the quantities by which the axes are divided, each with its name: horizontal, vertical, and for a
+                     phase portrait the energy of the levels
+    energies         energies whose lines the curve of a potential energy shows
     """
 
     key: str
@@ -334,6 +337,8 @@ class Plot:
     diagram: Diagram | None = None
     places: tuple[tuple[Any, Any], ...] = ()
     then: Any = None
+    per: tuple[tuple[Any, Any], ...] = ()
+    energies: tuple[Any, ...] = ()
 
     @property
     def each(self) -> tuple[Plot, ...]:
@@ -367,7 +372,8 @@ class Plot:
         outlines = [value for each in self.outlines for value in (each.expr, *each.corners)]
         in_plane = {letter for each in self.outlines for letter in each.plane}
         kept = () if self.then is None else (self.then,)
-        return letters_in((*self.shown, *others, *kept, *self.values, *outlines)) - in_plane
+        divisors = [*(value for _, value in self.per), *self.energies]
+        return letters_in((*self.shown, *others, *kept, *self.values, *outlines, *divisors)) - in_plane
 
     @property
     def ends(self) -> tuple[Any, ...]:

@@ -3,7 +3,7 @@ each mass in the direction of its displacement.
 
 The displacement of a mass is a sum over the coordinates: the derivative of the place of the mass by the coordinate, at
 equilibrium, times the amplitude of the coordinate. The lengths of the arrows are in the ratio of the displacements,
-except that a very short arrow is drawn longer.
+except that a very small displacement has no arrow.
 """
 
 from __future__ import annotations
@@ -43,7 +43,9 @@ __all__ = ["draw_after", "draw_modes"]
 ANGLE = Rational(2, 5)  # approximate angle by which an angle is displaced at most, in radians
 MOVED = Rational(1, 6)  # approximate greatest displacement of a length, relative to the least distance in the system
 # Lengths in points, before the drawing is reduced.
-SHORTEST = 14.0  # the length of the shortest arrow
+# The length of the shortest arrow, if the displacements have no known ratio or if the longest arrow may be longer; the
+# length of a shorter arrow that is still visible.
+SHORTEST, VISIBLE = 14.0, 8.0
 # The usual length of the longest arrow, and its greatest length, used if another arrow would be too short.
 LONGEST = 42.0, 56.0
 ABOVE = 6.0  # the distance between a mass and an arrow next to it
@@ -54,7 +56,7 @@ FREE = 0.8  # the greatest length of an arrow next to its mass, relative to the 
 ALONG = 0.45  # a line is along an arrow if the sine of the angle between them is smaller than this number
 SLIGHT = 1e-9  # a displacement below this size, relative to the greatest, is zero
 ALMOST = 0.26  # a component of a direction below this size is not described
-FREE_MOTION, TO_SCALE = "free", "to_scale"
+FREE_MOTION, TO_SCALE, WITHOUT_SMALL = "free", "to_scale", "without_small"
 SORTS = {1: "oscillating", None: "oscillating", -1: "growing", 0: FREE_MOTION}  # sign of omega^2 -> sort of the mode
 
 
@@ -70,7 +72,8 @@ class DisplacementArrow(Mark):
     clear    the part of the distance to the arrow that scales with the drawing, a length
     off      the other part of this distance, in points; for an arrow that starts at a mass, the radius of the mass
     room     the least distance between two masses, which limits all arrows if one is next to its mass; otherwise None
-    exact    whether the lengths of all arrows are in the ratio of the displacements; otherwise a short arrow is longer
+    exact    whether the lengths of all arrows are in the ratio of the displacements, and a very small displacement has
+             no arrow; otherwise a short arrow is longer
     """
 
     at: Position
@@ -91,6 +94,8 @@ class DisplacementArrow(Mark):
         if size <= SLIGHT * max(sizes):
             return []
         length = size / max(sizes) * self._longest(paper, min(moving) / max(sizes))
+        if self.exact and length < VISIBLE:
+            return []
         length = length if self.exact else max(length, SHORTEST)
         along = direction((0.0, 0.0), paper.spot(way))
         x, y = paper.spot(paper.numbers.vector(self.at))
@@ -322,7 +327,7 @@ class _Displaced:
         is_beside = any(side is not None for side, *_ in besides)
         room = self._least([at for _, at in self.masses]) if is_beside else None
         moved = tuple(self.displacements)
-        keys, exact = self.keys, self.lengths == TO_SCALE
+        keys, exact = self.keys, self.lengths in (TO_SCALE, WITHOUT_SMALL)
         moves = zip(self.displacements, self.rotations, self.masses, besides, strict=True)
         for displacement, turned, (_, at), beside in moves:
             if turned != 0 and not any(displacement):
@@ -398,7 +403,7 @@ class _Displaced:
         """What the lengths of the arrows show, as in `ShownMode`."""
         if len(self.masses) == 1:
             return "alone"
-        return "of_letters" if self.letters else "longer" if self._is_lengthened() else TO_SCALE
+        return "of_letters" if self.letters else WITHOUT_SMALL if self._has_small() else TO_SCALE
 
     @cached_property
     def letters(self) -> tuple[Symbol, ...]:
@@ -407,9 +412,10 @@ class _Displaced:
         ratios = [explicit(with_numbers(tidied(each / squares[0]))) for each in squares[1:]]
         return tuple(sorted(set[Symbol]().union(*(ratio.free_symbols for ratio in ratios)), key=str))
 
-    def _is_lengthened(self) -> bool:
+    def _has_small(self) -> bool:
+        """Whether a displacement is too small for an arrow."""
         sizes = [hypot(*(self.number(c) for c in each)) for each, _ in self._moving]
-        return bool(sizes) and min(sizes) / max(sizes) < SHORTEST / LONGEST[1]
+        return bool(sizes) and min(sizes) / max(sizes) < VISIBLE / LONGEST[1]
 
     def _moves(self) -> tuple[tuple[tuple[Expr, tuple[str, ...], str], ...], str]:
         """Return the masses in order with the directions of their displacements and rotations, and the name of the

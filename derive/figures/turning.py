@@ -43,7 +43,8 @@ def link_marks(system: System, link: Link) -> Iterable[Mark]:
         yield DistanceMark(start, end, up, COIL + CLEAR, label=link.length)
         return
     yield ConnectionMark(start, end, label=link.length)
-    if not any(same(link.start, place) for each in system.between for place in (each.start, each.end)):
+    starts_at_end = any(same(link.start, place) for each in system.between for place in (each.start, each.end))
+    if not starts_at_end and not moving_in(system, *link.start.components) - {TIME}:
         yield PointMark(start)
     if link.is_constant and around and moving_in(system, *link.end.components) - {TIME} == set(around[:1]):
         yield WayMark(end, around[0], -pi, pi)

@@ -24,10 +24,12 @@ from derive.course.placement import HIDDEN, STATEMENT, Placement, case_label
 from derive.course.problem import Problem
 from derive.errors import Complaint, Place, Rejected, did_you_mean
 from derive.figures import marks as m
+from derive.figures.annotations import PositiveDirection, PositiveRotation
 from derive.figures.branches import BranchLine
 from derive.figures.extrema import MINIMUM
 from derive.figures.polhodes import order_of
 from derive.page.plots import (
+    Axis,
     Curve,
     Curves,
     curve_letters,
@@ -101,6 +103,7 @@ def depictions(
         elif index is not None and not outside[drawing.key]:
             own = placement.caption if placement else None
             caption = told(own.pieces, _lettered(drawing)) if own else _standard_caption(drawing, words, said)
+            caption += _positive(drawing, words, said) if caption else ()
             caption += _not_shown(drawing, words, bool(caption))
             at = STATEMENT if index == FOUND else chr(ord("a") + index)
             try:
@@ -152,6 +155,20 @@ def _standard_caption(drawing: m.Recorded, words: Phrases, said: set[str]) -> tu
     caption = _spaced([each for each in told if str(each) not in said])
     said.update(map(str, told[1:]))
     return caption
+
+
+def _positive(drawing: m.Recorded, words: Phrases, said: set[str]) -> tuple[Inline, ...]:
+    """Return the sentence about the thin arrow of a force diagram, to follow the caption; each is said once.
+
+    said   the sentences that earlier captions contain; a new sentence is added
+    """
+    marks = drawing.marks if isinstance(drawing, m.Drawing) else ()
+    sorts = {PositiveDirection: "positive_direction", PositiveRotation: "positive_rotation"}
+    kinds = {type(each) for each in marks}
+    told = [filled(words.drawings[name], {}) for sort, name in sorts.items() if sort in kinds]
+    new = [each for each in told if str(each) not in said]
+    said.update(map(str, new))
+    return ((Text(" "),) if new else ()) + _spaced(new)
 
 
 def _not_shown(drawing: m.Recorded, words: Phrases, follows: bool) -> tuple[Inline, ...]:
@@ -558,8 +575,8 @@ def _curves(problem: Problem, plot: m.Plot, placement: Placement | None, words: 
     curves = curves_of(problem, plot, placement)
     first = curves.curves[0]
     names = {
-        "quantity": joined([_named(label) for label in plot.labels], words.labels["and"]),
-        "variable": _named(plot.named_across),
+        "quantity": joined([_divided(label, curves.up) for label in plot.labels], words.labels["and"]),
+        "variable": _divided(plot.named_across, curves.variable),
         "lower": with_unit(first.lower * curves.variable.per_unit, curves.variable.unit),
         "upper": with_unit(first.upper * curves.variable.per_unit, curves.variable.unit),
     }
@@ -577,7 +594,21 @@ def _curves(problem: Problem, plot: m.Plot, placement: Placement | None, words: 
         own = {"letter": letter, "numbers": joined(numbers, last), "turns": turns, "count": len(curve.extrema)}
         own["own_name"] = _named(curve.label) if curves.labels_differ else ()
         told.append(filled(words.drawings["curve"], own))
+        told += [filled(words.drawings["height"], each) for each in _heights(curve, curves)]
     return _spaced([*told, *_shared(curves, words)])
+
+
+def _heights(curve: Curve, curves: Curves) -> Iterator[dict[str, Any]]:
+    """Yield the names for the words about each horizontal line of a potential energy."""
+    for energy, ranges in curve.heights:
+        for start, end in ranges:
+            ends = [with_unit(x * curves.variable.per_unit, curves.variable.unit) for x in (start, end)]
+            yield {"value": with_unit(energy * curves.up.per_unit, curves.up.unit), "start": ends[0], "end": ends[1]}
+
+
+def _divided(label: Any, axis: Axis) -> Any:
+    """Return the name of an axis, divided by the quantity that divides the axis if there is one."""
+    return _named(label if axis.per is None else label / axis.per)
 
 
 def _spaced(told: Sequence[tuple[Inline, ...]]) -> tuple[Inline, ...]:
@@ -595,20 +626,24 @@ def _portraits(plot: m.Plot, curves: Curves, words: Phrases, names: dict[str, An
         own = {
             "letter": letter,
             "numbers": joined(_put_in(curve.numbers), last),
-            "low": with_unit(curve.portrait.low, plot.unit_up),
-            "high": with_unit(curve.portrait.high, plot.unit_up),
-            "up": _named(plot.label),
-            "values": joined([(Text(with_unit(value, plot.levels.unit)),) for value, _ in curve.portrait.values], last),
-            "thick": joined(_thick(plot.levels, curve.portrait.values), last),
+            "low": with_unit(curve.portrait.low * curves.up.per_unit, curves.up.unit),
+            "high": with_unit(curve.portrait.high * curves.up.per_unit, curves.up.unit),
+            "up": _divided(plot.label, curves.up),
+            "values": joined([(Text(_level(value, curves)),) for value, _ in curve.portrait.values], last),
+            "thick": joined(_thick(plot.levels, curve.portrait.values, curves), last),
         }
         yield filled(words.drawings["portrait_values"], own)
 
 
-def _thick(levels: m.Levels, numbers: Sequence[tuple[float, bool]]) -> list[tuple[Inline, ...]]:
+def _level(value: float, curves: Curves) -> str:
+    return with_unit(value * curves.levels.per_unit, curves.levels.unit)
+
+
+def _thick(levels: m.Levels, numbers: Sequence[tuple[float, bool]], curves: Curves) -> list[tuple[Inline, ...]]:
     """Return the values on the thick curves: formulas, or numbers with their unit."""
     every = zip(levels.values, numbers, strict=True)
     return [
-        (Math(value),) if value.free_symbols else (Text(with_unit(number, levels.unit)),)
+        (Math(value),) if value.free_symbols else (Text(_level(number, curves)),)
         for (value, _), (number, is_thick) in every
         if is_thick
     ]
@@ -650,7 +685,7 @@ def _part(line: BranchLine, curves: Curves, varies: bool) -> dict[str, Any]:
 def _paths(plot: m.Plot, curves: Curves, words: Phrases, names: dict[str, Any]) -> Iterator[tuple[Inline, ...]]:
     """Yield words for the quantities of a path, and for the ends of the path in each panel."""
     assert plot.across is not None
-    names |= {"across": _named(plot.across.label), "several": len(curves.curves) > 1}
+    names |= {"across": _divided(plot.across.label, curves.across), "several": len(curves.curves) > 1}
     yield filled(words.drawings["path"], names)
     across, up = curves.across, curves.up
     for letter, curve in zip(curve_letters(curves), curves.curves, strict=True):
@@ -696,7 +731,7 @@ def _turns(plot: m.Plot, curves: Curves, curve: Curve, words: Phrases) -> list[t
             words.drawings["extremum"],
             {
                 "kind": words.drawings[extremum.kind],
-                "variable": _named(plot.variable),
+                "variable": _divided(plot.variable, curves.variable),
                 "at": with_unit(extremum.at * curves.variable.per_unit, curves.variable.unit) if extremum.at else "0",
                 "value": told_value(curves.up, extremum),
             },

@@ -1,8 +1,10 @@
 """Mentions of the figures of a part, in the sentence that a figure belongs to: "It is unstable (Figure 2)."
 
 A figure that no text of the author mentions is mentioned in parentheses at the end of the sentence before it, or, if
-the part begins with the figure, of the first sentence after it. A figure of forces is mentioned at the start of the
-sentence after it, which leads to the equations: "With the forces in Figure 2, the upward component is".
+the part begins with the figure, of the first sentence after it. If the sentence before it leads to a formula, a plot or
+a normal mode has a sentence of its own at the start of the next paragraph: "Figure 2 shows x as a function of t." A
+figure of forces is mentioned at the start of the sentence after it, which leads to the equations: "With the forces in
+Figure 2, the upward component is".
 """
 
 from __future__ import annotations
@@ -14,7 +16,7 @@ from typing import Any
 
 from derive.figures import marks as m
 from derive.page.tree import Block, Display, Illustration, Paragraph
-from derive.page.wording import FigureRef, Inline, Phrases, Text, ToldOnce, filled, joined
+from derive.page.wording import FigureRef, Inline, Math, Phrases, Text, ToldOnce, filled, joined
 
 STOPS = (".", ",", ":")
 
@@ -30,20 +32,26 @@ def figures_mentioned(
     """
     found: list[Block] = []
     waiting: list[Illustration] = []  # figures before the first sentence of the part
+    told: tuple[Inline, ...] = ()  # a sentence about the figures before, which begins the next paragraph
     groups = [list(group) for _, group in groupby(blocks, lambda block: isinstance(block, Illustration))]
     for together, following in zip(groups, [*groups[1:], []], strict=True):
         if not isinstance(together[0], Illustration):
             forces = [each for each in waiting if _shows_forces(drawings[each.key])]
             others = [each for each in waiting if each not in forces]
             together = _after_figures(together, others, words) if others else together
-            found += _with_forces(together, forces, words) if forces else together
-            waiting = []
+            found += _with_forces(together, forces, words) if forces else _after(told, together)
+            waiting, told = [], ()
             continue
         shown = [each for each in together if isinstance(each, Illustration)]
         new = [each for each in shown if each.number is not None and each.key not in mentioned]
         show_forces = all(_shows_forces(drawings[each.key]) for each in new)
         is_before_equations = show_forces and _begins_a_sentence(following)
-        if new and not is_before_equations and (at := _sentence_before(found)) is not None:
+        ends_with_formula = bool(found) and isinstance(found[-1], Display)
+        can_tell = ends_with_formula and (not following or _begins_a_sentence(following))
+        if new and can_tell and (said := _shown([drawings[each.key] for each in new], new, words)):
+            told = said if following else ()
+            found += [] if following else [Paragraph(said)]
+        elif new and not is_before_equations and (at := _sentence_before(found)) is not None:
             found[at] = _with_mention(found[at], new, words)
         else:
             waiting = new
@@ -53,6 +61,29 @@ def figures_mentioned(
 
 def _shows_forces(drawing: m.Recorded) -> bool:
     return isinstance(drawing, m.Drawing) and drawing.forces_on is not None
+
+
+def _after(said: tuple[Inline, ...], blocks: list[Block]) -> list[Block]:
+    """Return the blocks, of which the first paragraph begins with a sentence."""
+    first = blocks[0]
+    return (
+        [Paragraph((*said, Text(" "), *first.nodes)), *blocks[1:]] if said and isinstance(first, Paragraph) else blocks
+    )
+
+
+def _shown(drawn: Sequence[m.Recorded], figures: Sequence[Illustration], words: Phrases) -> tuple[Inline, ...]:
+    """Return a sentence about what one plot, or what some normal modes, show; empty for other figures."""
+    first, named = drawn[0], _named(figures, words)
+    if all(isinstance(each, m.Drawing) and each.mode is not None for each in drawn):
+        return filled(words.drawings["shows_modes"], named)
+    if len(drawn) > 1 or not isinstance(first, m.Plot):
+        return ()
+    if first.across is not None or first.levels is not None or first.diagram is not None:
+        sort = "path" if first.across is not None else "portrait" if first.levels is not None else "diagram"
+        return filled(words.drawings[f"shows_{sort}"], named)
+    quantity = joined([(Math(label),) for label in first.labels], words.labels["and"])
+    curves = {"quantity": quantity, "several": len(first.labels) > 1, "variable": (Math(first.variable),)}
+    return filled(words.drawings["shows_curve"], {**named, **curves})
 
 
 def _begins_a_sentence(blocks: Sequence[Block]) -> bool:

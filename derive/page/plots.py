@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from itertools import pairwise
 from math import dist
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -42,6 +43,7 @@ MOST_MARKED, MOST_IN_TIME = 6, 3  # a curve with more extrema has no marks; the 
 NEAR = 1e-6  # greatest distance of an extremum from the place of a name, divided by the range
 MOST_TOGETHER = 4  # greatest number of curves in one panel; they differ in the style of their lines
 KEPT = 1 / 3  # length of the part of a curve after its range, on which the curve is constant, divided by the range
+CHANGED, SHARES = 1.31, (0.23, 0.59, 0.87)  # to test a dependence: the factor of a number, and the places in the range
 FLATTEST = 1 / 6  # least size of a readable curve, divided by the size of all curves in the panel
 
 
@@ -57,6 +59,7 @@ class Curve:
     diagram  the branches of a bifurcation diagram
     places   the values of the variable for which the solution has a symbol, with these symbols
     then     the value that the curve keeps after its range
+    heights  energies at which a line is drawn: each with the ends of the ranges where the curve is lower
     """
 
     expr: Expr
@@ -73,6 +76,7 @@ class Curve:
     diagram: Bifurcations | None = None
     places: tuple[tuple[Any, float], ...] = ()
     then: float | None = None
+    heights: tuple[tuple[float, Path], ...] = ()
 
     @cached_property
     def spots(self) -> Path:
@@ -98,10 +102,14 @@ class Curve:
 
 @dataclass(frozen=True)
 class Axis:
-    """The unit of an axis; one SI unit equals `per_unit` of these units."""
+    """The unit of an axis; one SI unit equals `per_unit` of these units.
+
+    If an axis is divided by a quantity, `per` is the name of this quantity, and the unit is empty.
+    """
 
     unit: str
     per_unit: float = 1.0
+    per: Any = None
 
     @property
     def in_degrees(self) -> bool:
@@ -121,6 +129,8 @@ class Curves:
     is_together   whether all curves are in one panel
     ends_up       the ends of the vertical axis in SI units, if the problem states them
     is_lettered   whether the caption refers to the curves of one panel as (i), (ii)
+    levels        the unit of the levels of a phase portrait
+    is_energy     whether the vertical axis shows an energy
     """
 
     curves: tuple[Curve, ...]
@@ -131,12 +141,14 @@ class Curves:
     is_together: bool = False
     is_lettered: bool = False
     ends_up: tuple[float, float] | None = None
+    levels: Axis = field(default_factory=lambda: Axis(JOULE))
+    is_energy: bool = False
 
     @property
     def has_unstable(self) -> bool:
         """Whether a curve is a potential energy with a marked maximum, an unstable equilibrium."""
         potential = [each for each in self.curves if str(each.label).startswith(POTENTIAL)]
-        return self.up.unit == JOULE and any(turn.kind == MAXIMUM for each in potential for turn in each.marked)
+        return self.is_energy and any(turn.kind == MAXIMUM for each in potential for turn in each.marked)
 
     def points(self, own: Sequence[Curve]) -> tuple[tuple[float, float, bool], ...]:
         """Return the marked points of a panel that are not extrema: the coordinates of each in SI units, and whether it
@@ -152,7 +164,7 @@ class Curves:
         if others and self.labels_differ:
             places = meetings(one.expr, others[0].expr, one.variable, one.lower, one.upper)
             found = [(at, float(one.expr.subs(one.variable, at)), False) for at in places]
-        if not found and self.up.unit != JOULE:
+        if not found and not self.is_energy:
             every = [(each, at) for each in own for at in zeros(each.expr, each.variable, each.lower, each.upper)]
             found = [(at, 0.0, True) for _, at in every]
         return tuple(found) if len(found) <= MOST_POINTS else ()
@@ -179,9 +191,11 @@ def curves_of(problem: Problem, plot: Plot, placement: Placement | None) -> Curv
     changed = dict.fromkeys(number.symbol for case in cases[1:] for number in case if number not in cases[0])
     # The caption states the numbers that all curves share. Without a caption, one curve has them above the panel.
     is_told = len(cases) > 1 or bool(placement and placement.caption)
-    shared = tuple(number for number in cases[0] if number.symbol not in changed) if is_told else ()
-    own = [_own(problem, cases[0], case, changed) if is_told else case for case in cases]
     numbers = [_numbers(problem, plot, placement, (*cases[0], *case), letters) for case in cases]
+    used = {letter for letter in numbers[0] if not plot.per or _matters(letter, pairs, numbers, written)}
+    first = tuple(number for number in cases[0] if number.symbol in used or number.symbol in changed)
+    shared = tuple(number for number in first if number.symbol not in changed) if is_told else ()
+    own = [_own(problem, cases[0], case, changed) if is_told else first for case in cases]
     ends = [_range(problem, plot, placement, plot.variable, written[:2], each) for each in numbers]
     found = tuple(
         _curve(problem, each, placement, known, shown, both)
@@ -197,7 +211,67 @@ def curves_of(problem: Problem, plot: Plot, placement: Placement | None) -> Curv
     said = placement.caption.text if placement and placement.caption else ""
     is_lettered = together and f"({case_label(1)})" in said
     ends_up = _ends_up(problem, plot, placement)
-    return Curves(found, variable, _axis(plot.unit_up), across, shared, together, is_lettered, ends_up)
+    usual = [across, _axis(plot.unit_up), Axis(JOULE)]
+    axes = [_divided(*each, problem, plot, placement, numbers) for each in zip(usual, plot.per, strict=False)]
+    across, up, levels = [*axes, *usual[len(axes) :]]
+    variable = variable if plot.across else across
+    is_energy = plot.unit_up == JOULE
+    return Curves(found, variable, up, across, shared, together, is_lettered, ends_up, levels, is_energy)
+
+
+def _divided(
+    usual: Axis,
+    per: tuple[Any, Expr],
+    problem: Problem,
+    plot: Plot,
+    placement: Placement | None,
+    numbers: Sequence[Mapping[Any, Expr]],
+) -> Axis:
+    """Return the axis divided by a quantity, which must have the same value for all curves."""
+    name, expr = per
+    if name == 1:
+        return usual
+    sizes = [float(expr.xreplace(each)) for each in numbers]
+    if max(sizes) - min(sizes) > NEAR * abs(sizes[0]) or sizes[0] <= 0:
+        message = f"`{name}`, by which an axis of `{plot.key}` is divided, is not one positive number for all curves"
+        raise Rejected(Complaint("drawing", message, _place(problem, placement), help="divide by another quantity"))
+    return Axis("", 1 / sizes[0], name)
+
+
+def _matters(
+    letter: Any,
+    pairs: Sequence[tuple[Plot, Any]],
+    numbers: Sequence[Mapping[Any, Expr]],
+    ends: Sequence[Expr],
+) -> bool:
+    """Whether the curves change with the number of a letter, at some points, after the axes are divided.
+
+    The points have fixed positions on the divided axes. The numbers of the letters are those of each curve.
+    """
+    for (plot, _), known in zip(pairs, numbers, strict=True):
+        other = {**known, letter: known[letter] * CHANGED}
+        for share in SHARES:
+            values = [_divided_values(plot, each, known, ends, share) for each in (known, other)]
+            if any(abs(one - two) > NEAR * (abs(one) + abs(two)) for one, two in zip(*values, strict=True)):
+                return True
+    return False
+
+
+def _divided_values(
+    plot: Plot, numbers: Mapping[Any, Expr], first: Mapping[Any, Expr], ends: Sequence[Expr], share: float
+) -> list[complex]:
+    """Return the values of a plot divided by its units at one place: for a path, at a part of its range, otherwise at a
+    position that is fixed for the numbers `first` in units of the axes."""
+    divisors = [[expr.xreplace(each) for _, expr in plot.per] for each in (numbers, first)]
+    lower, upper = (end.xreplace(numbers if plot.across else first) for end in ends[:2])
+    at = lower + share * (upper - lower)
+    moved = {plot.variable: at if plot.across else at * divisors[0][0] / divisors[1][0]}
+    if plot.levels is not None:
+        low, high = (end.xreplace(first) for end in ends[2:])
+        moved[plot.levels.up] = (low + share * (high - low)) * divisors[0][1] / divisors[1][1]
+    over = divisors[0][-len(plot.shown) :]
+    values = [each.xreplace(numbers).xreplace(moved) / by for each, by in zip(plot.shown, over, strict=True)]
+    return [complex(value.evalf()) for value in values]
 
 
 def _in_radians(ends: Iterable[tuple[Expr, Expr]]) -> bool:
@@ -375,7 +449,18 @@ def _curve(
         then = None if plot.then is None else float(plot.then.xreplace(numbers))
         if then is not None and abs(float(expr.subs(plot.variable, upper)) - then) > NEAR * (abs(then) or 1.0):
             rejected("wrong-argument", f"a curve of `{plot.key}` does not end at the value of `then`", None)
-        return Curve(expr, plot.variable, lower, upper, own, found, plot.label, places=places, then=then)
+        energies = [expr_of.xreplace(numbers) for expr_of in plot.energies]
+        heights = tuple((float(energy), _below(expr, energy, plot.variable, lower, upper)) for energy in energies)
+        return Curve(
+            expr, plot.variable, lower, upper, own, found, plot.label, places=places, then=then, heights=heights
+        )
+
+
+def _below(expr: Expr, energy: Expr, variable: Symbol, lower: float, upper: float) -> Path:
+    """Return the ranges of the variable in which a potential energy is less than an energy."""
+    crossed = [lower, *zeros(expr - energy, variable, lower, upper), upper]
+    lowest = [float((expr - energy).subs(variable, (one + other) / 2)) < 0 for one, other in pairwise(crossed)]
+    return tuple(both for both, is_below in zip(pairwise(crossed), lowest, strict=True) if is_below)
 
 
 def with_names(found: Sequence[Extremum], places: Sequence[tuple[Any, float]], near: float) -> tuple[Extremum, ...]:

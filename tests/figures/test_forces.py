@@ -10,7 +10,7 @@ import pytest
 from sympy import Rational
 
 from derive.errors import DeriveError
-from derive.figures.annotations import FORCE, ForceArrow
+from derive.figures.annotations import FORCE, ForceArrow, PositiveDirection, PositiveRotation
 from derive.figures.forces import ALONG
 from derive.figures.parts import WHEEL, BarMark, WheelMark
 from derive.figures.pieces import Patch, Stroke
@@ -133,3 +133,15 @@ def test_a_hook_holds_the_axle_of_a_pulley_that_hangs_on_a_string(tmp_path: Path
     wheels = of_class(drawn, WheelMark)
     assert [hanger.start, hook.start] == [wheel.centre for wheel in wheels]
     assert list(hook.end - hook.start) == [0, Rational(9, 5) * wheels[1].radius]
+
+
+def test_a_diagram_shows_in_which_direction_a_coordinate_and_an_angle_grow() -> None:
+    drawn = library_drawings("atwood_disc")
+    (down,) = of_class(drawn["forces_left"], PositiveDirection)
+    assert (list(down.along), str(down.label)) == ([0, -1], "x")
+    (turn,) = of_class(drawn["forces_pulley"], PositiveRotation)
+    assert turn.counterclockwise and str(turn.label) == "phi"
+    (turn,) = of_class(library_drawings("sliding_to_rolling")["forces_ball"], PositiveRotation)
+    assert not turn.counterclockwise
+    (stroke, _) = turn.pieces(OnPaper(Numbers({}), FLAT))
+    assert isinstance(stroke, Stroke) and stroke.spots[0][0] < stroke.spots[-1][0], "to the right above the centre"

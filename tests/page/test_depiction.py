@@ -213,4 +213,4 @@ def test_a_caption_does_not_repeat_the_extrema_that_the_plot_shows(tmp_path: Pat
     found = drawings(rendered_once(ROOT, "library/rod_on_shaft", only={"json"}))
     assert found["system"]["number"] == 1 and found["energy"]["number"] == 2
     assert "minimum" not in found["energy"]["caption"] and "minimum" in found["energy"]["alt"]
-    assert found["energy"]["caption"].endswith("Drawn for l = 1 m, m = 1 kg and g = 9.8 m/s^2.")
+    assert found["energy"]["caption"].endswith("Drawn for l = 1 m and g = 9.8 m/s^2."), "U/(m g l) does not depend on m"

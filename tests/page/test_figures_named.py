@@ -7,7 +7,7 @@ from sympy import Symbol
 from derive.figures.marks import Drawing, Plot
 from derive.page.figures_named import figures_mentioned
 from derive.page.template import templates_of
-from derive.page.tree import Block, Illustration, Paragraph
+from derive.page.tree import Block, Display, Illustration, Paragraph
 from derive.page.wording import Text, phrases
 from derive.render.notation.notation import Notation
 from derive.render.printing.text_page import inline_text
@@ -47,3 +47,11 @@ def test_a_figure_is_mentioned_at_the_end_of_the_sentence_before_it() -> None:
 def test_a_figure_without_a_number_and_one_that_is_mentioned_have_no_sentence() -> None:
     assert told(figure("left", None)) == ["*"]
     assert told(figure("curve", 2), mentioned=("curve",)) == ["*"]
+
+
+def test_a_plot_after_a_formula_has_a_sentence_of_its_own() -> None:
+    formula = Display(())
+    said = told(Paragraph((Text("The energy is"),)), formula, figure("curve", 2), Paragraph((Text("It is least"),)))
+    assert said == ["The energy is", "*", "*", "Figure 2 shows U as a function of x. It is least"]
+    said = told(Paragraph((Text("The energy is"),)), formula, figure("curve", 2), Paragraph((Text("and the force"),)))
+    assert said == ["The energy is (Figure 2)", "*", "*", "and the force"], "the sentence goes on"

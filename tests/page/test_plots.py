@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -17,6 +18,7 @@ from derive.page.plots import IN_DEGREES, Axis, Curves, curve_letters, curves_of
 
 a, k = symbols("a k", positive=True)
 theta = symbols("theta", real=True)
+CAPTION: Any = SimpleNamespace(text="")
 SCRIPT, DRAWN = Place("one.yaml", 2), Place("one.yaml", 9)
 
 
@@ -204,3 +206,31 @@ def test_the_steps_of_each_curve_are_known() -> None:
 def test_the_number_of_the_problem_names_a_curve_whose_case_does_not_state_it() -> None:
     one, two = curves(a * cos(theta), amounts={a: Integer(3)}, cases=[{}, {a: 5}]).curves
     assert [[(each.symbol, each.number) for each in curve.numbers] for curve in (one, two)] == [[(a, 3)], [(a, 5)]]
+
+
+def divided(expr: Expr, *per: Expr, energies: tuple[Expr, ...] = (), cases: Any = ({a: 2, k: 3},)) -> Curves:
+    """Return the curves of an energy against an angle, with axes that are divided by these quantities."""
+    problem: Any = SimpleNamespace(amounts={}, measured=[], place_of=lambda _: SCRIPT)
+    plot = Plot("potential", theta, expr, theta, Integer(0), pi, "energy", "angle", energies=energies)
+    plot = replace(plot, per=tuple((each, each) for each in per))
+    measured = tuple(tuple(Measured(s, Integer(n), "", Integer(n)) for s, n in case.items()) for case in cases)
+    return curves_of(problem, plot, Placement("potential", DRAWN, cases=measured, caption=CAPTION))
+
+
+def test_an_axis_is_divided_by_a_quantity_and_numbers_that_no_longer_matter_are_not_told() -> None:
+    found = divided(a * cos(theta) / k, Integer(1), a / k)
+    assert (found.variable, found.up) == (IN_DEGREES, Axis("", 1.5, a / k))
+    assert found.shared == () and found.is_energy
+    found = divided(a * cos(theta) + k, Integer(1), a)
+    assert [number.symbol for number in found.shared] == [a, k], "the curve depends on k/a"
+
+
+def test_curves_whose_axes_would_have_different_divisors_are_rejected() -> None:
+    with pytest.raises(Rejected, match="not one positive number for all curves"):
+        divided(a * cos(theta), Integer(1), a, cases=({a: 2, k: 3}, {a: 4}))
+
+
+def test_the_line_of_an_energy_is_where_the_curve_is_lower() -> None:
+    (curve,) = divided(-a * cos(theta), energies=(Integer(0),)).curves
+    ((energy, ((start, end),)),) = curve.heights
+    assert (energy, start) == (0, 0) and end == pytest.approx(float(pi / 2))

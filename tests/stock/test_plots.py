@@ -115,6 +115,12 @@ def test_the_axis_of_a_root_with_its_own_symbol_has_a_unit(tmp_path: Path) -> No
         ([("    plot: effective_potential\n", "")], "`against` has no effect without `plot` or `curves`"),
         ([("    plot: effective_potential\n", "    plot: stability\n")], "is several results"),
         ([("    plot: effective_potential\n", "    plot: effective\n")], "`effective`"),
+        ([("    at: b\n", "    at: b\n    per: [1, m]\n")], "`m` is in kg, but this axis is in J"),
+        ([("    at: b\n", "    at: b\n    per: [m*g*R]\n")], "`per` of this plot must have 2 quantities, but has 1"),
+        ([("    at: b\n", "    at: b\n    energies: [m*g]\n")], "`m*g` is in N, not in J"),
+        ([("    at: b\n", "    at: b\n    without: [x]\n")], "`without` has no effect on `energy`, which is a plot"),
+        ([("drawings:\n", "drawings:\n  system: {per: [1, 1]}\n")], "`per` has no effect on `system`"),
+        ([("drawings:\n", "drawings:\n  system: {without: [q]}\n")], "no mark has the label `q`"),
     ],
 )
 def test_a_mistake_is_reported(tmp_path: Path, edits: list[tuple[str, str]], said: str) -> None:

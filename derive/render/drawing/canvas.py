@@ -151,7 +151,7 @@ def _runs(label: Any, notation: Notation) -> tuple[Span, ...]:
     if isinstance(label, str):
         spaced = label.replace(" ", "\\;")  # mathematical text has no spaces of its own
         return (Span(rf"$\mathrm{{{spaced}}}$"),)
-    return runs(notation.result(label))
+    return runs(notation.result(label), inline=True)
 
 
 # --- lines -----------------------------------------------------------------------------------------------------------

@@ -8,6 +8,8 @@ from dataclasses import dataclass, fields, is_dataclass, replace
 from math import ceil, floor, log10
 from typing import Any, TypeAlias
 
+from sympy import fraction
+
 from derive.algebra.expressions import Amount, scalar
 from derive.course.given import Measured
 from derive.figures.branches import Bifurcations
@@ -40,6 +42,7 @@ FEWEST = 3  # least number of ticks, if smaller steps can give it
 AT_TICK = 1e-5  # greatest distance of a place from its tick, divided by the distance of the outermost ticks
 USUAL = (-2, 4)  # numbers at an axis have no factor 10^n if the power of ten of the greatest number is in this range
 
+_ROOT = re.compile(r"\\sqrt\{(?:[^{}]|\{[^{}]*\})*\}")
 _NAMED = re.compile(r"(?P<stem>[A-Za-z]+)_(?P<subscript>.+?)(?P<rate>_d+ot)?")  # such as x_1 or phi_1_dot
 
 Ticks: TypeAlias = tuple[tuple[float, str], ...]
@@ -95,6 +98,7 @@ class Panel:
     changes          the bifurcations
     shape            height divided by width; None for the usual shape
     points           zeros of a curve, or points at which two curves meet, with their names
+    heights          horizontal lines at energies, from one end to the other
     is_signed        whether a curve changes its sign, so that a thin line shows zero
     has_open         whether the dots of maxima are open, because they are unstable equilibria
     """
@@ -114,6 +118,7 @@ class Panel:
     branches: tuple[tuple[str, tuple[Part, ...]], ...] = ()
     changes: tuple[Mark, ...] = ()
     points: tuple[tuple[Spot, str], ...] = ()
+    heights: tuple[tuple[Spot, Spot], ...] = ()
     is_signed: bool = False
     has_open: bool = False
 
@@ -132,7 +137,7 @@ class Panel:
         yield from (name for name, _ in self.branches)
         yield from self.levels
         yield from (change.name for change in self.changes)
-        yield from (name for _, name in self.points)
+        yield from (name for _, name in self.points if name)
         yield from (text for text in (*self.names, *self.numbers, *(trace.name for trace in self.traces)) if text)
 
 
@@ -210,20 +215,27 @@ def curve_panel(
     below, above = (tall * (_room(len(lowest), height) if kind in lowest else MARGIN) for kind in (True, False))
     below, above = (0.0, 0.0) if curves.ends_up else (below, above)
     power_up = _power(low, high, curves.up)
+    across_by, up_by = curves.variable.per_unit, curves.up.per_unit
     return Panel(
         traces=traces,
         values=(start, low - below, end, high + above),
         across=across,
         up=_scaled_ticks(power_up, low, high, MOST_UP, curves.up.in_degrees, (below, above)),
         names=(
-            _axis_name((plot.variable,), curves.variable.unit, notation, power),
-            _axis_name(_labels(own), curves.up.unit, notation, power_up),
+            _axis_name((plot.variable,), curves.variable, notation, power),
+            _axis_name(_labels(own), curves.up, notation, power_up),
         ),
         numbers=_title(letter, own, curves, notation),
         points=tuple(
-            _point(*each, curves, own, notation)
+            _point(*each, curves, own, across, notation)
             for each in curves.points(own)
             if not _is_tick_at_end(each, across, curves)
+        ),
+        heights=tuple(
+            ((start * across_by, energy * up_by), (end * across_by, energy * up_by))
+            for curve in own
+            for energy, ranges in curve.heights
+            for start, end in ranges
         ),
         is_signed=low < -BARELY * tall and high > BARELY * tall,
         has_open=curves.has_unstable,
@@ -231,21 +243,25 @@ def curve_panel(
 
 
 def _is_tick_at_end(point: tuple[float, float, bool], across: Ticks, curves: Curves) -> bool:
-    """Whether a point is at the end of all curves, where a tick already shows its place."""
-    x, last = point[0] * curves.variable.per_unit, max(curve.upper for curve in curves.curves)
+    """Whether a point is at the end of all curves, where a tick already shows its place; no curve continues there."""
+    x, last = point[0] * curves.variable.per_unit, max(curve.end for curve in curves.curves)
     return point[0] == last and _has_tick(x, across)
 
 
 def _point(
-    at: float, value: float, is_zero: bool, curves: Curves, own: Sequence[Curve], notation: Notation
+    at: float, value: float, is_zero: bool, curves: Curves, own: Sequence[Curve], across: Ticks, notation: Notation
 ) -> tuple[Spot, str]:
     """Return a point of a panel with its name: the value on the horizontal axis and, unless the point is a zero, the
-    value on the vertical axis. If the solution has a symbol for the place, the name is `t_1 = 0.583 s`."""
+    value on the vertical axis. If the solution has a symbol for the place, the name is `t_1 = 0.583 s`, or `t_1` on an
+    axis that is divided by a quantity. A zero at a tick has no name."""
     x, y = at * curves.variable.per_unit, value * curves.up.per_unit
     for curve in own:
         (found,) = with_names([Extremum(at, value, MINIMUM)], curve.places, NEAR * (curve.upper - curve.lower))
         if found.name is not None:
-            return (x, y), f"${_mathtext(notation.layout(found.name))} = {_with_unit(x, curves.variable.unit)}$"
+            told_x = "" if curves.variable.per is not None else f" = {_with_unit(x, curves.variable.unit)}"
+            return (x, y), f"${_mathtext(notation.layout(found.name))}{told_x}$"
+    if is_zero and _has_tick(x, across):
+        return (x, y), ""
     told = [to_three_figures(x, curves.variable.unit), *([] if is_zero else [to_three_figures(y, curves.up.unit)])]
     return (x, y), "$" + r",\;\;".join(map(_mathtext_of_value, told)) + "$"
 
@@ -282,8 +298,8 @@ def path_panel(plot: Plot, own: Sequence[Curve], curves: Curves, notation: Notat
         across=_scaled_ticks(powers[0], left, right, most_across, curves.across.in_degrees),
         up=_scaled_ticks(powers[1], low, high, most_up, curves.up.in_degrees),
         names=(
-            _axis_name((plot.across.label,), curves.across.unit, notation, powers[0]),
-            _axis_name((plot.label,), curves.up.unit, notation, powers[1]),
+            _axis_name((plot.across.label,), curves.across, notation, powers[0]),
+            _axis_name((plot.label,), curves.up, notation, powers[1]),
         ),
         numbers=_title(letter, own, curves, notation),
         is_path=True,
@@ -306,27 +322,35 @@ def portrait_panel(
 ) -> Panel:
     """Return the panel of a phase portrait; its axes have exactly the ranges of the two quantities."""
     start, end = (x * curves.variable.per_unit for x in (curve.lower, curve.upper))
-    powers = _power(start, end, curves.variable), _power(portrait.low, portrait.high, curves.up)
+    low, high = portrait.low * curves.up.per_unit, portrait.high * curves.up.per_unit
+    powers = _power(start, end, curves.variable), _power(low, high, curves.up)
     across = _scaled_ticks(powers[0], start, end, MOST_ACROSS, curves.variable.in_degrees)
     assert plot.levels is not None
     return Panel(
         traces=(),
-        values=(start, portrait.low, end, portrait.high),
+        values=(start, low, end, high),
         across=across,
-        up=_scaled_ticks(powers[1], portrait.low, portrait.high, MOST_UP),
+        up=_scaled_ticks(powers[1], low, high, MOST_UP),
         names=(
-            _axis_name((plot.variable,), curves.variable.unit, notation, powers[0]),
-            _axis_name((plot.label,), curves.up.unit, notation, powers[1]),
+            _axis_name((plot.variable,), curves.variable, notation, powers[0]),
+            _axis_name((plot.label,), curves.up, notation, powers[1]),
         ),
         numbers=_title(letter, [curve], curves, notation),
         shape=PORTRAIT,
         lines=tuple(replace(line, points=_scaled(line.points, curves.variable, curves.up)) for line in portrait.lines),
         levels=tuple(
-            f"${_mathtext(notation.layout(value)) if value.free_symbols else _with_unit(number, plot.levels.unit)}$"
+            f"${_level(value, number, curves.levels, notation)}$"
             for (value, _), (number, _) in zip(plot.levels.values, portrait.values, strict=True)
         ),
         rests=tuple(_rest(centre, curve, curves, across, notation) for centre in portrait.centres),
     )
+
+
+def _level(value: Any, number: float, axis: Axis, notation: Notation) -> str:
+    """Return the name of a level: its letters, or its number in the unit of the levels."""
+    if value.free_symbols and axis.per is None:
+        return _mathtext(notation.layout(value))
+    return _with_unit(number * axis.per_unit, axis.unit)
 
 
 def _rest(centre: Spot, curve: Curve, curves: Curves, across: Ticks, notation: Notation) -> Turn:
@@ -361,8 +385,8 @@ def diagram_panel(
         across=_scaled_ticks(powers[0], start, end, MOST_ACROSS, across.in_degrees),
         up=tuple(tick for tick in ticks if tick[0] > low + LOWEST * (high - low)),
         names=(
-            _axis_name((plot.named_across,), across.unit, notation, powers[0], inline=True),
-            _axis_name((plot.label,), up.unit, notation, powers[1]),
+            _axis_name((plot.named_across,), across, notation, powers[0], inline=True),
+            _axis_name((plot.label,), up, notation, powers[1]),
         ),
         numbers=_title(letter, [curve], curves, notation),
         branches=tuple((f"${name}$", tuple(own)) for name, own in zip(names, parts.values(), strict=True)),
@@ -455,9 +479,12 @@ def _ticks(low: float, high: float, most: float, in_degrees: bool, room: tuple[f
 
 def _name_of_place(extremum: Extremum, axis: Axis, ticks: Ticks, notation: Notation) -> tuple[str, ...]:
     """Return the place of an extremum: `r_0 = 0.589 m`, or shorter `r_0`; without a symbol `54.6°`. A place at a tick
-    needs no number."""
+    needs no number, and on an axis that is divided by a quantity, neither does a place with a symbol, nor the place of
+    this quantity itself."""
     x = extremum.at * axis.per_unit
-    value = [] if _has_tick(x, ticks) else [_with_unit(x, axis.unit)]
+    is_unit = axis.per is not None and (extremum.name is not None or abs(x - 1) < AT_TICK)
+    has_no_value = is_unit or _has_tick(x, ticks)
+    value = [] if has_no_value else [_with_unit(x, axis.unit)]
     symbol = [_mathtext(notation.layout(extremum.name))] if extremum.name is not None else []
     forms = dict.fromkeys((" = ".join([*symbol, *value]), *symbol))
     return tuple(f"${form}$" for form in forms if form)
@@ -502,13 +529,22 @@ def _labels(own: Sequence[Curve]) -> tuple[Any, ...]:
     return (scalar(*stems),) if len(labels) > 2 and len(stems) == 1 and "" not in stems else labels
 
 
-def _axis_name(symbols: Sequence[Any], unit: str, notation: Notation, power: int = 0, inline: bool = False) -> str:
-    """Return the name of an axis, a quantity divided by its unit, and by a power of ten if there is one: `U / J`,
-    `v / (m/s)`, `U / (10^33 J)`."""
+def _axis_name(symbols: Sequence[Any], axis: Axis, notation: Notation, power: int = 0, inline: bool = False) -> str:
+    """Return the name of an axis, a quantity divided by its unit or by another quantity, and by a power of ten if there
+    is one: `U / J`, `v / (m/s)`, `U / (10^33 J)`, `r / r_0`. A quantity that is divided by 1/omega has a formula
+    without this fraction, `omega t`."""
     layouts = [notation.layout(symbol) for symbol in symbols]
+    if axis.per is not None and len(symbols) == 1 and fraction(axis.per)[0] == 1:
+        return f"${_mathtext(notation.layout(symbols[0] / axis.per), inline=True)}$"
     name = r",\,".join(_mathtext(layout, inline) for layout in layouts)
-    parts = [*([f"10^{{{power}}}"] if power else []), *([_mathtext_of_unit(unit)] if unit else [])]
-    is_product = len(parts) > 1 or any(sign in unit for sign in " /")
+    divided = "" if axis.per is None else _mathtext(notation.layout(axis.per), inline=True)
+    unit = [divided] if divided else [_mathtext_of_unit(axis.unit)] if axis.unit else []
+    parts = [*([f"10^{{{power}}}"] if power else []), *unit]
+    is_product = (
+        len(parts) > 1
+        or any(sign in axis.unit for sign in " /")
+        or bool(divided and axis.per.is_Mul and not _ROOT.fullmatch(divided))
+    )
     divisor = r"\,".join(parts)
     divisor = f"({divisor})" if is_product else divisor
     over = rf"\,/\,{divisor}" if divisor else ""

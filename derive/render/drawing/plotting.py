@@ -133,7 +133,8 @@ def plot_sheet(
         frame = Frame(paper, panel.values)
         names = _names(panel, frame, writing)
         shapes += _drawn(panel, frame, writing, names, (i * wide, (i + 1) * wide))
-        tallest = max(tallest, names.above + EDGE)
+        middle, half = _middle_of_name(panel, frame, writing), writing.size(panel.names[1], SMALL)[0] / 2
+        tallest = max(tallest, names.above + EDGE, middle + half + EDGE)
     return sheet_of_shapes(shapes, (0.0, 0.0, wide * len(panels), tallest), alt)
 
 
@@ -187,7 +188,7 @@ def _drawn(panel: Panel, frame: Frame, writing: Writing, names: Names, ends: Spo
     lowest = below - TICK - max((writing.size(text, SMALL)[1] for _, text in panel.across), default=0.0) - PAD
     leftmost = left - TICK - max((writing.size(text, SMALL)[0] for _, text in panel.up), default=0.0) - PAD
     yield writing.at(((left + right) / 2, lowest), across, SMALL, (0.5, 1.0))
-    yield writing.at((leftmost, (below + above) / 2), up, SMALL, (1.0, 0.5), upwards=True)
+    yield writing.at((leftmost, _middle_of_name(panel, frame, writing)), up, SMALL, (1.0, 0.5), upwards=True)
     base = above + PAD
     for texts, scale, high in reversed(_title(panel, writing, ends[1] - ends[0])):
         widths = [writing.size(text, scale)[0] for text in texts]
@@ -197,6 +198,13 @@ def _drawn(panel: Panel, frame: Frame, writing: Writing, names: Names, ends: Spo
             yield writing.on((x, base), text, scale, QUIET)
             x += wide + SPACE
         base += high
+
+
+def _middle_of_name(panel: Panel, frame: Frame, writing: Writing) -> float:
+    """Return the height of the middle of the name of the vertical axis. A name that is longer than its axis ends above
+    the lower edge."""
+    _, below, _, above = frame.paper
+    return max((below + above) / 2, EDGE + writing.size(panel.names[1], SMALL)[0] / 2)
 
 
 def _apart(ticks: Ticks, frame: Frame, writing: Writing) -> Ticks:
@@ -251,6 +259,8 @@ def _names_of_points(
     dots += _dots_of_thin_lines(panel, frame)
     used = list(taken)
     for place, name in panel.points:
+        if not name:
+            continue
         wide, high = writing.size(name, SMALLEST)
         x, y = frame.spot(place)
         shifted = [(x + dx, y + dy) for dy in (0.0, -8.0, 8.0, -16.0, 16.0) for dx in (0.0, 6.0, -6.0, -14.0, 14.0)]
@@ -444,7 +454,7 @@ def _beside_turn(spot: Spot, is_lowest: bool, size: tuple[float, float], paper: 
 
 def _dots_of_thin_lines(panel: Panel, frame: Frame) -> list[Spot]:
     """Return points of the line at zero and of the lines from the extrema to the horizontal axis."""
-    lines = [frame.spots(_line_to_axis(turn, frame)) for turn in panel.turns]
+    lines = [frame.spots(line) for line in (*(_line_to_axis(turn, frame) for turn in panel.turns), *panel.heights)]
     if panel.is_signed:
         zero = frame.spot((0.0, 0.0))[1]
         lines.append(((frame.paper[0], zero), (frame.paper[2], zero)))
@@ -517,6 +527,8 @@ def _pieces(panel: Panel, frame: Frame, gaps: Sequence[tuple[int, Extent]]) -> I
         yield Stroke(((left, zero), (right, zero)), "thin")
     for turn in panel.turns:
         yield Stroke(frame.spots(_line_to_axis(turn, frame)), "hidden")
+    for line in panel.heights:
+        yield Stroke(frame.spots(line), "level")
     yield from line_of(panel, frame, gaps)
     yield Stroke(((left, above), (left, below), (right, below)), "frame")
     for x, _ in panel.across:

@@ -135,14 +135,16 @@ class StockAnswers(Answers[W]):
             plotted = Plotted(drawing, self.by_name.named, self.coordinates, lambda: self.drawn_surfaces, shown)
             if drawing.is_portrait:
                 plotted.draw_levels()
+                plotted.measure()
             elif drawing.is_of_engine and drawing.against and drawing.range:
                 plotted.draw(drawing.against, drawing.range)
+                plotted.measure()
         return found
 
     def mark(self, drawings: Sequence[Placement]) -> None:
         """Add the marks of the problem to the drawings, and make drawings that are like another one."""
         for drawing in drawings:
-            if drawing.adds or drawing.like:
+            if drawing.adds or drawing.like or drawing.without:
                 Marked(drawing, self.place_of_mark).add()
 
     def place_of_mark(self, node: Tree, name: str, letters: InLetters) -> MatrixBase:

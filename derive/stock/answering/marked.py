@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from typing import Any
@@ -22,7 +22,7 @@ from derive.course.yaml_tree import Scalar, Tree, Word
 from derive.course.yaml_tree import Sequence as SequenceNode
 from derive.errors import did_you_mean, rejected
 from derive.figures.annotations import AngleMark, Arrow, HollowPoint, Line, Turn
-from derive.figures.marks import PLANE, Drawing, Mark, noted
+from derive.figures.marks import PLANE, Drawing, Mark, Surface, noted
 from derive.figures.positions import towards, value_and_keys
 from derive.figures.surroundings import AngleBetween, DistanceMark, WayMark
 from derive.steps.record import current_run
@@ -75,7 +75,7 @@ class Marked:
         if name not in shown:
             known = did_you_mean(name, shown) or f"the drawings are {', '.join(f'`{known}`' for known in shown)}"
             rejected("unknown-drawing", f"the engine draws nothing called `{name}`", name.place, known)
-        found = shown[name]
+        found = replace(shown[name], marks=tuple(self._kept(shown[name].marks)))
         added = each([partial(self._mark, keys, found) for keys in self.drawing.adds])
         measured = {mark.label for mark in added if isinstance(mark, DistanceMark)} - {None}
         own_marks = (replace(mark, label=None) if mark.label in measured else mark for mark in found.marks)
@@ -86,9 +86,21 @@ class Marked:
         if self.drawing.like:
             with told_at(self.drawing.place):
                 noted(replace(own, key=self.drawing.key, forces_on=None, mode=None, leads_to=()))
-            drawings.insert(drawings.index(found) + 1, drawings.pop())  # figures have numbers in this order
+            drawings.insert(drawings.index(shown[name]) + 1, drawings.pop())  # figures have numbers in this order
         else:
-            drawings[drawings.index(found)] = own
+            drawings[drawings.index(shown[name])] = own
+
+    def _kept(self, marks: Sequence[Mark]) -> Iterator[Mark]:
+        """Yield the marks of a drawing without those whose labels the problem leaves out; a body keeps its outline."""
+        labels = {str(mark.label) for mark in marks if mark.label is not None}
+        for word in self.drawing.without:
+            if word not in labels:
+                rejected("wrong-argument", f"no mark has the label `{word}`", word.place, did_you_mean(word, labels))
+        for mark in marks:
+            if mark.label is None or str(mark.label) not in self.drawing.without:
+                yield mark
+            elif isinstance(mark, Surface):
+                yield replace(mark, label=None)
 
     @cached_property
     def _letters(self) -> InLetters:

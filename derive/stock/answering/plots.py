@@ -10,6 +10,7 @@ from typing import Any
 
 from sympy import Expr, Integer, Symbol
 
+from derive.algebra.dimensions import NUMBER, Dimension
 from derive.algebra.expressions import TIME, explicit, scalar, stand_in
 from derive.algebra.kinds import dimension_of_kind, kind_of_dimension, unit_of_dimension, unit_of_kind
 from derive.course.expression import Declared, names_in
@@ -28,6 +29,7 @@ from derive.steps.record import current_run
 from derive.steps.step import Quantity
 from derive.stock.answering.diagrams import Equilibria, Parameter, equilibria_of, ratio
 from derive.stock.keys.formulas import Formula, dimension_of_answer, right_side
+from derive.units import read_unit
 
 ZERO = Integer(0)
 _LETTER = re.compile(r"[A-Za-z]+(_[A-Za-z0-9]+)?", re.ASCII)
@@ -79,6 +81,50 @@ class Plotted:
             unit = self._unit(quantity)
             plot(self.drawing.key, quantity, variable, (lower, upper), of=kind, also=keys, unit=unit)
         self._keep(unit)
+
+    def measure(self) -> None:
+        """Add the energies of lines and the quantities by which the axes are divided to the recorded plot."""
+        run, written = current_run.get(), self.drawing.per
+        if run is None or not (written or self.drawing.energies):
+            return
+        found = run.drawings.pop()
+        assert isinstance(found, Plot)
+        if self.drawing.energies:
+            found = self._with_energies(found)
+        if not written:
+            run.drawings.append(found)
+            return
+        if found.diagram is not None:
+            message = "`per` has no effect on a bifurcation diagram"
+            rejected("wrong-argument", message, written[0].place, "write a ratio in `against`")
+        units = [found.across.unit if found.across else unit_of_kind(found.of), found.unit_up]
+        units += [found.levels.unit] if found.levels else []
+        if len(written) != len(units):
+            message = f"`per` of this plot must have {len(units)} quantities, but has {len(written)}"
+            rejected("wrong-argument", message, written[0].place, "write `1` for an axis that keeps its unit")
+        per, keys = [], list(found.keys)
+        for divisor, unit in zip(written, units, strict=True):
+            shown = self._shown(divisor.scalar)
+            if shown.expr != 1 and _dimension(shown.unit) != _dimension(unit):
+                message = f"`{divisor}` is in {shown.unit or 'no unit'}, but this axis is in {unit or 'no unit'}"
+                rejected("wrong-argument", message, divisor.place)
+            per.append((shown.label, shown.expr))
+            keys += shown.keys
+        run.drawings.append(replace(found, per=tuple(per), keys=tuple(dict.fromkeys(keys))))
+
+    def _with_energies(self, found: Plot) -> Plot:
+        """Return the plot with the energies of its lines, which must be the curve of an energy."""
+        written = self.drawing.energies
+        shown = [self._shown(each.scalar) for each in written]
+        energy = dimension_of_kind("energy")
+        if found.across or found.levels or found.diagram or found.others or _dimension(found.unit_up) != energy:
+            message = f"`energies` has no effect on `{found.key}`, which is not the curve of an energy"
+            rejected("wrong-argument", message, written[0].place, "leave it out")
+        for each, node in zip(shown, written, strict=True):
+            if each.expr != 0 and _dimension(each.unit) != energy:
+                rejected("wrong-argument", f"`{node}` is in {each.unit or 'no unit'}, not in J", node.place)
+        keys = tuple(dict.fromkeys((*found.keys, *(key for each in shown for key in each.keys))))
+        return replace(found, energies=tuple(each.expr for each in shown), keys=keys)
 
     def _curves(self, answers: Sequence[Word], against: Word, ends: Range) -> None:
         """Draw the curves of several answers, which must have the same unit."""
@@ -305,3 +351,7 @@ class Plotted:
         end = read_end(node, kind, {**self._letters, **marks})
         end = end.xreplace({mark: explicit(right_side(quantity.value)) for mark, quantity in found.items()})
         return explicit(end), [quantity.key for quantity in found.values()]
+
+
+def _dimension(unit: str) -> Dimension:
+    return read_unit(unit).dimension if unit else NUMBER
