@@ -53,6 +53,9 @@ def problem(tmp_path_factory: pytest.TempPathFactory) -> Problem:
     return load_problem(course_in(tmp_path_factory.mktemp("course")), "hw9/block")
 
 
+SHAPE = drawn.HEIGHT / drawn.WIDTH
+
+
 def letters(**kinds: str) -> dict[str, Any]:
     return {name: SimpleNamespace(symbol=Symbol(name, positive=True), kind=kind) for name, kind in kinds.items()}
 
@@ -84,7 +87,7 @@ def files_of(
     label: Any = None,
     kinds: Mapping[Any, Any] | None = None,
 ) -> dict[str, bytes]:
-    shown = SimpleNamespace(key="vectors", stem="block-vectors", alt=(Text(alt),))
+    shown = SimpleNamespace(key="vectors", stem="block-vectors", alt=(Text(alt),), at="a")
     arrow = Arrow(column(0, 0, 0), column(length, 0, 0), 1, label=label)
     page: Any = SimpleNamespace(illustrations=(shown,))
     words = phrases(templates_of(ROOT))
@@ -269,13 +272,13 @@ def many_labels(count: int, **more: Any) -> Drawing:
 def test_a_drawing_with_many_labels_is_larger_unless_its_author_chooses_the_width(
     count: int, width: float | None, cm: float
 ) -> None:
-    sheet, _ = drawn._drawn(many_labels(count, values=()), {}, Notation(), None, width, "", NO_CACHE)
+    sheet, _ = drawn._drawn(many_labels(count, values=()), {}, Notation(), None, (width, SHAPE), "", NO_CACHE)
     assert sheet.labels == count
     assert sheet.width / POINTS_PER_CM == pytest.approx(cm, abs=1.2)
 
 
 def test_the_author_chooses_the_width_of_a_force_diagram() -> None:
     alone = replace(many_labels(4), body_size=20.0)
-    small, _ = drawn._drawn(alone, {}, Notation(), None, None, "", NO_CACHE)
-    wide, _ = drawn._drawn(alone, {}, Notation(), None, 9.0, "", NO_CACHE)
+    small, _ = drawn._drawn(alone, {}, Notation(), None, (None, SHAPE), "", NO_CACHE)
+    wide, _ = drawn._drawn(alone, {}, Notation(), None, (9.0, SHAPE), "", NO_CACHE)
     assert small.width < 3 * POINTS_PER_CM < 8 * POINTS_PER_CM < wide.width
