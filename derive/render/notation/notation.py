@@ -72,6 +72,7 @@ from derive.render.notation.layout import (
     holds_fraction,
     layout_of_name,
     row,
+    separator_of,
 )
 from derive.render.notation.order import holds_rates, ordered_factors, ordered_terms
 from derive.render.notation.products import (
@@ -149,10 +150,9 @@ class Notation:
 
     def list_of(self, components: tuple[Any, ...]) -> Layout:
         """Return a list such as (1, 1, 0)."""
-        items: list[Layout] = []
-        for component in components:
-            items += [Operator("comma")] * bool(items) + [self.layout(component)]
-        return Fenced(row(*items))
+        shown = [self.layout(component) for component in components]
+        between = separator_of(shown)
+        return Fenced(row(*[item for each in shown for item in (between, each)][1:]))
 
     # --- sums and products ---
 
