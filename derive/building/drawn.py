@@ -83,7 +83,7 @@ def _files(
     else:
         known = numbers_of(problem, placement, drawing)
         told = sorted(_within(data, known))
-    seen = data, told, _within(data, notation.known_dimensions), width, alt, notation.sign
+    seen = data, told, _within(data, notation.known_dimensions), width, alt, sorted(notation.language.items())
     key = digest("drawing", engine_digest("matplotlib"), repr(seen))
     svg, zero, pdf = (cache.get(key) or b"").partition(b"\0")
     if not zero:
