@@ -80,7 +80,8 @@ def _files(
         known = numbers_of(problem, placement, drawing)
         told = sorted(_within(data, known))
     shape = HEIGHT / WIDTH * (BESIDE_STATEMENT if shown.at == STATEMENT and width is None else 1.0)
-    seen = data, told, _within(data, notation.known_dimensions), width, shape, alt, notation.sign
+    language = sorted(notation.language.items())
+    seen = data, told, _within(data, notation.known_dimensions), width, shape, alt, language
     key = digest("drawing", engine_digest("matplotlib"), repr(seen))
     svg, zero, pdf = (cache.get(key) or b"").partition(b"\0")
     if not zero:

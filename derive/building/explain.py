@@ -34,8 +34,7 @@ def explain(root: Path, problem_id: str, key: str | None, as_json: bool) -> str 
     words = phrases(templates_of(root), language_of(root, problem.set_id))
     derivation, values, *_ = derived(problem)
     steps = {step.key: step for step in [*derivation.steps, *values.values()]}
-    known, _ = dimension_table(problem.dimensions, steps.values())
-    notation = Notation(known, sign=words.sign, body=words.labels["language"]["body_frame"])
+    notation = Notation(dimension_table(problem.dimensions, steps.values())[0], language=words.labels["language"])
     found = {each: explanation_of(steps[each], problem, derivation, values, words) for each in _wanted(key, steps)}
     if as_json:
         facts = [explanation.facts() for explanation in found.values()]

@@ -91,4 +91,4 @@ def _title_with_mathematics(root: Path, problem_id: str) -> str:
     names: dict[str, Any] = {g.name: given_words(g, problem.measured, words) for g in problem.givens}
     names.update({m.name: Text(m.name) for m in problem.title.mentions if m.name not in names})
     title = told(problem.title.pieces, {**AXIS_NAMES, **names}, lambda name, place: None, formula=_unread)
-    return inline_text(title, Notation(problem.dimensions, sign=words.sign))
+    return inline_text(title, Notation(problem.dimensions, language=words.labels["language"]))

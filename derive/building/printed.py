@@ -179,7 +179,7 @@ class _Printing:
     def notation(self) -> Notation:
         words = self.words
         dimensions = tuple(self.document.dimensions.items())
-        return _notation(dimensions, self.level is Level.BRIEF, words.sign, words.labels["language"]["body_frame"])
+        return _notation(dimensions, self.level is Level.BRIEF, tuple(words.labels["language"].items()))
 
     @cached_property
     def files(self) -> Files:
@@ -253,9 +253,11 @@ class _Printing:
 
 
 @lru_cache(maxsize=4)
-def _notation(dimensions: tuple[tuple[Any, Dimension | None], ...], flat: bool, sign: str, body: str) -> Notation:
+def _notation(
+    dimensions: tuple[tuple[Any, Dimension | None], ...], flat: bool, language: tuple[tuple[str, str], ...]
+) -> Notation:
     """Return the notation for these dimensions, which caches the layout of expressions."""
-    return Notation(dict(dimensions), flat=flat, sign=sign, body=body)
+    return Notation(dict(dimensions), flat, dict(language))
 
 
 def _source_faults(compared: Sequence[Told], notation: Notation) -> tuple[SourceFault, ...]:

@@ -688,9 +688,10 @@ def _paths(plot: m.Plot, curves: Curves, words: Phrases, names: dict[str, Any]) 
     names |= {"across": _divided(plot.across.label, curves.across), "several": len(curves.curves) > 1}
     yield filled(words.drawings["path"], names)
     across, up = curves.across, curves.up
+    between = "; " if words.sign == "," else ", "
     for letter, curve in zip(curve_letters(curves), curves.curves, strict=True):
         ends = [
-            f"({with_unit(x * across.per_unit, across.unit)}, {with_unit(y * up.per_unit, up.unit)})"
+            f"({with_unit(x * across.per_unit, across.unit)}{between}{with_unit(y * up.per_unit, up.unit)})"
             for x, y in (curve.path[0], curve.path[-1])
         ]
         own = {

@@ -112,9 +112,11 @@ def test_points_and_numbers_in_text_have_the_decimal_sign() -> None:
 
 
 def test_a_decimal_comma_in_every_format() -> None:
-    layout = Notation(sign=",").layout(Amount(Rational(3, 2), "kg", Integer(1)))
+    layout = Notation(language={"decimal": "comma"}).layout(Amount(Rational(3, 2), "kg", Integer(1)))
     assert (plain(layout), latex(layout)) == ("1,5 kg", r"1{,}5\,\mathrm{kg}")
     assert "<mn>1,5</mn>" in mathml(layout)
+    pair = Notation(language={"decimal": "comma"}).list_of((Amount(Rational(3, 2), "", Integer(1)), Integer(2)))
+    assert (plain(pair), latex(pair)) == ("(1,5; 2)", r"(1{,}5;\ 2)")
 
 
 def test_an_unknown_language_is_an_error_at_its_place() -> None:

@@ -54,7 +54,13 @@ class Binding(IntEnum):
     RELATION = 8
 
 
-_MARKS = {"plus": Binding.SUM, "minus": Binding.SUM, "plus_minus": Binding.SUM, "comma": Binding.RELATION}
+_MARKS = {
+    "plus": Binding.SUM,
+    "minus": Binding.SUM,
+    "plus_minus": Binding.SUM,
+    "comma": Binding.RELATION,
+    "semicolon": Binding.RELATION,
+}
 _MARKS |= {"dot": Binding.DOTTED, "times": Binding.DOTTED, "inner": Binding.OPEN, "cross": Binding.OPEN}
 _MARKS |= {"space": Binding.PRODUCT, "open": Binding.PRODUCT, "close": Binding.PRODUCT}
 _SIGNS = {"plus", "minus", "plus_minus"}

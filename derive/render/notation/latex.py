@@ -37,6 +37,7 @@ from derive.render.notation.layout import (
     first_of,
     is_differential,
     row,
+    separator_of,
 )
 
 SHORT_SUM = 3  # greatest number of terms of a numerator or denominator in running text: (a + b)/(c + d)
@@ -59,6 +60,7 @@ TEX_OPERATORS = {
     "plus_minus": r"\pm ",
     "space": r"\,",
     "comma": r",\ ",
+    "semicolon": r";\ ",
     "open": r"\Bigl(",
     "close": r"\Bigr)",
     "start": "",
@@ -80,10 +82,11 @@ BETWEEN_TERMS = {
         "at_most",
         "at_least",
         "comma",
+        "semicolon",
         "tends",
     )
 }
-STROKE, COMMA = Operator("stroke"), Operator("comma")
+STROKE = Operator("stroke")
 # Extra height for columns of fractions: the first string is added to a row, the second between two rows.
 SPACING = COLUMN_STRUT, ROW_GAP = r"\rule[-1em]{0pt}{2.6em}", "[4pt]"
 
@@ -144,7 +147,8 @@ def _flat(item: Layout) -> Layout:
     if not isinstance(item, Array) or len(item.rows[0]) > 1:
         return item
     (first,), *others = item.rows
-    return Fenced(row(first, *(each for (entry,) in others for each in (COMMA, entry))))
+    between = separator_of([first, *(entry for (entry,) in others)])
+    return Fenced(row(first, *(each for (entry,) in others for each in (between, entry))))
 
 
 def _with_stroke(item: Layout) -> Layout:

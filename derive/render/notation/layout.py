@@ -6,7 +6,8 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from collections.abc import Iterable
+from dataclasses import dataclass, is_dataclass
 
 
 @dataclass(frozen=True)
@@ -255,6 +256,18 @@ def is_differential(layout: Layout) -> bool:
 def ends_in_differential(layout: Layout) -> bool:
     """Return whether the layout ends in a differential such as dx, which completes an integral."""
     return isinstance(layout, Row) and len(layout.items) > 1 and layout.items[-2] == Upright("d")
+
+
+def separator_of(items: Iterable[Layout]) -> Operator:
+    """Return the sign between the items of a list: a semicolon if a number has a decimal comma."""
+    return Operator("semicolon" if any(map(_has_decimal_comma, items)) else "comma")
+
+
+def _has_decimal_comma(layout: object) -> bool:
+    if isinstance(layout, Digits):
+        return "," in layout.digits
+    parts = layout if isinstance(layout, tuple) else vars(layout).values() if is_dataclass(layout) else ()
+    return any(map(_has_decimal_comma, parts))
 
 
 def is_enclosed(layout: Layout) -> bool:

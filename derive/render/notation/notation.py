@@ -72,6 +72,7 @@ from derive.render.notation.layout import (
     holds_fraction,
     layout_of_name,
     row,
+    separator_of,
 )
 from derive.render.notation.order import holds_rates, ordered_factors, ordered_terms
 from derive.render.notation.products import (
@@ -99,22 +100,25 @@ class Notation:
     dimensions   dimensions of symbols, so that masses come first and rates last; symbols without a dimension are
                  between
     flat         whether vectors are printed as lists of components instead of columns, for a short page
-    sign         the decimal sign
-    body         the index of a rate of change that is seen in the body frame
+    language     the words and signs of formulas in the language of the page (`labels.language` of its phrases)
     """
 
     def __init__(
         self,
         dimensions: Mapping[Any, Dimension | None] | None = None,
         flat: bool = False,
-        sign: str = ".",
-        body: str = "body",
+        language: Mapping[str, str] | None = None,
     ):
         self.known_dimensions, self.flat = dimensions or {}, flat
-        self.sign, self.body = sign, body
+        self.language = language or {}
         self._places = {str(letter): n for n, letter in enumerate(self.known_dimensions)}
         self._known: dict[Any, Layout] = {}  # a cache: all formats of a page need the same layouts
         self._results: dict[Any, Layout] = {}
+
+    @property
+    def sign(self) -> str:
+        """Return the decimal sign."""
+        return "," if self.language.get("decimal") == "comma" else "."
 
     def layout(self, expr: Any) -> Layout:
         if expr not in self._known:
@@ -149,10 +153,9 @@ class Notation:
 
     def list_of(self, components: tuple[Any, ...]) -> Layout:
         """Return a list such as (1, 1, 0)."""
-        items: list[Layout] = []
-        for component in components:
-            items += [Operator("comma")] * bool(items) + [self.layout(component)]
-        return Fenced(row(*items))
+        shown = [self.layout(component) for component in components]
+        between = separator_of(shown)
+        return Fenced(row(*[item for each in shown for item in (between, each)][1:]))
 
     # --- sums and products ---
 
@@ -330,7 +333,7 @@ class Notation:
         return self._differentiated("d", expr.args[0], Name("t"))
 
     def _body_rate(self, expr: ex.BodyRate) -> Layout:
-        return Lowered(Fenced(self._rate(expr)), self.body)
+        return Lowered(Fenced(self._rate(expr)), self.language.get("body_frame", "body"))
 
     def _component(self, expr: ex.Component) -> Layout:
         return Lowered(Fenced(self.layout(expr.args[0])), expr.args[1].name)
@@ -434,7 +437,8 @@ class Notation:
         inner = decimal(number, self.sign) if isinstance(number, Rational) else self.layout(number)
         if unit.name in ex.IN_DEGREES:
             return row(inner, DEGREE_SIGN)
-        return row(inner, THIN_SPACE, unit_behind_number(unit.name)) if unit.name else inner
+        printed = self.language.get(unit.name, unit.name)  # a unit that is a word, such as rpm
+        return row(inner, THIN_SPACE, unit_behind_number(printed)) if unit.name else inner
 
     _methods: tuple[tuple[Any, Callable[[Any, Any], Layout]], ...] = (
         (Rational, _rational),

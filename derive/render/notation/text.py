@@ -50,6 +50,7 @@ from derive.render.notation.layout import (
     first_of,
     is_differential,
     last_of,
+    separator_of,
 )
 
 TEXT_OPERATORS = {
@@ -70,6 +71,7 @@ TEXT_OPERATORS = {
     "plus_minus": " ± ",
     "space": " ",
     "comma": ", ",
+    "semicolon": "; ",
     "open": "(",
     "close": ")",
     "start": "",
@@ -166,7 +168,7 @@ def _on_one_line(layout: Any) -> Any:
 
 
 def _in_brackets(entries: Sequence[Layout]) -> Layout:
-    return Fenced(Row(tuple(item for entry in entries for item in (Operator("comma"), entry))[1:]))
+    return Fenced(Row(tuple(item for entry in entries for item in (separator_of(entries), entry))[1:]))
 
 
 def _line(layout: Layout) -> str:
@@ -268,7 +270,8 @@ def _array(rows: tuple[tuple[Layout, ...], ...]) -> TextBox:
     if len(lines) == 1:
         return TextBox((f"({lines[0]})",))
     if len(rows[0]) == 1:  # a column is written on one line as a list of components
-        return TextBox(("(" + ", ".join(line[0] for line in cells) + ")",))
+        between = TEXT_OPERATORS[separator_of(entry for (entry,) in rows).kind]
+        return TextBox(("(" + between.join(line[0] for line in cells) + ")",))
     left = ["⎡"] + ["⎢"] * (len(lines) - 2) + ["⎣"]
     right = ["⎤"] + ["⎥"] * (len(lines) - 2) + ["⎦"]
     return TextBox(tuple(a + line + b for a, line, b in zip(left, lines, right, strict=True)), len(lines) // 2)
