@@ -233,15 +233,16 @@ class LatexPage:
         return Tex(f"\n{between}\n".join(steps))
 
     def _list(self, steps: Sequence[Sequence[Printed]], stop: str) -> str:
-        """Return answers in one frame; the steps of a list have a row, a reason and a number each."""
-        stops = [","] * (len(steps) - 1) + [stop]
+        """Return answers in one frame; the steps of a list have a row, a reason and a number each. The
+        punctuation at the end is outside the frame."""
+        stops = [","] * (len(steps) - 1) + [""]
         rows = [
             rf"\listrow{{{latex(line.left) if line.left else ''}}}{{{_sides(line)}{end}}}{{{self._reason(line)}}}"
             rf"{{{self._number_of(line)}}}"
             for (line,), end in zip(steps, stops, strict=True)
         ]
         listed = "\n\\nextlistrow\n".join(rows)
-        return f"\\framedlist{{\n{listed}\n}}"
+        return f"\\framedlist{{\n{listed}\n}}{{{stop}}}"
 
     def _step(self, printed: Sequence[Printed], stop: str) -> str:
         rows = framed_together(printed)
@@ -251,14 +252,13 @@ class LatexPage:
 
     def _row(self, lines: Sequence[Printed], stop: str) -> str:
         """Return a row: left side, right sides, punctuation, reason and number. In a framed row the frame includes the
-        left side."""
+        left side; the punctuation is outside the frame."""
         first, last = lines[0], lines[-1]
         left = latex(first.left) if first.left else ""
         if first.sides[0][0] == "start" and len(lines) == 1 and not first.frames_all:
             command, left, body = "brokenrow", _sides(first), ""
         elif first.frames_all:
-            whole = f"{left} {_sides(first)}" if len(lines) == 1 else _stacked(left, lines, stop)
-            command, body, stop = "framedrow", whole + (stop if len(lines) == 1 else ""), ""
+            command, body = "framedrow", f"{left} {_sides(first)}" if len(lines) == 1 else _stacked(left, lines)
         elif len(lines) > 1:
             ((relation, begun),) = first.sides
             stacked = _stacked("", [replace(first, sides=(("start", begun),)), *lines[1:]])
@@ -361,8 +361,8 @@ def _sides(line: Printed) -> str:
     return " ".join([*plain, sign, _framed(" ".join([first, *(f"{sign} {side}" for sign, side in others)]))])
 
 
-def _stacked(left: str, lines: Sequence[Printed], stop: str = "") -> str:
-    rows = [f"&{_sides(line).strip()}{stop if line is lines[-1] else ''}" for line in lines]
+def _stacked(left: str, lines: Sequence[Printed]) -> str:
+    rows = [f"&{_sides(line).strip()}" for line in lines]
     return rf"\begin{{aligned}}{left} " + r" \\ ".join(rows) + r"\end{aligned}"
 
 
