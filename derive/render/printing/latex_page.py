@@ -20,6 +20,7 @@ from derive.page.tree import Block, Display, Document, Illustration, PartPage
 from derive.page.wording import (
     DimensionMark,
     FigureRef,
+    FramedMath,
     Inline,
     Math,
     NewParagraph,
@@ -180,13 +181,11 @@ class LatexPage:
                 return self._figure_name(number, "~")
             case Verdict(text):
                 return rf"\verdict{{{escaped(text)}}}"
-            case Text(" = "):
-                return "~=~"
             case Text(text):
-                return escaped(text)
+                return escaped(text).replace(" = ", "~=~")
             case Math(expr):
-                inner = latex(self.notation.result(expr), inline=True)
-                return f"${inner}$"
+                inner = f"${latex(self.notation.result(expr), inline=True)}$"
+                return rf"\verdict{{{inner}}}" if isinstance(node, FramedMath) else inner
             case DimensionMark(dimension):
                 return f"${dimension_latex(dimension)}$"
             case UnitMark(text):
