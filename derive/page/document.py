@@ -27,7 +27,7 @@ from derive.course.written import ANY_OUTCOME
 from derive.errors import Complaint, Place, did_you_mean
 from derive.figures.marks import Recorded
 from derive.page.assumptions import between_bounds, says_the_same, with_units
-from derive.page.chain_lines import ChainWriter, Equations, conditions_of
+from derive.page.chain_lines import ChainWriter, Equations, conditions_of, without_inserted
 from derive.page.checks import checks_of, second_ways_of
 from derive.page.clauses import Clauses, continues_sentence
 from derive.page.closing import limiting_cases, limits_left_out, sort_of_cases
@@ -428,6 +428,8 @@ class _Writer:
         nodes = (*self.theorems.before(step), *(with_verdict(nodes, self.words) if verdict else nodes))
         self.numbers.add(step.key)
         lines = self.stated.without_repeats(self.lines.of(self.theorems.without_law(step), mode), self.symbols.values())
+        if self.level is not Level.FULL:
+            lines = without_inserted(lines, [self.symbols.get(key) for key in self.numbers])
         again = self.stated.noted(step.key, lines)
         if again is not None and step.outcome in AGAIN and nodes == (Chain(),) and self.level is not Level.FULL:
             self.numbers[step.key] = self.numbers[again]

@@ -93,12 +93,13 @@ def _after_figures(blocks: list[Block], figures: Sequence[Illustration], words: 
 
 
 def _with_forces(blocks: list[Block], figures: Sequence[Illustration], words: Phrases) -> list[Block]:
-    """Begin the first sentence with the figures of forces; a sentence that does not begin with an article follows a
-    sentence about the figures."""
+    """Begin the first sentence with the figures of forces; a sentence that does not begin with an article, or a
+    paragraph of several sentences, follows a sentence about the figures."""
     first, named = blocks[0], _named(figures, words)
     article = words.drawings["article"]
     opening = first.nodes[0] if isinstance(first, Paragraph) else None
-    if isinstance(first, Paragraph) and type(opening) is Text and opening.text.startswith(f"{article} "):
+    is_sentence = isinstance(first, Paragraph) and not any(". " in n.text for n in first.nodes if isinstance(n, Text))
+    if is_sentence and type(opening) is Text and opening.text.startswith(f"{article} "):
         said = filled(words.drawings["with_forces"], named)
         rest = Text(f" {opening.text[0].lower()}{opening.text[1:]}")
         return [Paragraph((*said, rest, *first.nodes[1:])), *blocks[1:]]

@@ -12,11 +12,12 @@ from typing import Any
 from derive.course.names import EvidenceShown
 from derive.course.parts import points_text
 from derive.course.placement import STATEMENT
+from derive.page.clauses import continues_sentence
 from derive.page.folding import groups_in, sentences
 from derive.page.numbering import Number
 from derive.page.rubric import Credit
 from derive.page.template import Templates
-from derive.page.tree import Block, Display, Document, Illustration, PartPage
+from derive.page.tree import Block, Display, Document, Illustration, Paragraph, PartPage
 from derive.page.wording import (
     DimensionMark,
     FigureRef,
@@ -166,6 +167,11 @@ class LatexPage:
         ]
         pairs = (pair for sentences_of_part in told for pair in pairwise(sentences_of_part))
         return any(first[-1] is block and self.has_answer(second) for first, second in pairs)
+
+    def is_continuation(self, block: Paragraph) -> bool:
+        """Return whether words continue the sentence of the display before them. A note in the margin needs a line of
+        text, so with such notes the answer is false."""
+        return continues_sentence(block.nodes) and not self.has_margin()
 
     def kind(self, block: Any) -> str:
         return type(block).__name__.lower()
