@@ -97,15 +97,16 @@ def _with_forces(blocks: list[Block], figures: Sequence[Illustration], words: Ph
     paragraph of several sentences, follows a sentence about the figures."""
     first, named = blocks[0], _named(figures, words)
     article = words.drawings["article"]
-    opening = first.nodes[0] if isinstance(first, Paragraph) else None
-    is_sentence = isinstance(first, Paragraph) and not any(". " in n.text for n in first.nodes if isinstance(n, Text))
-    if is_sentence and type(opening) is Text and opening.text.startswith(f"{article} "):
+    nodes = first.nodes if isinstance(first, Paragraph) else ()
+    opening = nodes[0] if nodes else None
+    is_one_sentence = not any(". " in node.text for node in nodes if isinstance(node, Text))
+    if is_one_sentence and type(opening) is Text and opening.text.startswith(f"{article} "):
         said = filled(words.drawings["with_forces"], named)
         rest = Text(f" {opening.text[0].lower()}{opening.text[1:]}")
-        return [Paragraph((*said, rest, *first.nodes[1:])), *blocks[1:]]
+        return [Paragraph((*said, rest, *nodes[1:])), *blocks[1:]]
     shown = filled(words.drawings["shows_forces"], named)
-    if isinstance(first, Paragraph):
-        return [Paragraph((*shown, Text(" "), *first.nodes)), *blocks[1:]]
+    if nodes:
+        return [Paragraph((*shown, Text(" "), *nodes)), *blocks[1:]]
     return [Paragraph(shown), *blocks]
 
 

@@ -372,15 +372,13 @@ def equation_of(step: Step) -> Inline:
 
 def with_verdict(nodes: Sequence[Inline], words: Phrases) -> tuple[Inline, ...]:
     """Return the sentence with its verdict marked, if it contains exactly one: "the equilibrium is stable". In a
-    sentence with several, "stable if this is positive, that is, if a > b, and unstable if it is negative", the condition is
-    marked if it is the only one."""
+    sentence with several, "stable if this is positive, that is, if a > b, and unstable if it is negative", the
+    condition is marked if it is the only one."""
     pattern = re.compile(rf"\b({'|'.join(words.labels['verdicts'])})\b")
     found = [(i, match) for i, node in enumerate(nodes) if type(node) is Text for match in pattern.finditer(node.text)]
     if len(found) > 1:
-        conditions = [i for i, node in enumerate(nodes) if _is_inequality(node)]
-        if len(conditions) != 1:
-            return tuple(nodes)
-        return tuple(FramedMath(node.expr) if i in conditions else node for i, node in enumerate(nodes))
+        is_only_one = sum(map(_is_inequality, nodes)) == 1
+        return tuple(FramedMath(node.expr) if is_only_one and _is_inequality(node) else node for node in nodes)
     if len(found) != 1:
         return tuple(nodes)
     ((i, match),) = found

@@ -120,9 +120,7 @@ def _is_one_answer(lines: Sequence[Printed]) -> bool:
     return len(lines) == 1 and lines[0].frames_all and all(relation != "next" for relation, _ in lines[0].sides)
 
 
-def _with_answer(
-    packed: Sequence[Printed], answer: Printed, relation: str, apart: bool, limit: float
-) -> list[Printed]:
+def _with_answer(packed: Sequence[Printed], answer: Printed, relation: str, apart: bool, limit: float) -> list[Printed]:
     """Add the result of a chain, which is framed: T = ... = [7/24 M a^2], on a line of its own if the row has no room.
 
     If only a law in letters precedes the result, L = T - U, the frame includes the whole line. A result that means
