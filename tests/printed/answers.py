@@ -75,8 +75,9 @@ def of_notebook(text: str) -> list[str]:
 
 
 def bare(formulas: list[str]) -> str:
-    """Formulas one after the other, without signs of equality, spaces and breaks, by which formats differ."""
-    tex = " ".join(formulas)
+    """Formulas one after the other, without signs of equality, spaces and breaks, by which formats differ, and without
+    the punctuation at the end, which not every format has in the frame."""
+    tex = " ".join(formula.rstrip(" ,.") for formula in formulas)
     for written, same in _SAME.items():
         tex = tex.replace(written, same)
     return _LAYOUT.sub("", tex)
