@@ -13,7 +13,7 @@ from derive.page.chain_lines import Equations
 from derive.page.numbering import Number
 from derive.page.wording import Inline, Text
 from derive.render.notation.breaking import broken, terms_of
-from derive.render.notation.layout import Array, Layout, width
+from derive.render.notation.layout import Array, Layout, Row, width
 from derive.render.notation.notation import Notation
 from derive.render.notation.text import plain
 
@@ -145,9 +145,15 @@ def _with_answer(packed: Sequence[Printed], answer: Printed, relation: str, apar
     row = replace(last, sides=(*last.sides, (sign, result)), reason=reason, framed=1)
     indent = width(answer.left) if answer.left is not None and last.left is None else 0
     fits = indent + row.width + reason_width(reason) <= limit and len(row.sides) <= MOST_SIDES
+    if limit <= TEXT_WIDTH and any(_has_vector(side) for _, side in row.sides):
+        fits = False  # text shows a vector as a row (a, b, c), which is wider than the column
     if not last.sides or fits and not (last.reason and answer.reason):
         return [*others, row]
     return [*others, last, replace(row, left=None, sides=((sign, result),), reason=answer.reason)]
+
+
+def _has_vector(side: Layout) -> bool:
+    return isinstance(side, Array) or isinstance(side, Row) and any(map(_has_vector, side.items))
 
 
 def _is_zero(result: Layout) -> bool:
