@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any
 
-from sympy import Integral, MatrixBase, Mul, Symbol, preorder_traversal
+from sympy import Expr, Integral, MatrixBase, Mul, Symbol, preorder_traversal
 
 from derive.algebra.expressions import Relation
 from derive.algebra.tidy import common_factor
@@ -181,6 +181,23 @@ class ChainWriter:
             return [key]
         letters = {letter for form in of.chain for letter in getattr(form.expr, "free_symbols", ())}
         return [each for each in step.inputs if self.symbols.get(each) in letters]
+
+
+def without_inserted(lines: Sequence[ChainLine], shown: Collection[Any]) -> tuple[ChainLine, ...]:
+    """Drop I phi'' = r F before m r^2 phi'' = r F if the page has shown I = m r^2.
+
+    shown   the symbols of the equations that the page has shown
+    """
+    follow = [*lines[1:], None]
+    return tuple(line for line, after in zip(lines, follow, strict=True) if not _is_inserted(line, after, shown))
+
+
+def _is_inserted(line: ChainLine, after: ChainLine | None, shown: Collection[Any]) -> bool:
+    if after is None or not (isinstance(line.left, Expr) and isinstance(after.left, Expr)):
+        return False
+    lost = line.left.free_symbols - after.left.free_symbols
+    same = line.relation == after.relation and line.right == after.right and getattr(line.right, "free_symbols", ())
+    return bool(same and lost) and lost <= set(shown)
 
 
 def conditions_of(step: Step) -> tuple[ChainLine, ...]:

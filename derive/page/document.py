@@ -27,7 +27,7 @@ from derive.course.written import ANY_OUTCOME
 from derive.errors import Complaint, Place, did_you_mean
 from derive.figures.marks import Recorded
 from derive.page.assumptions import between_bounds, says_the_same, with_units
-from derive.page.chain_lines import ChainWriter, Equations, conditions_of
+from derive.page.chain_lines import ChainWriter, Equations, conditions_of, without_inserted
 from derive.page.checks import checks_of, second_ways_of
 from derive.page.clauses import Clauses, continues_sentence
 from derive.page.closing import limiting_cases, limits_left_out, sort_of_cases
@@ -47,6 +47,7 @@ from derive.page.introduced import references_in, wanting
 from derive.page.names import page_names
 from derive.page.numbering import Numbering
 from derive.page.numbers_given import are_told, numbers_left, numbers_of_cases, take
+from derive.page.paragraphs import without_short_paragraphs
 from derive.page.pointers import pointed_out
 from derive.page.reasons import framed_once, without_known_reasons
 from derive.page.repeats import AGAIN, Stated, noted, results, told_by_number
@@ -334,7 +335,7 @@ class _Writer:
         placed = _illustrated(_punctuated(blocks), own, begins, ends, steps)
         drawings = {each.key: each for each in self.drawings}
         placed = figures_mentioned(placed, drawings, self._figures_named(), self.words)
-        placed = framed_once(without_known_reasons(placed, self.numbers))
+        placed = framed_once(without_known_reasons(without_short_paragraphs(placed), self.numbers))
         return PartPage(label, self._question(label, part, illustrations), part.points, placed, part.extra)
 
     def _question(self, label: str, part: Question, drawings: Sequence[Illustration]) -> tuple[Inline, ...]:
@@ -421,10 +422,14 @@ class _Writer:
                 self.clauses.point_out(step, said)
                 self.pointed_to = lines_of
             return
-        nodes = (Chain(),) if goes_on or mode == HIDDEN_STEP or step.key == self.told_before else self._phrase(step)
+        follows_words = bool(blocks) and not isinstance(blocks[-1], Display)
+        is_silent = goes_on or mode == HIDDEN_STEP or step.key == self.told_before
+        nodes = (Chain(),) if is_silent else self._phrase(step, follows_words)
         nodes = (*self.theorems.before(step), *(with_verdict(nodes, self.words) if verdict else nodes))
         self.numbers.add(step.key)
         lines = self.stated.without_repeats(self.lines.of(self.theorems.without_law(step), mode), self.symbols.values())
+        if self.level is not Level.FULL:
+            lines = without_inserted(lines, [self.symbols.get(key) for key in self.numbers])
         again = self.stated.noted(step.key, lines)
         if again is not None and step.outcome in AGAIN and nodes == (Chain(),) and self.level is not Level.FULL:
             self.numbers[step.key] = self.numbers[again]
@@ -499,7 +504,8 @@ class _Writer:
         self.unplaced -= found
         return found
 
-    def _phrase(self, step: Step) -> tuple[Inline, ...]:
+    def _phrase(self, step: Step, follows_words: bool = False) -> tuple[Inline, ...]:
+        """Return the sentence of a step. If it follows words, it does not continue a sentence: "so the Lagrangian"."""
         own = names_of_step(step, self.words, self.dimensions.get(step.symbol))
         override = self.problem.wording.get(step.key, {})
         own |= {"amounts": self._amounts(step), **in_turn(step, self.rest, self.words)}
@@ -512,7 +518,8 @@ class _Writer:
         self.told_before = following.key if following and both else ""
         if following and both:
             own = {**names_of_step(following, self.words, self.dimensions.get(following.symbol)), **own}
-        return filled(both or self.words.phrase(step, self.before), own)  # a phrase cannot mention keys of other steps
+        said = filled(both or self.words.phrase(step, self.before), own)  # a phrase cannot mention keys of other steps
+        return filled(self.words.phrase(step), own) if follows_words and continues_sentence(said) else said
 
     def _states(self, name: str) -> bool:
         """Return whether the statement uses the name that the author gave to a body."""

@@ -124,18 +124,20 @@ def _after_figures(blocks: list[Block], figures: Sequence[Illustration], words: 
 
 
 def _with_forces(blocks: list[Block], figures: Sequence[Illustration], words: Phrases) -> list[Block]:
-    """Begin the first sentence with the figures of forces; a sentence that does not begin with an article follows a
-    sentence about the figures."""
+    """Begin the first sentence with the figures of forces; a sentence that does not begin with an article, or a
+    paragraph of several sentences, follows a sentence about the figures."""
     first, named = blocks[0], _named(figures, words)
     article = words.drawings["article"]
-    opening = first.nodes[0] if isinstance(first, Paragraph) else None
-    if isinstance(first, Paragraph) and type(opening) is Text and opening.text.startswith(f"{article} "):
+    nodes = first.nodes if isinstance(first, Paragraph) else ()
+    opening = nodes[0] if nodes else None
+    is_one_sentence = not any(". " in node.text for node in nodes if isinstance(node, Text))
+    if is_one_sentence and type(opening) is Text and opening.text.startswith(f"{article} "):
         said = filled(words.drawings["with_forces"], named)
         rest = Text(f" {opening.text[0].lower()}{opening.text[1:]}")
-        return [Paragraph((*said, rest, *first.nodes[1:])), *blocks[1:]]
+        return [Paragraph((*said, rest, *nodes[1:])), *blocks[1:]]
     shown = filled(words.drawings["shows_forces"], named)
-    if isinstance(first, Paragraph):
-        return [Paragraph((*shown, Text(" "), *first.nodes)), *blocks[1:]]
+    if nodes:
+        return [Paragraph((*shown, Text(" "), *nodes)), *blocks[1:]]
     return [Paragraph(shown), *blocks]
 
 

@@ -11,7 +11,7 @@ from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeGuard
 
 from jinja2 import Template, UndefinedError
 from jinja2.meta import find_undeclared_variables
@@ -69,6 +69,11 @@ class Math:
     """An expression in running text."""
 
     expr: Any
+
+
+@dataclass(frozen=True)
+class FramedMath(Math):
+    """A condition in running text that answers the question of a part; it is framed."""
 
 
 @dataclass(frozen=True)
@@ -440,15 +445,23 @@ def equation_of(step: Step) -> Inline:
 
 
 def with_verdict(nodes: Sequence[Inline], words: Phrases) -> tuple[Inline, ...]:
-    """Return the sentence with its verdict marked, if it contains exactly one: "the equilibrium is stable". A sentence
-    with two, such as "stable if it is positive, and unstable if it is negative", states a condition."""
+    """Return the sentence with its verdict marked, if it contains exactly one: "the equilibrium is stable". In a
+    sentence with several, "stable if this is positive, that is, if a > b, and unstable if it is negative", the
+    condition is marked if it is the only one."""
     pattern = re.compile(rf"\b({'|'.join(words.labels['verdicts'])})\b")
     found = [(i, match) for i, node in enumerate(nodes) if type(node) is Text for match in pattern.finditer(node.text)]
+    if len(found) > 1:
+        is_only_one = sum(map(_is_inequality, nodes)) == 1
+        return tuple(FramedMath(node.expr) if is_only_one and _is_inequality(node) else node for node in nodes)
     if len(found) != 1:
         return tuple(nodes)
     ((i, match),) = found
     before, after = match.string[: match.start()], match.string[match.end() :]
     return (*nodes[:i], Text(before), Verdict(match.group()), Text(after), *nodes[i + 1 :])
+
+
+def _is_inequality(node: Inline) -> TypeGuard[Math]:
+    return isinstance(node, Math) and isinstance(node.expr, Relation) and node.expr.operator in ("<", ">")
 
 
 def names_of_step(step: Step, words: Phrases, dimension: Dimension | None) -> dict[str, Any]:

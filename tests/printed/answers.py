@@ -71,7 +71,8 @@ def of_notebook(text: str) -> list[str]:
 
 
 def bare(formulas: list[str]) -> str:
-    tex = " ".join(formulas)
+    """Formulas one after the other, without signs of equality, spaces, breaks, and punctuation at the end."""
+    tex = " ".join(formula.rstrip(" ,.") for formula in formulas)
     for written, same in _SAME.items():
         tex = tex.replace(written, same)
     return _LAYOUT.sub("", tex)

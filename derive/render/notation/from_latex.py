@@ -117,7 +117,7 @@ class _Reader:
             if _is_of_letters(item) and items and isinstance(items[-1], Name):
                 items.append(Operator("start"))  # U(x) is a function, so no space follows U
             word = item.base if isinstance(item, Raised) else item
-            if isinstance(word, Upright) and word.text[:1].isalpha() and items and isinstance(items[-1], Digits):
+            if isinstance(word, Upright) and word.text[:1].isalpha() and items and _ends_in_number(items[-1]):
                 items.append(THIN_SPACE)  # between a number and its unit
             items += [] if item is None else [item]
         return row(*items) if items else _NOTHING
@@ -277,6 +277,11 @@ class _Reader:
             end = self.tokens.index("}", self.at)
             found, self.at = "".join(self.tokens[self.at + 1 : end]), end + 1
         return found
+
+
+def _ends_in_number(item: Layout) -> bool:
+    """Return whether an item is a number or a power of a number: 9.8, 10^{11}."""
+    return isinstance(item.base if isinstance(item, Raised) else item, Digits)
 
 
 def _is_of_letters(item: Layout | None) -> bool:

@@ -65,7 +65,7 @@ def _row(lines: Sequence[Printed], stop: str, ending: str) -> Row:
     left = latex(first.left) if first.left else ""
     if first.frames_all:
         rows = [Row(left, _sides(first.sides)), *_going_on(others)]
-        return Row("", _boxed(aligned(rows) + stop) + ending)
+        return Row("", _boxed(aligned(rows)) + stop + ending)
     if not others:
         body = _with_box(first)
     else:

@@ -22,6 +22,7 @@ from derive.page.tree import Block, Display, Document, Folded, Illustration, Par
 from derive.page.wording import (
     DimensionMark,
     FigureRef,
+    FramedMath,
     Inline,
     Math,
     NewParagraph,
@@ -163,6 +164,8 @@ class HtmlPage:
                 return "&nbsp;=&nbsp;"
             case Text(text):
                 return escape(text)
+            case FramedMath(expr):
+                return f'<span class="verdict">{mathml(self.notation.result(expr), inline=True)}</span>'
             case Math(expr):
                 layout = self.notation.result(expr)
                 if width(layout) <= WIDE:

@@ -12,14 +12,16 @@ from typing import Any
 from derive.course.names import EvidenceShown
 from derive.course.parts import points_text
 from derive.course.placement import STATEMENT
+from derive.page.clauses import continues_sentence
 from derive.page.folding import groups_in, sentences
 from derive.page.numbering import Number
 from derive.page.rubric import Credit
 from derive.page.template import Templates
-from derive.page.tree import Block, Display, Document, Illustration, PartPage
+from derive.page.tree import Block, Display, Document, Illustration, Paragraph, PartPage
 from derive.page.wording import (
     DimensionMark,
     FigureRef,
+    FramedMath,
     Inline,
     Math,
     NewParagraph,
@@ -166,6 +168,11 @@ class LatexPage:
         pairs = (pair for sentences_of_part in told for pair in pairwise(sentences_of_part))
         return any(first[-1] is block and self.has_answer(second) for first, second in pairs)
 
+    def is_continuation(self, block: Paragraph) -> bool:
+        """Return whether words continue the sentence of the display before them. A note in the margin needs a line of
+        text, so with such notes the answer is false."""
+        return continues_sentence(block.nodes) and not self.has_margin()
+
     def kind(self, block: Any) -> str:
         return type(block).__name__.lower()
 
@@ -180,13 +187,11 @@ class LatexPage:
                 return self._figure_name(number, "~")
             case Verdict(text):
                 return rf"\verdict{{{escaped(text)}}}"
-            case Text(" = "):
-                return "~=~"
             case Text(text):
-                return escaped(text)
+                return escaped(text).replace(" = ", "~=~")
             case Math(expr):
-                inner = latex(self.notation.result(expr), inline=True)
-                return f"${inner}$"
+                inner = f"${latex(self.notation.result(expr), inline=True)}$"
+                return rf"\verdict{{{inner}}}" if isinstance(node, FramedMath) else inner
             case DimensionMark(dimension):
                 return f"${dimension_latex(dimension)}$"
             case UnitMark(text):
@@ -233,15 +238,16 @@ class LatexPage:
         return Tex(f"\n{between}\n".join(steps))
 
     def _list(self, steps: Sequence[Sequence[Printed]], stop: str) -> str:
-        """Return answers in one frame; the steps of a list have a row, a reason and a number each."""
-        stops = [","] * (len(steps) - 1) + [stop]
+        """Return answers in one frame; the steps of a list have a row, a reason and a number each. The
+        punctuation at the end is outside the frame."""
+        stops = [","] * (len(steps) - 1) + [""]
         rows = [
             rf"\listrow{{{latex(line.left) if line.left else ''}}}{{{_sides(line)}{end}}}{{{self._reason(line)}}}"
             rf"{{{self._number_of(line)}}}"
             for (line,), end in zip(steps, stops, strict=True)
         ]
         listed = "\n\\nextlistrow\n".join(rows)
-        return f"\\framedlist{{\n{listed}\n}}"
+        return f"\\framedlist{{\n{listed}\n}}{{{stop}}}"
 
     def _step(self, printed: Sequence[Printed], stop: str) -> str:
         rows = framed_together(printed)
@@ -251,14 +257,13 @@ class LatexPage:
 
     def _row(self, lines: Sequence[Printed], stop: str) -> str:
         """Return a row: left side, right sides, punctuation, reason and number. In a framed row the frame includes the
-        left side."""
+        left side; the punctuation is outside the frame."""
         first, last = lines[0], lines[-1]
         left = latex(first.left) if first.left else ""
         if first.sides[0][0] == "start" and len(lines) == 1 and not first.frames_all:
             command, left, body = "brokenrow", _sides(first), ""
         elif first.frames_all:
-            whole = f"{left} {_sides(first)}" if len(lines) == 1 else _stacked(left, lines, stop)
-            command, body, stop = "framedrow", whole + (stop if len(lines) == 1 else ""), ""
+            command, body = "framedrow", f"{left} {_sides(first)}" if len(lines) == 1 else _stacked(left, lines)
         elif len(lines) > 1:
             ((relation, begun),) = first.sides
             stacked = _stacked("", [replace(first, sides=(("start", begun),)), *lines[1:]])
@@ -361,8 +366,8 @@ def _sides(line: Printed) -> str:
     return " ".join([*plain, sign, _framed(" ".join([first, *(f"{sign} {side}" for sign, side in others)]))])
 
 
-def _stacked(left: str, lines: Sequence[Printed], stop: str = "") -> str:
-    rows = [f"&{_sides(line).strip()}{stop if line is lines[-1] else ''}" for line in lines]
+def _stacked(left: str, lines: Sequence[Printed]) -> str:
+    rows = [f"&{_sides(line).strip()}" for line in lines]
     return rf"\begin{{aligned}}{left} " + r" \\ ".join(rows) + r"\end{aligned}"
 
 

@@ -13,14 +13,14 @@ from derive.page.chain_lines import Equations
 from derive.page.numbering import Number
 from derive.page.wording import Inline, Text
 from derive.render.notation.breaking import broken, terms_of
-from derive.render.notation.layout import Layout, width
+from derive.render.notation.layout import Array, Layout, Row, width
 from derive.render.notation.notation import Notation
 from derive.render.notation.text import plain
 
 LINE_WIDTH, PAGE_WIDTH, TEXT_WIDTH = 74.0, 66.0, 60.0  # widths of a line on paper, in a browser and in text
 LINE_INDENT = 4.0  # indent of a continuation line
 GAP = 5.0  # width of the gap between two equations on one row
-LAW_WIDTH = 14.0  # greatest width of a law in letters, such as T - U, that shares the frame of its result
+LAW_WIDTH = 16.0  # greatest width of a law in letters, such as T - U, that shares the frame of its result
 INEQUALITIES = {"less", "greater", "at_most", "at_least", "unequal"}
 MOST_SIDES = 4  # greatest number of right sides on one line of a chain
 
@@ -74,7 +74,7 @@ def printed_lines(equations: Equations, notation: Notation, limit: float = LINE_
             continue
         if last and framed and i == result and begun is not None:
             answer = Printed(begun, (side,), line.reason, framed=1)
-            packed = _with_answer(packed, answer, _joined(relations), apart=line.numeric)
+            packed = _with_answer(packed, answer, _joined(relations), line.numeric, limit)
             continue
         if last and line.relation == "equals" and _alike(last.sides[-1][1], side[1]):
             # Two expressions that print the same terms, in any order, are shown once.
@@ -120,12 +120,14 @@ def _is_one_answer(lines: Sequence[Printed]) -> bool:
     return len(lines) == 1 and lines[0].frames_all and all(relation != "next" for relation, _ in lines[0].sides)
 
 
-def _with_answer(packed: Sequence[Printed], answer: Printed, relation: str, apart: bool) -> list[Printed]:
-    """Add the result of a chain, which is framed as an equation: on a line of its own, with the left side again. But if
-    only a law in letters precedes the result, L = T - U, the frame includes the whole line.
+def _with_answer(packed: Sequence[Printed], answer: Printed, relation: str, apart: bool, limit: float) -> list[Printed]:
+    """Add the result of a chain, which is framed: T = ... = [7/24 M a^2], on a line of its own if the row has no room.
+
+    If only a law in letters precedes the result, L = T - U, the frame includes the whole line. A result that means
+    little without its left side, zero or a bound, is framed with the left side.
 
     relation  the sign between the left side and the result
-    apart     whether the result always has a line of its own
+    apart     whether the result is never framed with the formula before it
     """
     *others, last = packed
     ((sign, result),) = answer.sides
@@ -133,10 +135,31 @@ def _with_answer(packed: Sequence[Printed], answer: Printed, relation: str, apar
         last = replace(last, sides=last.sides[:-1])
     law = sum(width(side) for _, side in last.sides)
     whole = replace(answer, sides=(*last.sides, (sign, result)), framed=len(last.sides) + 1)
-    is_short = last.left == answer.left and not last.reason and law <= LAW_WIDTH and whole.width <= TEXT_WIDTH
-    if last.sides and is_short and not apart:
+    begins = bool(last.sides) and last.left == answer.left and not last.reason and not apart
+    needs_left = relation in INEQUALITIES or _is_zero(result)
+    if begins and (law <= LAW_WIDTH or needs_left) and whole.width + reason_width(answer.reason) <= TEXT_WIDTH:
         return [*others, whole]
-    return [*others, *([last] if last.sides else []), replace(answer, sides=((relation, result),))]
+    if needs_left:
+        return [*others, *([last] if last.sides else []), replace(answer, sides=((relation, result),))]
+    reason = last.reason or answer.reason
+    row = replace(last, sides=(*last.sides, (sign, result)), reason=reason, framed=1)
+    indent = width(answer.left) if answer.left is not None and last.left is None else 0
+    fits = indent + row.width + reason_width(reason) <= limit and len(row.sides) <= MOST_SIDES
+    if limit <= TEXT_WIDTH and any(_has_vector(side) for _, side in row.sides):
+        fits = False  # text shows a vector as a row (a, b, c), which is wider than the column
+    if not last.sides or fits and not (last.reason and answer.reason):
+        return [*others, row]
+    return [*others, last, replace(row, left=None, sides=((sign, result),), reason=answer.reason)]
+
+
+def _has_vector(side: Layout) -> bool:
+    return isinstance(side, Array) or isinstance(side, Row) and any(map(_has_vector, side.items))
+
+
+def _is_zero(result: Layout) -> bool:
+    if isinstance(result, Array):
+        return all(_is_zero(entry) for line in result.rows for entry in line)
+    return plain(result).strip() == "0"
 
 
 def _joined(relations: Sequence[str]) -> str:
