@@ -20,10 +20,9 @@ from derive.audit.dimensions import odd_claim
 from derive.audit.expected import Compared, Expected, compared
 from derive.audit.known import ASSUMED, Known
 from derive.audit.limited import FAULTS, OutOfTime, limited
-from derive.audit.near import Nearness, letters_in, root
-from derive.audit.numeric import NoNumber
+from derive.audit.near import Nearness, letters_in
 from derive.audit.slips import WHY, Edit, nearest_edit
-from derive.audit.systems import equations_of, expanded, root_equation
+from derive.audit.systems import expanded, root_equation
 from derive.documents.choices import Choice, readings
 from derive.documents.facts import Facts, Identity, facts_of, shape_of
 from derive.documents.layout import Cue, Document, Row, Statement
@@ -40,7 +39,6 @@ SECONDS_OF_SEARCH = 2.0  # seconds of processor time for the search for a change
 MOST_INDICES = 12
 MOST_FIXED = 5  # number of earlier rows that are searched for a slip
 SPECIAL = frozenset({Cue.GIVEN, Cue.PUT_IN, Cue.ZERO, Cue.APPROXIMATE})  # words that explain lost terms
-PIVOT = Symbol("pivot_", real=True)
 MOST_READINGS = 8
 PLAIN = ("", "unmarked", "all", "tensors")
 GOOD = (Outcome.HOLDS, Outcome.APPROXIMATES, Outcome.DEFINES)
@@ -176,16 +174,20 @@ class _Auditor:
         """Begin a problem or section, in which only the assumed equations are known at first."""
         self.scope = scope
         self.meaning.scope = scope
-        self.known = self.scopes[scope] = Known(self.meaning)
+        self.known = self.scopes[scope] = self.assumptions()
+
+    def assumptions(self) -> Known:
+        known = Known(self.meaning)
         for each in self.assumed:
             try:
                 left, right = (self.meaning.of(readings(side, self.facts)[0][0]) for side in (each.left, each.right))
             except (Meaningless, *FAULTS):
                 continue
             if isinstance(left, Symbol) and not isinstance(right, MatrixBase):
-                self.known.assume(left, right)
+                known.assume(left, right)
             elif not isinstance(left, MatrixBase) and not isinstance(right, MatrixBase):
-                self.known.state(sympy.expand(left - right), ASSUMED)
+                known.state(sympy.expand(left - right), ASSUMED)
+        return known
 
     def meaning_of(self, scope: int, plain: str = "") -> Meaning:
         """Return a meaning of letters that shares the letters and derivatives of the whole document."""
@@ -224,10 +226,11 @@ class _Auditor:
         except RecursionError:
             claim.verdict = Verdict(Outcome.UNDECIDED, "this formula is nested too deep")
         search = min(seconds, SECONDS_OF_SEARCH)
-        if claim.verdict.outcome is Outcome.UNDECIDED and claim.row.block.display:
+        if claim.verdict.outcome in (Outcome.UNDECIDED, Outcome.DEFINES) and claim.row.block.display:
             with suppress(OutOfTime, RecursionError), limited(search):
                 self.accuse_if_near(claim, claim.verdict)
-        if claim.verdict.outcome is Outcome.DIFFERS and claim.verdict.inherits is None:
+        failed = claim.verdict.outcome is Outcome.DIFFERS and claim.verdict.inherits is None
+        if failed or (claim.verdict.outcome is Outcome.UNDECIDED and claim.row.block.display):
             with suppress(OutOfTime, RecursionError), limited(search):
                 self.fixes += self.fixes_before(claim)
         with suppress(OutOfTime, RecursionError), limited(seconds):
@@ -328,31 +331,19 @@ class _Auditor:
 
     def accuse_if_near(self, claim: Claim, verdict: Verdict) -> None:
         """Blame a row that does not follow but would follow after one small change."""
-        left_side = self.last_good_side(claim)
-        if claim.values is None or claim.right is None or left_side is None or claim.relation not in ("=", ":="):
+        if claim.values is None or claim.relation not in ("=", ":="):
             return
         if claim.row.block.cues & {Cue.APPROXIMATE, Cue.INCORRECT}:
             return
-        left, right = claim.values
-        if isinstance(left, MatrixBase) or isinstance(right, MatrixBase):
+        if any(isinstance(each, MatrixBase) for each in claim.values):
             return
-        text = self.document.source.text
-        right_node, left_node = readings(claim.right, self.facts)[0][0], readings(left_side, self.facts)[0][0]
-        near = Nearness(
-            self.meaning, self.known, self.with_other_indices(letters_in(left_node, right_node)),
-            lambda span: text[span.start : span.end].strip(),
-        )  # fmt: skip
-        found = self.near_value(claim, left, right_node, near) if isinstance(left, Symbol) or claim.is_step else None
-        if found is None and not claim.is_step:
-            equations = equations_of(self.known, self.meaning, sure=True)
-            wanted, _ = expanded(self.known, left - right, sure=True)
-            pair = near.of_equation(left_node, right_node, equations, wanted)
-            found = (pair[0], pair[1].name, pair[1].claims) if pair is not None else None
-        if found is None:
-            self.accuse_if_letters_agree(claim, verdict)
+        edit = self.near_edit(claim, self.known)
+        if edit is None:
+            if verdict.outcome is Outcome.UNDECIDED:
+                self.accuse_if_letters_agree(claim, verdict)
             return
-        edit, because, given = found
-        verdict.outcome, verdict.given = Outcome.DIFFERS, given
+        verdict.outcome = Outcome.DIFFERS
+        because = "the side before it" if claim.is_step else "earlier rows"
         verdict.because = f"it does not follow from {because}, but would with one change"
         verdict.suggestion = suggestion_of(edit)
         verdict.why_plausible, verdict.span = WHY[edit.kind], edit.span
@@ -387,46 +378,64 @@ class _Auditor:
             verdict.because, verdict.counterexample = "it does not follow from the row above it", example
 
     def fixes_before(self, claim: Claim) -> list[Fix]:
-        """Return changes of the rows that define letters of a wrong claim, each of which makes the claim hold."""
+        """Return changes of earlier rows, each of which follows from all other rows up to a claim that does not."""
         if claim.values is None or any(isinstance(each, MatrixBase) for each in claim.values):
             return []
-        difference = claim.values[0] - claim.values[1]
         found: list[Fix] = []
-        _, used = expanded(self.known, difference)
-        own = {claim.row.number} | ({claim.before.row.number} if claim.before is not None else set())
-        for number in sorted(set(used) - {ASSUMED}, reverse=True)[:MOST_FIXED]:
-            earlier = self.claims[number]
-            if earlier.right is None or earlier.values is None or earlier.row.number in own or earlier.is_step:
+        wanted = self.letters_behind(claim)
+        tried = 0
+        for earlier in reversed(self.claims[: claim.number]):
+            if scope_of(self.document, earlier.row) != self.scope or tried == MOST_FIXED:
+                break
+            if not self.may_be_changed(earlier) or earlier.row.number == claim.row.number:
                 continue
-            if earlier.verdict is None or earlier.verdict.outcome is not Outcome.DEFINES:
+            if not self.letters_behind(earlier) & wanted:
                 continue
-            letter, power = earlier.values[0], 1
-            if isinstance(letter, sympy.Pow):
-                letter, power = letter.base, 2
-            if isinstance(letter, Symbol) and not isinstance(earlier.values[1], MatrixBase):
-                edit = self.edit_of_definition(claim, earlier, letter, power)
-                found += [Fix(claim, earlier, edit)] if edit is not None else []
+            tried += 1
+            edit = self.near_edit(earlier, self.known_without(earlier, claim))
+            found += [Fix(claim, earlier, edit)] if edit is not None else []
         return found
 
-    def edit_of_definition(self, claim: Claim, earlier: Claim, letter: Symbol, power: int) -> Edit | None:
-        """Return a change of a definition with which a later claim holds."""
-        assert claim.values is not None and earlier.right is not None
-        wanted, _ = expanded(self.known, claim.values[0] - claim.values[1], letter)
-        value = wanted.subs(letter, sympy.sqrt(PIVOT)) if power == 2 else wanted.subs(letter, PIVOT)
-        if letter in value.free_symbols or sympy.diff(value, PIVOT, 2) != 0:
-            return None
-        node = readings(earlier.right, self.facts)[0][0]
-        text = self.document.source.text
-        near = Nearness(
-            self.meaning, self.known, letters_in(node, claim.left, claim.right),
-            lambda span: text[span.start : span.end].strip(),
-        )  # fmt: skip
+    def may_be_changed(self, claim: Claim) -> bool:
+        """Whether a row was believed without a reason."""
+        if claim.verdict is None or claim.verdict.outcome is not Outcome.DEFINES or claim.relation not in ("=", ":="):
+            return False
+        if claim.left is None or claim.right is None or claim.values is None:
+            return False
+        return not any(isinstance(each, MatrixBase) for each in claim.values)
+
+    def letters_behind(self, claim: Claim) -> set[Symbol]:
+        assert claim.values is not None
+        value = claim.values[0] - claim.values[1]
+        return value.free_symbols | expanded(self.known, value, sure=True)[0].free_symbols
+
+    def known_without(self, earlier: Claim, claim: Claim) -> Known:
+        """Return what the rows up to a claim give if this claim is right and an earlier one is not read."""
+        kept, self.known = self.known, self.assumptions()
         try:
-            roots = [root(value, point, PIVOT) for point in near.points(letter)]
-            targets = [each for each in roots if each is not None and abs(each) > 1e-9]
-            return near.of_value(node, targets, letter) if len(targets) == len(roots) else None
-        except (*FAULTS, NoNumber):
+            for each in self.claims[: claim.number + 1]:
+                if each is not earlier and scope_of(self.document, each.row) == self.scope:
+                    self.remember(each, believed=each is claim)
+            return self.known
+        finally:
+            self.known = kept
+
+    def near_edit(self, claim: Claim, known: Known) -> Edit | None:
+        """Return one change with which a claim follows from what other rows give."""
+        left_side = self.last_good_side(claim)
+        if claim.right is None or left_side is None or claim.values is None:
             return None
+        text = self.document.source.text
+        right_node, left_node = readings(claim.right, self.facts)[0][0], readings(left_side, self.facts)[0][0]
+        near = Nearness(
+            self.meaning, known, self.with_other_indices(letters_in(left_node, right_node)),
+            lambda span: text[span.start : span.end].strip(), written=known is not self.known,
+        )  # fmt: skip
+        letter = claim.values[0] if isinstance(claim.values[0], Symbol) and not claim.is_step else None
+        if letter is not None and (at_root := root_equation(letter, self.meaning, known)) is not None:
+            return near.of_root(right_node, at_root[0], at_root[1])
+        edit = near.of_claim(left_node, right_node, letter, claim.is_step)
+        return None if edit is not None and claim.is_step and self.repeats_a_side(claim, edit.node) else edit
 
     def blame_earlier_rows(self) -> None:
         """Blame an earlier row if one change of it makes several wrong claims hold, or one without a suggestion."""
@@ -462,27 +471,6 @@ class _Auditor:
             if odd is not None:
                 because = "the dimensions of its terms contradict the other rows"
                 odd.verdict = Verdict(Outcome.DIFFERS, because)
-
-    def near_value(
-        self, claim: Claim, left: Value, right_node: Node, near: Nearness
-    ) -> tuple[Edit, str, tuple[int, ...]] | None:
-        """Return a change with which the right side has the value that earlier rows give to the left side."""
-        try:
-            if isinstance(left, Symbol) and not claim.is_step:
-                if (at_root := root_equation(left, self.meaning, self.known)) is not None:
-                    edit = near.of_root(right_node, at_root[0], at_root[1])
-                    return (edit, "an earlier equation", (at_root[2],)) if edit is not None else None
-                decision = Decision(claim, left, claim.values[1], self.meaning, self.known, frozenset())  # type: ignore[index]
-                values = decision.value_of_letter() if not self.known.is_defined(left) else None
-                edit = near.of_value(right_node, values, left) if values is not None else None
-                return (edit, "earlier equations", ()) if edit is not None else None
-            targets = [each.of(left) for each in near.points()]
-            edit = near.of_value(right_node, targets)
-            if edit is None or self.repeats_a_side(claim, edit.node):
-                return None
-            return edit, "the side before it", ()
-        except (*FAULTS, NoNumber):
-            return None
 
     def repeats_a_side(self, claim: Claim, node: Node) -> bool:
         """Whether a changed side is an earlier side of its chain: `a = b = a` says nothing, so it was not meant."""
@@ -680,8 +668,8 @@ class _Auditor:
             return True
         return any(letter in equation.free_symbols for equation, _ in self.known.equations)
 
-    def remember(self, claim: Claim) -> None:
-        """Remember a definition or an equation for the rows that follow."""
+    def remember(self, claim: Claim, believed: bool = False) -> None:
+        """Remember a definition or an equation for the rows that follow; a wrong one only if it is believed."""
         if claim.values is None or claim.verdict is None:
             return
         if self.is_special_case(claim):
@@ -705,7 +693,7 @@ class _Auditor:
         while first.before is not None:
             first = first.before
         head = first.values[0] if first.values is not None else left
-        wrong = claim.verdict.outcome is Outcome.DIFFERS
+        wrong = claim.verdict.outcome is Outcome.DIFFERS and not believed
         pairs = [(head, right)] if not isinstance(head, MatrixBase) and not isinstance(right, MatrixBase) else []
         if isinstance(head, MatrixBase) and isinstance(right, MatrixBase) and head.shape == right.shape:
             pairs = list(zip(head, right, strict=True))

@@ -38,21 +38,26 @@ class Equation:
     name: str = "earlier equations"
 
 
-def equations_of(known: Known, meaning: Meaning, without: Symbol | None = None, sure: bool = False) -> list[Equation]:
+def equations_of(
+    known: Known, meaning: Meaning, without: Symbol | None = None, sure: bool = False, written: bool = False
+) -> list[Equation]:
     """Return the equations that earlier rows give, the last ones first, with definitions substituted.
 
-    `sure` leaves out conditions in sentences and solutions in the time, which may hold in one case only.
+    `sure` leaves out conditions in sentences and solutions in the time, which may hold in one case only; `written`
+    leaves out Lagrange's and Hamilton's equations of a function.
     """
-    state = (len(known.equations), sum(map(len, known.definitions.values())), without, sure)
+    state = (len(known.equations), sum(map(len, known.definitions.values())), without, sure, written)
     if state not in known.kept:
         if len(known.kept) > 200:
             known.kept.clear()
-        known.kept[state] = _equations_of(known, meaning, without, sure)
+        known.kept[state] = _equations_of(known, meaning, without, sure, written)
     found: list[Equation] = known.kept[state]
     return found
 
 
-def _equations_of(known: Known, meaning: Meaning, without: Symbol | None, sure: bool) -> list[Equation]:
+def _equations_of(
+    known: Known, meaning: Meaning, without: Symbol | None, sure: bool, written: bool
+) -> list[Equation]:
     found: list[Equation] = []
     seen = set()
 
@@ -66,7 +71,7 @@ def _equations_of(known: Known, meaning: Meaning, without: Symbol | None, sure: 
             continue
         put_in, used = expanded(known, value, without, sure)
         add(put_in, (*used, number), "earlier equations")
-    for value, claims, name in motion(known, meaning):
+    for value, claims, name in motion(known, meaning) if not written else ():
         put_in, _ = expanded(known, value, without, sure)
         add(put_in, claims, name)
     for each in list(found[:6]):
