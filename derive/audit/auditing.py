@@ -20,7 +20,7 @@ from derive.audit.dimensions import odd_claim
 from derive.audit.expected import Compared, Expected, compared
 from derive.audit.known import ASSUMED, Known
 from derive.audit.limited import FAULTS, OutOfTime, limited
-from derive.audit.near import Nearness, letters_in
+from derive.audit.near import Nearness, letters_in, terms_in
 from derive.audit.slips import WHY, Edit, nearest_edit
 from derive.audit.systems import expanded, root_equation
 from derive.documents.choices import Choice, readings
@@ -37,6 +37,7 @@ USUAL_SECONDS = 0.3  # the usual processor time of a claim
 MOST_LATE = 40.0  # the limit falls linearly with the seconds used beyond the usual time, to zero at this number
 SECONDS_OF_SEARCH = 2.0  # seconds of processor time for the search for a change that makes a claim right
 MOST_INDICES = 12
+MOST_ROWS = 10  # number of claims whose terms may be missing in the next row
 MOST_FIXED = 5  # number of earlier rows that are searched for a slip
 SPECIAL = frozenset({Cue.GIVEN, Cue.PUT_IN, Cue.ZERO, Cue.APPROXIMATE})  # words that explain lost terms
 MOST_READINGS = 8
@@ -425,13 +426,13 @@ class _Auditor:
         left_side = self.last_good_side(claim)
         if claim.right is None or left_side is None or claim.values is None:
             return None
-        text = self.document.source.text
         right_node, left_node = readings(claim.right, self.facts)[0][0], readings(left_side, self.facts)[0][0]
-        near = Nearness(
-            self.meaning, known, self.with_other_indices(letters_in(left_node, right_node)),
-            lambda span: text[span.start : span.end].strip(), written=known is not self.known,
-        )  # fmt: skip
         letter = claim.values[0] if isinstance(claim.values[0], Symbol) and not claim.is_step else None
+        letters = self.with_other_indices(letters_in(left_node, right_node))
+        near = Nearness(
+            self.meaning, known, [each for each in letters if letter is None or self.meaning.symbol(each) != letter],
+            self.shown, known is not self.known, None if self.may_be_special(claim) else self.terms_before(claim),
+        )  # fmt: skip
         if letter is not None and (at_root := root_equation(letter, self.meaning, known)) is not None:
             return near.of_root(right_node, at_root[0], at_root[1])
         edit = near.of_claim(left_node, right_node, letter, claim.is_step)
@@ -471,6 +472,28 @@ class _Auditor:
             if odd is not None:
                 because = "the dimensions of its terms contradict the other rows"
                 odd.verdict = Verdict(Outcome.DIFFERS, because)
+
+    def shown(self, span: Span) -> str:
+        return self.document.source.text[span.start : span.end].strip()
+
+    def may_be_special(self, claim: Claim) -> bool:
+        """Whether words or formulas before a claim show that it may hold in a special case only."""
+        if Cue.APPROXIMATE in claim.row.block.cues:
+            return True
+        for each in reversed(self.claims[: claim.number]):
+            if each.row.block.part != claim.row.block.part:
+                break
+            if each.row.block.display or each.values is None or each.row is claim.row:
+                continue
+            if each.relation not in ("=", ":=") or each.values[1].is_number or isinstance(each.values[1], Symbol):
+                return True
+        return False
+
+    def terms_before(self, claim: Claim) -> list[Node]:
+        """Return the terms of the last displays and of the claim itself."""
+        rows = [each for each in self.claims[: claim.number + 1] if each.row.block.display]
+        sides = [side for each in reversed(rows[-MOST_ROWS:]) for side in (each.left, each.right) if side is not None]
+        return terms_in(sides, self.shown)
 
     def repeats_a_side(self, claim: Claim, node: Node) -> bool:
         """Whether a changed side is an earlier side of its chain: `a = b = a` says nothing, so it was not meant."""

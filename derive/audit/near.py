@@ -17,15 +17,16 @@ from derive.audit.known import Known
 from derive.audit.limited import FAULTS
 from derive.audit.numeric import NoNumber, Numbers, at, close
 from derive.audit.points import Surface
-from derive.audit.slips import Edit, edits_of_side
+from derive.audit.slips import Edit, edits_of_side, with_term
 from derive.audit.systems import equations_of, expanded
 from derive.documents.meaning import Meaning, Meaningless
-from derive.documents.syntax import Letter, Node, Num
+from derive.documents.syntax import Add, Letter, Node, Num
 
 POINTS = 3
 SMALL, SMALLEST = 1e-7, 1e-6  # a residual relative to the value elsewhere; a value that counts as zero
 MOST_CHANGES = 4000
-TOO_EASY = ("term", "extra factor")  # changes not tried: dropping a factor would turn x_0 cos(w t) into x_0
+MOST_TERMS = 60
+TOO_EASY = ("term", "extra factor")  # not tried in a special case: a lost factor would turn x_0 cos(w t) into x_0
 Shown = Callable[..., str]
 
 
@@ -38,6 +39,7 @@ class Nearness:
     letters: Sequence[Letter]
     shown: Shown
     written: bool = False  # only the equations that the document writes are used
+    terms: Sequence[Node] | None = None  # terms that may be lost; None if the row may hold in a special case only
 
     def points(self, letter: Symbol | None = None) -> list[Numbers]:
         """Return points where the earlier equations hold; `letter` is a letter whose own value is not used."""
@@ -70,7 +72,12 @@ class Nearness:
         return value
 
     def edits(self, side: Node) -> list[Edit]:
-        found = [each for each in edits_of_side(side, self.letters, self.shown) if each.kind not in TOO_EASY]
+        found = [
+            each
+            for each in edits_of_side(side, self.letters, self.shown)
+            if self.terms is not None or each.kind not in TOO_EASY
+        ]
+        found += [edit for term in self.terms or () for edit in with_term(side, term, self.shown)]
         return sorted(islice(found, MOST_CHANGES), key=lambda each: each.cost)
 
     def of_claim(self, left: Node, right: Node, letter: Symbol | None, is_step: bool) -> Edit | None:
@@ -137,4 +144,19 @@ def letters_in(*sides: Node | None) -> list[Letter]:
     return list(found.values())
 
 
-__all__ = ["Nearness", "letters_in"]
+def terms_in(sides: Sequence[Node], shown: Shown) -> list[Node]:
+    """Return the terms of all sums, the sides that are not sums, and the letters, each once."""
+    found: dict[str, Node] = {}
+    for side in sides:
+        if not isinstance(side, Add | Num):
+            found.setdefault(shown(side.span), side)
+        for each in side.walk():
+            for _, term in each.terms if isinstance(each, Add) else ():
+                found.setdefault(shown(term.span), term)
+    for side in sides:
+        for letter in letters_in(side):
+            found.setdefault(shown(letter.span), letter)
+    return list(found.values())[:MOST_TERMS]
+
+
+__all__ = ["Nearness", "letters_in", "terms_in"]

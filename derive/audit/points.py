@@ -11,12 +11,13 @@ from dataclasses import dataclass, field
 
 from sympy import Symbol
 
-from derive.audit.fingerprint import at, number_of
+from derive.audit.fingerprint import at, number_of, size_at
 from derive.audit.limited import FAULTS
 from derive.audit.systems import Equation
 from derive.documents.meaning import Meaning
 
-STEPS = 8  # the most steps of Newton's method
+STEPS = 12  # the most steps of Newton's method
+TRIED = 8  # the most points with which Newton's method begins
 SLOPE = 1e-6  # the relative change of a letter for a slope
 SMALL = 1e-10  # a residual relative to the terms of its equation, or a letter that counts as zero
 DAMPING = 1e-9  # relative to the diagonal
@@ -44,10 +45,12 @@ class Surface:
             if found is not None:
                 here = found
                 self.kept.append(each)
-        for point in range(count):
+        for point in range(TRIED):
             found = here if point == 0 else self.moved(self.begin(point), self.kept)
             if found is not None:
                 self.points.append(found)
+            if len(self.points) == count:
+                break
         return self
 
     def begin(self, point: int) -> Numbers:
@@ -68,7 +71,7 @@ class Surface:
                 residuals, slopes, sizes = [], [], []
                 for each in equations:
                     value, slope = self.slopes(each, here)
-                    size = sum(abs(s * here[letter]) for letter, s in slope.items()) or 1.0
+                    size = size_at(each.value, here.__getitem__) or 1.0
                     residuals.append(value / size)
                     slopes.append({letter: s / size for letter, s in slope.items()})
                     sizes.append(abs(value) / size)

@@ -13,8 +13,8 @@ from dataclasses import dataclass, replace
 import sympy
 from sympy import Expr, Integral, Poly, Symbol
 
-from derive.audit.fingerprint import CLOSE
-from derive.audit.known import Known
+from derive.audit.fingerprint import CLOSE, is_zero
+from derive.audit.known import LAST_EQUATIONS, Known
 from derive.audit.limited import FAULTS
 from derive.audit.numeric import Numbers, at, determined, spanned
 from derive.documents.meaning import Meaning
@@ -62,12 +62,14 @@ def _equations_of(
     seen = set()
 
     def add(value: Expr, claims: tuple[int, ...], name: str) -> None:
-        if value != 0 and value.free_symbols and value not in seen and sympy.count_ops(value) < LARGEST:
+        if value in seen or not value.free_symbols or is_zero(value):
+            return
+        if sympy.count_ops(value) < LARGEST:
             seen.add(value)
             found.append(Equation(value, claims, name))
 
-    for value, number in reversed(known.equations[-MOST_EQUATIONS:]):
-        if value.has(Integral) or (sure and number in known.conditions):
+    for value, number in reversed(known.equations[-LAST_EQUATIONS:]):
+        if value.has(Integral) or (sure and number in known.conditions) or len(found) == MOST_EQUATIONS:
             continue
         put_in, used = expanded(known, value, without, sure)
         add(put_in, (*used, number), "earlier equations")
