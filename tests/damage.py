@@ -16,7 +16,7 @@ import sys
 import tempfile
 import time
 from collections import Counter, defaultdict
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -24,6 +24,7 @@ from typing import Any
 from derive.audit.auditing import Audit, audited
 from derive.audit.claims import Claim, Outcome
 from derive.audit.fingerprint import differ, fingerprint
+from derive.audit.near import letters_in
 from derive.documents.layout import read_document
 from derive.documents.source import Format, source_of
 
@@ -109,6 +110,29 @@ def kind_of(claim: Claim) -> str:
         return "step"
     good = claim.verdict.outcome in (Outcome.HOLDS, Outcome.APPROXIMATES)
     return "derived" if good else str(claim.verdict.outcome)
+
+
+def can_be_seen(right: Audit, claim: Claim) -> bool:
+    """Whether the document itself shows a slip in a claim.
+
+    It does not if the claim states something that no other row implies, and no later row uses it: the first value of a
+    letter, a law, or a condition. A later row uses it if its verdict names the claim, or if the row is undecided and
+    contains a letter that appears first in the claim.
+    """
+    assert claim.verdict is not None
+    if claim.is_step or claim.verdict.outcome is not Outcome.DEFINES:
+        return True
+    if any(claim.number in each.verdict.given for each in right.claims if each.verdict is not None):
+        return True
+    before, new = letters_of(right.claims[: claim.number]), letters_of([claim])
+    later = [e for e in right.claims[claim.number + 1 :] if e.verdict and e.verdict.outcome is Outcome.UNDECIDED]
+    return bool((new - before) & letters_of(later))
+
+
+def letters_of(claims: Sequence[Claim]) -> set[Any]:
+    """Return the letters that are written in claims, without their dots."""
+    sides = [side for each in claims for side in (each.left, each.right) if side is not None]
+    return {letter.identity for letter in letters_in(*sides)}
 
 
 def damaged_side(audit: Audit, claim: Claim, random_: random.Random) -> tuple[int, int]:

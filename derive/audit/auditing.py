@@ -29,7 +29,7 @@ from derive.documents.layout import Cue, Document, Row, Statement
 from derive.documents.meaning import Meaning, Meaningless, Value
 from derive.documents.parser import Unreadable, parsed
 from derive.documents.source import Span
-from derive.documents.syntax import Cases, Int, Letter, Mat, Node, Text
+from derive.documents.syntax import Add, Cases, Int, Letter, Mat, Node, Text
 
 SECONDS = 3.0  # seconds of processor time for one claim
 LEAST_SECONDS = 0.4  # the limit for a claim once a document has used much time
@@ -247,10 +247,17 @@ class _Auditor:
             and claim.left.identity == claim.right.identity
         ):
             if not claim.is_step and claim.left.dots == claim.right.dots:
+                verdict.outcome = Outcome.DIFFERS if claim.left.sub else verdict.outcome
                 verdict.because = "both sides are the same letter, so this says nothing"
                 if len(claim.right.sub) == 2 and claim.right.sub[0] != claim.right.sub[1]:
                     turned = claim.right.base + "_" + claim.right.sub[::-1]
                     verdict.suggestion, verdict.why_plausible = f"{turned} on one side", WHY["index"]
+        for side in (claim.left if claim.before is None else None, claim.right):
+            pair = same_letters(side) if verdict.outcome is not Outcome.DIFFERS else None
+            if pair is not None:
+                verdict.outcome, verdict.span = Outcome.DIFFERS, pair.span
+                verdict.because = "one letter appears twice where two letters belong"
+                verdict.why_plausible = WHY["letter"]
         for matrix in claim.right.walk() if claim.right is not None and not verdict.suggestion else ():
             if isinstance(matrix, Mat) and (odd := self.odd_entry(matrix)) is not None:
                 row, column, span = odd
@@ -336,6 +343,8 @@ class _Auditor:
             return
         if claim.row.block.cues & {Cue.APPROXIMATE, Cue.INCORRECT}:
             return
+        if verdict.outcome is Outcome.DEFINES and claim.values[0] in self.known.definitions:
+            return  # the letter has another value in another part or case
         if any(isinstance(each, MatrixBase) for each in claim.values):
             return
         edit = self.near_edit(claim, self.known)
@@ -733,6 +742,16 @@ class _Auditor:
         if claim.verdict.outcome is Outcome.HOLDS and not claim.verdict.given and not isinstance(left, Symbol):
             return  # an identity gives nothing new
         self.known.state(sympy.expand(left - right) if sympy.count_ops(left - right) < 600 else left - right, number)
+
+
+def same_letters(side: Node | None) -> Node | None:
+    """Return a sum of which two terms are the same letter."""
+    for each in side.walk() if side is not None else ():
+        if isinstance(each, Add):
+            letters = [(term.identity, term.dots) for _, term in each.terms if isinstance(term, Letter)]
+            if len(set(letters)) < len(letters):
+                return each
+    return None
 
 
 def suggestion_of(edit: Edit) -> str:

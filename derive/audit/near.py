@@ -52,10 +52,6 @@ class Nearness:
             for point, fixed in enumerate(self.known.kept[state])
         ]
 
-    def elsewhere(self, letter: Symbol | None = None) -> Numbers:
-        """Return a point where definitions hold, but not the other earlier equations."""
-        return Numbers(self.meaning, self.defined(letter), POINTS)
-
     @cached_property
     def bare(self) -> Numbers:
         """A point where no earlier row holds."""
@@ -71,29 +67,32 @@ class Nearness:
 
         return value
 
-    def edits(self, side: Node) -> list[Edit]:
+    def edits(self, side: Node, other: Node | None = None, complete: bool = True) -> list[Edit]:
+        """Return the changes of a side; terms are added or left out only if all letters of the row are known."""
+        if isinstance(side, Num):
+            return []
+        easy = self.terms is not None and complete
         found = [
-            each
-            for each in edits_of_side(side, self.letters, self.shown)
-            if self.terms is not None or each.kind not in TOO_EASY
+            each for each in edits_of_side(side, self.letters, self.shown) if easy or each.kind not in TOO_EASY
         ]
-        found += [edit for term in self.terms or () for edit in with_term(side, term, self.shown)]
+        sides = {self.shown(each.span) for each in (side, other) if each is not None}
+        at_rest = not any(each.dots for each in letters_in(side, other))
+        for term in self.terms or () if easy else ():
+            if self.shown(term.span) not in sides and not (at_rest and any(each.dots for each in letters_in(term))):
+                found += with_term(side, term, self.shown)
         return sorted(islice(found, MOST_CHANGES), key=lambda each: each.cost)
 
     def of_claim(self, left: Node, right: Node, letter: Symbol | None, is_step: bool) -> Edit | None:
         """Return the cheapest change of a side with which a claim that does not follow would follow."""
-        points, elsewhere = self.points(letter), self.elsewhere(letter)
+        points = self.points(letter)
         if len(points) < 2:
             return None
 
         def holds(one: Node, other: Node) -> bool:
             try:
                 for p in points:
-                    a, b = p.of_node(one), p.of_node(other)
-                    size = max(abs(a), abs(b))
-                    if isinstance(one, Num) or isinstance(other, Num):
-                        size = max(size, abs(elsewhere.of_node(one) - elsewhere.of_node(other)))
-                    if size < SMALLEST or abs(a - b) > SMALL * size:
+                    size = sum(abs(p.of_node(term)) for each in (one, other) for term in terms_of(each))
+                    if size < SMALLEST or abs(p.of_node(one) - p.of_node(other)) > SMALL * size:
                         return False
                 return is_step or not close(self.bare.of_node(one), self.bare.of_node(other))
             except (*FAULTS, NoNumber, Meaningless):
@@ -101,10 +100,18 @@ class Nearness:
 
         if holds(left, right):
             return None
-        for edit, first in self.edits_of_both(left, right):
+        one, other = self.letters_behind(left, letter), self.letters_behind(right, letter)
+        complete = one == other if is_step else one | other <= set(points[0].fixed)
+        for edit, first in self.edits_of_both(left, right, complete):
             if holds(edit.node, right) if first else holds(left, edit.node):
                 return edit
         return None
+
+    def letters_behind(self, side: Node, letter: Symbol | None) -> set[Symbol]:
+        """Return the letters of a side after substituting definitions, without `letter`."""
+        value = self.defined(letter)
+        found = [value(self.meaning.symbol(each)).free_symbols for each in letters_in(side)]
+        return set().union(*found) - {letter}
 
     def of_root(self, side: Node, letter: Symbol, equation: Expr) -> Edit | None:
         """Return the cheapest change with which a side is a root of an equation for a letter."""
@@ -124,10 +131,10 @@ class Nearness:
                 continue
         return None
 
-    def edits_of_both(self, left: Node, right: Node) -> Iterator[tuple[Edit, bool]]:
-        both = [(each, False) for each in self.edits(right)]
+    def edits_of_both(self, left: Node, right: Node, complete: bool) -> Iterator[tuple[Edit, bool]]:
+        both = [(each, False) for each in self.edits(right, left, complete)]
         if not isinstance(left, Letter):
-            both += [(each, True) for each in self.edits(left)]
+            both += [(each, True) for each in self.edits(left, right, complete)]
         yield from sorted(both, key=lambda pair: pair[0].cost)
 
 
@@ -142,6 +149,10 @@ def letters_in(*sides: Node | None) -> list[Letter]:
             if isinstance(each, Letter):
                 found.setdefault((each.identity, each.dots), each)
     return list(found.values())
+
+
+def terms_of(side: Node) -> list[Node]:
+    return [term for _, term in side.terms] if isinstance(side, Add) else [side]
 
 
 def terms_in(sides: Sequence[Node], shown: Shown) -> list[Node]:
