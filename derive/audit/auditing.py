@@ -227,7 +227,7 @@ class _Auditor:
         except RecursionError:
             claim.verdict = Verdict(Outcome.UNDECIDED, "this formula is nested too deep")
         search = min(seconds, SECONDS_OF_SEARCH)
-        if claim.verdict.outcome in (Outcome.UNDECIDED, Outcome.DEFINES) and claim.row.block.display:
+        if claim.verdict.outcome in (Outcome.UNDECIDED, Outcome.DEFINES):
             with suppress(OutOfTime, RecursionError), limited(search):
                 self.accuse_if_near(claim, claim.verdict)
         failed = claim.verdict.outcome is Outcome.DIFFERS and claim.verdict.inherits is None
@@ -348,6 +348,13 @@ class _Auditor:
         if any(isinstance(each, MatrixBase) for each in claim.values):
             return
         edit = self.near_edit(claim, self.known)
+        if edit is None and not claim.is_step and not self.may_be_special(claim):
+            near = Nearness(self.meaning, self.known, [], self.shown, terms=[])
+            if (lost := near.lost_term(claim.values[0] - claim.values[1])) is not None:
+                verdict.outcome, verdict.why_plausible = Outcome.DIFFERS, WHY["lost term"]
+                verdict.because = "it does not follow from earlier rows, but would with one more term"
+                verdict.suggestion = f"with the term {lost}"
+                return
         if edit is None:
             if verdict.outcome is Outcome.UNDECIDED:
                 self.accuse_if_letters_agree(claim, verdict)
@@ -417,7 +424,8 @@ class _Auditor:
     def letters_behind(self, claim: Claim) -> set[Symbol]:
         assert claim.values is not None
         value = claim.values[0] - claim.values[1]
-        return value.free_symbols | expanded(self.known, value, sure=True)[0].free_symbols
+        found: set[Symbol] = value.free_symbols | expanded(self.known, value, sure=True)[0].free_symbols
+        return found
 
     def known_without(self, earlier: Claim, claim: Claim) -> Known:
         """Return what the rows up to a claim give if this claim is right and an earlier one is not read."""

@@ -370,7 +370,7 @@ class Decision:
             if order is not None:
                 letters, power = order
                 words = " and ".join(_word(each) for each in letters)
-                if power <= _degree(right, letters):
+                if letters == changing_letters(left.free_symbols, self.meaning) and power <= _degree(right, letters):
                     because = f"the terms of order {power} in {words} are not those of the left side"
                     return Verdict(Outcome.DIFFERS, because, used)
                 return Verdict(Outcome.APPROXIMATES, f"the error is of order {power} in {words}", used)

@@ -11,7 +11,8 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import islice
 
-from sympy import Expr, Symbol
+from sympy import Add as Add_
+from sympy import Expr, Integral, Symbol, expand
 
 from derive.audit.known import Known
 from derive.audit.limited import FAULTS
@@ -26,6 +27,7 @@ POINTS = 3
 SMALL, SMALLEST = 1e-7, 1e-6  # a residual relative to the value elsewhere; a value that counts as zero
 MOST_CHANGES = 4000
 MOST_TERMS = 60
+MOST_TERMS_OF_EQUATION = 8
 TOO_EASY = ("term", "extra factor")  # not tried in a special case: a lost factor would turn x_0 cos(w t) into x_0
 Shown = Callable[..., str]
 
@@ -107,11 +109,36 @@ class Nearness:
                 return edit
         return None
 
+    def lost_term(self, difference: Expr) -> Expr | None:
+        """Return a term with which an equation is a multiple of one earlier equation, or None."""
+        if self.terms is None or difference.has(Integral):
+            return None
+        wanted = expand(expanded(self.known, difference, sure=True)[0])
+        count = len(Add_.make_args(wanted))
+        if count < 2 or not any(map(self.is_rate, wanted.free_symbols)):
+            return None  # at rest, the terms with rates are missing
+        for each in equations_of(self.known, self.meaning, sure=True, written=self.written):
+            terms = Add_.make_args(expand(each.value))
+            if len(terms) != count + 1 or len(terms) > MOST_TERMS_OF_EQUATION:
+                continue
+            for term in terms:
+                ratio = Add_.make_args(wanted)[0] / term
+                if any(map(self.is_rate, ratio.free_symbols)):
+                    continue
+                lost = expand(wanted - ratio * each.value)
+                if not lost.is_Add and lost != 0 and -lost in map(expand, (ratio * other for other in terms)):
+                    return -lost
+        return None
+
+    def is_rate(self, symbol: Symbol) -> bool:
+        return self.known.is_rate(symbol) or symbol in self.meaning.derivatives
+
     def letters_behind(self, side: Node, letter: Symbol | None) -> set[Symbol]:
         """Return the letters of a side after substituting definitions, without `letter`."""
         value = self.defined(letter)
         found = [value(self.meaning.symbol(each)).free_symbols for each in letters_in(side)]
-        return set().union(*found) - {letter}
+        behind: set[Symbol] = set().union(*found)
+        return behind - {letter}
 
     def of_root(self, side: Node, letter: Symbol, equation: Expr) -> Edit | None:
         """Return the cheapest change with which a side is a root of an equation for a letter."""
