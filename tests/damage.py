@@ -5,6 +5,7 @@ r"""Break one row of a right document as people do: the audit must blame this ro
 The right documents are our own solutions, derived once into a temporary folder. The side of a claim is damaged only
 where the damage changes what the claim says. The table tells for each kind of damage and for each kind of claim how
 many rows are blamed at their place, named as the other possibility, blamed elsewhere, undecided, and passed silently.
+Damages that a document itself cannot show are counted apart; `can_be_seen` states the rule.
 """
 
 from __future__ import annotations
@@ -194,6 +195,7 @@ class Trial:
     damaged: str
     result: str
     because: str
+    visible: bool = True
 
 
 def trials(texts: dict[str, str], count: int, seed: int, each: int = 8) -> Iterator[Trial]:
@@ -232,7 +234,7 @@ def trials(texts: dict[str, str], count: int, seed: int, each: int = 8) -> Itera
             because = found.verdict.because if found.verdict is not None else ""
             yield Trial(
                 name, right.document.source.line_of(start), kind_of(claim), damage.kind, text[start:end], damage.text,
-                result, because,
+                result, because, can_be_seen(right, claim),
             )  # fmt: skip
             done += 1
             if done >= count:
@@ -266,9 +268,14 @@ def main(arguments: Any = None) -> None:
         if len(found) % 100 == 0:
             print(table(found, "kind"), flush=True)
         if trial.result in given.show:
-            print(f"{trial.result} {trial.document}.tex:{trial.line} {trial.claim} {trial.kind}: {trial.because}")
+            seen = "" if trial.visible else ", not visible"
+            print(f"{trial.result}{seen} {trial.document}.tex:{trial.line} {trial.claim} {trial.kind}: {trial.because}")
             print(f"    {trial.right.strip()[:150]!r}\n    {trial.damaged.strip()[:150]!r}", flush=True)
-    print(table(found, "kind"), table(found, "claim"), sep="\n\n")
+    visible = [trial for trial in found if trial.visible]
+    print(table(visible, "kind"), table(visible, "claim"), sep="\n\n")
+    hidden = [trial for trial in found if not trial.visible]
+    if hidden:
+        print("\nDamages that the document itself does not show:", table(hidden, "claim"), sep="\n")
     print(f"\n{len(found)} damages, {time.process_time() - started:.0f} s")
 
 

@@ -227,11 +227,12 @@ class _Auditor:
         except RecursionError:
             claim.verdict = Verdict(Outcome.UNDECIDED, "this formula is nested too deep")
         search = min(seconds, SECONDS_OF_SEARCH)
-        if claim.verdict.outcome in (Outcome.UNDECIDED, Outcome.DEFINES):
+        display, undecided = claim.row.block.display, claim.verdict.outcome is Outcome.UNDECIDED
+        if claim.verdict.outcome is Outcome.DEFINES or (undecided and display):
             with suppress(OutOfTime, RecursionError), limited(search):
                 self.accuse_if_near(claim, claim.verdict)
         failed = claim.verdict.outcome is Outcome.DIFFERS and claim.verdict.inherits is None
-        if failed or (claim.verdict.outcome is Outcome.UNDECIDED and claim.row.block.display):
+        if failed or (claim.verdict.outcome is Outcome.UNDECIDED and display and not self.may_be_special(claim)):
             with suppress(OutOfTime, RecursionError), limited(search):
                 self.fixes += self.fixes_before(claim)
         with suppress(OutOfTime, RecursionError), limited(seconds):

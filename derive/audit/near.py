@@ -21,14 +21,16 @@ from derive.audit.points import Surface
 from derive.audit.slips import Edit, edits_of_side, with_term
 from derive.audit.systems import equations_of, expanded
 from derive.documents.meaning import Meaning, Meaningless
-from derive.documents.syntax import Add, Letter, Node, Num
+from derive.documents.syntax import Add, Fun, Letter, Node, Num
 
 POINTS = 3
 SMALL, SMALLEST = 1e-7, 1e-6  # a residual relative to the value elsewhere; a value that counts as zero
 MOST_CHANGES = 4000
 MOST_TERMS = 60
+MOST_GROUPS = 3
 MOST_TERMS_OF_EQUATION = 8
 TOO_EASY = ("term", "extra factor")  # not tried in a special case: a lost factor would turn x_0 cos(w t) into x_0
+RENAMED = ("letter", "index")
 Shown = Callable[..., str]
 
 
@@ -43,15 +45,24 @@ class Nearness:
     written: bool = False  # only the equations that the document writes are used
     terms: Sequence[Node] | None = None  # terms that may be lost; None if the row may hold in a special case only
 
-    def points(self, letter: Symbol | None = None) -> list[Numbers]:
-        """Return points where the earlier equations hold; `letter` is a letter whose own value is not used."""
+    def groups(self, letter: Symbol | None = None) -> list[list[Numbers]]:
+        """Return points for each group of earlier equations that do not contradict each other.
+
+        `letter` is a letter whose own value is not used.
+        """
         equations = equations_of(self.known, self.meaning, letter, sure=True, written=self.written)
         state = ("points", tuple(each.value for each in equations))
         if state not in self.known.kept:
-            self.known.kept[state] = Surface(equations, self.meaning).find(POINTS).points
+            surfaces: list[Surface] = []
+            while len(surfaces) < MOST_GROUPS and (equations or not surfaces):
+                surfaces.append(Surface(equations, self.meaning).find(POINTS))
+                equations = [each for each in equations if each not in surfaces[-1].kept]
+                if not surfaces[-1].kept:
+                    break
+            self.known.kept[state] = [each.points for each in surfaces if len(each.points) > 1]
         return [
-            Numbers(self.meaning, self.defined(letter), point, fixed)
-            for point, fixed in enumerate(self.known.kept[state])
+            [Numbers(self.meaning, self.defined(letter), point, fixed) for point, fixed in enumerate(points)]
+            for points in self.known.kept[state]
         ]
 
     @cached_property
@@ -74,9 +85,7 @@ class Nearness:
         if isinstance(side, Num):
             return []
         easy = self.terms is not None and complete
-        found = [
-            each for each in edits_of_side(side, self.letters, self.shown) if easy or each.kind not in TOO_EASY
-        ]
+        found = [each for each in edits_of_side(side, self.letters, self.shown) if easy or each.kind not in TOO_EASY]
         sides = {self.shown(each.span) for each in (side, other) if each is not None}
         at_rest = not any(each.dots for each in letters_in(side, other))
         for term in self.terms or () if easy else ():
@@ -86,27 +95,30 @@ class Nearness:
 
     def of_claim(self, left: Node, right: Node, letter: Symbol | None, is_step: bool) -> Edit | None:
         """Return the cheapest change of a side with which a claim that does not follow would follow."""
-        points = self.points(letter)
-        if len(points) < 2:
-            return None
+        groups = self.groups(letter)
+        functions = all(any(isinstance(each, Fun) for each in side.walk()) for side in (left, right))
+        may_be_identity = is_step or functions
 
-        def holds(one: Node, other: Node) -> bool:
+        def holds(one: Node, other: Node, points: Sequence[Numbers]) -> bool:
             try:
                 for p in points:
                     size = sum(abs(p.of_node(term)) for each in (one, other) for term in terms_of(each))
                     if size < SMALLEST or abs(p.of_node(one) - p.of_node(other)) > SMALL * size:
                         return False
-                return is_step or not close(self.bare.of_node(one), self.bare.of_node(other))
+                return may_be_identity or not close(self.bare.of_node(one), self.bare.of_node(other))
             except (*FAULTS, NoNumber, Meaningless):
                 return False
 
-        if holds(left, right):
+        if any(holds(left, right, each) for each in groups):
             return None
         one, other = self.letters_behind(left, letter), self.letters_behind(right, letter)
-        complete = one == other if is_step else one | other <= set(points[0].fixed)
-        for edit, first in self.edits_of_both(left, right, complete):
-            if holds(edit.node, right) if first else holds(left, edit.node):
-                return edit
+        for number, points in enumerate(groups[:1] if is_step else groups):
+            complete = one == other if is_step else one | other <= set(points[0].fixed)
+            for edit, first in self.edits_of_both(left, right, complete):
+                if number and edit.kind in RENAMED:
+                    continue  # in another case, another letter may have this value
+                if holds(edit.node, right, points) if first else holds(left, edit.node, points):
+                    return edit
         return None
 
     def lost_term(self, difference: Expr) -> Expr | None:

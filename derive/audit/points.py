@@ -8,8 +8,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import lru_cache
 
-from sympy import Symbol
+from sympy import Expr, Mul, Symbol, expand, factor_terms
 
 from derive.audit.fingerprint import at, number_of, size_at
 from derive.audit.limited import FAULTS
@@ -70,17 +71,15 @@ class Surface:
             for _ in range(STEPS):
                 residuals, slopes, sizes = [], [], []
                 for each in equations:
-                    value, slope = self.slopes(each, here)
-                    size = size_at(each.value, here.__getitem__) or 1.0
+                    value, slope = self.slopes(reduced(each.value), here)
+                    size = size_at(reduced(each.value), here.__getitem__) or 1.0
                     residuals.append(value / size)
                     slopes.append({letter: s / size for letter, s in slope.items()})
                     sizes.append(abs(value) / size)
                 if max(sizes, default=0.0) < SMALL:
                     return here if self.is_general(here, equations) else None
                 weights = {each: self.weight(each) ** 2 * max(abs(value), 0.1) ** 2 for each, value in here.items()}
-                factors = _solved(
-                    [[_times(one, other, weights) for other in slopes] for one in slopes], residuals
-                )
+                factors = _solved([[_times(one, other, weights) for other in slopes] for one in slopes], residuals)
                 for factor, slope in zip(factors, slopes, strict=True):
                     for letter, s in slope.items():
                         here[letter] -= factor * s.conjugate() * weights[letter]
@@ -88,13 +87,13 @@ class Surface:
             return None
         return None
 
-    def slopes(self, equation: Equation, here: Numbers) -> tuple[complex, Numbers]:
-        value = at(equation.value, here.__getitem__)
+    def slopes(self, equation: Expr, here: Numbers) -> tuple[complex, Numbers]:
+        value = at(equation, here.__getitem__)
         found = {}
-        for letter in equation.value.free_symbols:
+        for letter in equation.free_symbols:
             step = SLOPE * max(abs(here[letter]), 0.1)
             there = {**here, letter: here[letter] + step}
-            found[letter] = (at(equation.value, there.__getitem__) - value) / step
+            found[letter] = (at(equation, there.__getitem__) - value) / step
         return value, found
 
     def is_general(self, here: Numbers, equations: Sequence[Equation]) -> bool:
@@ -103,6 +102,13 @@ class Surface:
         return all(
             SMALLEST < abs(here[each]) < LARGEST and (here[each].real > 0 or not each.is_positive) for each in letters
         )
+
+
+@lru_cache(maxsize=2000)
+def reduced(value: Expr) -> Expr:
+    """Return an expression without the letters that are factors of all its terms; they are not meant to vanish."""
+    terms = factor_terms(expand(value))
+    return Mul(*(each for each in Mul.make_args(terms) if not each.as_base_exp()[0].is_Symbol))
 
 
 def _times(one: Numbers, other: Numbers, weights: dict[Symbol, float]) -> complex:

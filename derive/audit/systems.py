@@ -55,9 +55,7 @@ def equations_of(
     return found
 
 
-def _equations_of(
-    known: Known, meaning: Meaning, without: Symbol | None, sure: bool, written: bool
-) -> list[Equation]:
+def _equations_of(known: Known, meaning: Meaning, without: Symbol | None, sure: bool, written: bool) -> list[Equation]:
     found: list[Equation] = []
     seen = set()
 
