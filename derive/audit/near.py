@@ -86,7 +86,14 @@ class Nearness:
             return []
         easy = self.terms is not None and complete
         found = [each for each in edits_of_side(side, self.letters, self.shown) if easy or each.kind not in TOO_EASY]
-        sides = {self.shown(each.span) for each in (side, other) if each is not None}
+        sides = {
+            self.shown(term.span)
+            for each in (side, other)
+            if each is not None
+            for term in terms_in([each], self.shown)
+            if not isinstance(term, Letter)
+        }
+        sides |= {self.shown(each.span) for each in (side, other) if each is not None}
         at_rest = not any(each.dots for each in letters_in(side, other))
         for term in self.terms or () if easy else ():
             if self.shown(term.span) not in sides and not (at_rest and any(each.dots for each in letters_in(term))):
@@ -127,7 +134,7 @@ class Nearness:
             return None
         wanted = expand(expanded(self.known, difference, sure=True)[0])
         count = len(Add_.make_args(wanted))
-        if count < 2 or not any(map(self.is_rate, wanted.free_symbols)):
+        if count < 2 or not any(map(self.is_rate, difference.free_symbols)):
             return None  # at rest, the terms with rates are missing
         for each in equations_of(self.known, self.meaning, sure=True, written=self.written):
             terms = Add_.make_args(expand(each.value))
