@@ -349,7 +349,7 @@ class _Auditor:
         if any(isinstance(each, MatrixBase) for each in claim.values):
             return
         edit = self.near_edit(claim, self.known)
-        if edit is None and not claim.is_step and not self.may_be_special(claim):
+        if edit is None and not claim.is_step and claim.row.block.display and not self.may_be_special(claim):
             near = Nearness(self.meaning, self.known, [], self.shown, terms=[])
             if (lost := near.lost_term(claim.values[0] - claim.values[1])) is not None:
                 verdict.outcome, verdict.why_plausible = Outcome.DIFFERS, WHY["lost term"]

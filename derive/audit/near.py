@@ -21,16 +21,14 @@ from derive.audit.points import Surface
 from derive.audit.slips import Edit, edits_of_side, with_term
 from derive.audit.systems import equations_of, expanded
 from derive.documents.meaning import Meaning, Meaningless
-from derive.documents.syntax import Add, Fun, Letter, Node, Num
+from derive.documents.syntax import Add, Fun, Letter, Node, Num, Root
 
 POINTS = 3
 SMALL, SMALLEST = 1e-7, 1e-6  # a residual relative to the value elsewhere; a value that counts as zero
 MOST_CHANGES = 4000
 MOST_TERMS = 60
-MOST_GROUPS = 3
 MOST_TERMS_OF_EQUATION = 8
 TOO_EASY = ("term", "extra factor")  # not tried in a special case: a lost factor would turn x_0 cos(w t) into x_0
-RENAMED = ("letter", "index")
 Shown = Callable[..., str]
 
 
@@ -45,24 +43,15 @@ class Nearness:
     written: bool = False  # only the equations that the document writes are used
     terms: Sequence[Node] | None = None  # terms that may be lost; None if the row may hold in a special case only
 
-    def groups(self, letter: Symbol | None = None) -> list[list[Numbers]]:
-        """Return points for each group of earlier equations that do not contradict each other.
-
-        `letter` is a letter whose own value is not used.
-        """
+    def points(self, letter: Symbol | None = None) -> list[Numbers]:
+        """Return points where the earlier equations hold; `letter` is a letter whose own value is not used."""
         equations = equations_of(self.known, self.meaning, letter, sure=True, written=self.written)
         state = ("points", tuple(each.value for each in equations))
         if state not in self.known.kept:
-            surfaces: list[Surface] = []
-            while len(surfaces) < MOST_GROUPS and (equations or not surfaces):
-                surfaces.append(Surface(equations, self.meaning).find(POINTS))
-                equations = [each for each in equations if each not in surfaces[-1].kept]
-                if not surfaces[-1].kept:
-                    break
-            self.known.kept[state] = [each.points for each in surfaces if len(each.points) > 1]
+            self.known.kept[state] = Surface(equations, self.meaning).find(POINTS).points
         return [
-            [Numbers(self.meaning, self.defined(letter), point, fixed) for point, fixed in enumerate(points)]
-            for points in self.known.kept[state]
+            Numbers(self.meaning, self.defined(letter), point, fixed)
+            for point, fixed in enumerate(self.known.kept[state])
         ]
 
     @cached_property
@@ -86,14 +75,7 @@ class Nearness:
             return []
         easy = self.terms is not None and complete
         found = [each for each in edits_of_side(side, self.letters, self.shown) if easy or each.kind not in TOO_EASY]
-        sides = {
-            self.shown(term.span)
-            for each in (side, other)
-            if each is not None
-            for term in terms_in([each], self.shown)
-            if not isinstance(term, Letter)
-        }
-        sides |= {self.shown(each.span) for each in (side, other) if each is not None}
+        sides = {self.shown(each.span) for each in (side, other) if each is not None}
         at_rest = not any(each.dots for each in letters_in(side, other))
         for term in self.terms or () if easy else ():
             if self.shown(term.span) not in sides and not (at_rest and any(each.dots for each in letters_in(term))):
@@ -102,11 +84,13 @@ class Nearness:
 
     def of_claim(self, left: Node, right: Node, letter: Symbol | None, is_step: bool) -> Edit | None:
         """Return the cheapest change of a side with which a claim that does not follow would follow."""
-        groups = self.groups(letter)
+        points = self.points(letter)
+        if len(points) < 2:
+            return None
         functions = all(any(isinstance(each, Fun) for each in side.walk()) for side in (left, right))
         may_be_identity = is_step or functions
 
-        def holds(one: Node, other: Node, points: Sequence[Numbers]) -> bool:
+        def holds(one: Node, other: Node) -> bool:
             try:
                 for p in points:
                     size = sum(abs(p.of_node(term)) for each in (one, other) for term in terms_of(each))
@@ -116,16 +100,13 @@ class Nearness:
             except (*FAULTS, NoNumber, Meaningless):
                 return False
 
-        if any(holds(left, right, each) for each in groups):
+        if holds(left, right):
             return None
         one, other = self.letters_behind(left, letter), self.letters_behind(right, letter)
-        for number, points in enumerate(groups[:1] if is_step else groups):
-            complete = one == other if is_step else one | other <= set(points[0].fixed)
-            for edit, first in self.edits_of_both(left, right, complete):
-                if number and edit.kind in RENAMED:
-                    continue  # in another case, another letter may have this value
-                if holds(edit.node, right, points) if first else holds(left, edit.node, points):
-                    return edit
+        complete = one == other if is_step else one | other <= set(points[0].fixed)
+        for edit, first in self.edits_of_both(left, right, complete):
+            if holds(edit.node, right) if first else holds(left, edit.node):
+                return None if is_other_root(edit, left if first else right) else edit
         return None
 
     def lost_term(self, difference: Expr) -> Expr | None:
@@ -195,6 +176,13 @@ def letters_in(*sides: Node | None) -> list[Letter]:
             if isinstance(each, Letter):
                 found.setdefault((each.identity, each.dots), each)
     return list(found.values())
+
+
+def is_other_root(edit: Edit, side: Node) -> bool:
+    """Whether a change turns the sign of a square root: both signs are roots, and the text may choose one."""
+    return edit.kind == "sign" and any(
+        isinstance(each, Root) and edit.span.start <= each.span.start < edit.span.end for each in side.walk()
+    )
 
 
 def terms_of(side: Node) -> list[Node]:

@@ -63,10 +63,11 @@ def edits_of_side(node: Node, letters: Sequence[Letter], shown: Callable[[Span],
 
 
 def with_term(node: Node, term: Node, shown: Callable[[Span], str]) -> Iterator[Edit]:
-    """Yield the changes that add a term to a side or to a sum or bracket inside it."""
+    """Yield the changes that add a term to a side, or to a sum or bracket inside it, that lacks this term."""
     was = shown(node.span)
     terms = node.terms if isinstance(node, Add) else (("+", node),)
-    for sign in "+-":
+    written = [shown(each.span) for _, each in terms]
+    for sign in "+-" if shown(term.span) not in written else "":
         new = Add(node.span, (*terms, (sign, term)))
         yield Edit(new, node.span, was, f"{was} {sign} {shown(term.span)}", "lost term", 2.5)
     for each in fields(node):
