@@ -5,6 +5,7 @@ r"""Break one row of a right document as people do: the audit must blame this ro
 The right documents are our own solutions, derived once into a temporary folder. The side of a claim is damaged only
 where the damage changes what the claim says. The table tells for each kind of damage and for each kind of claim how
 many rows are blamed at their place, named as the other possibility, blamed elsewhere, undecided, and passed silently.
+Damages that a document itself cannot show are counted apart; `can_be_seen` states the rule.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ import sys
 import tempfile
 import time
 from collections import Counter, defaultdict
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -24,6 +25,7 @@ from typing import Any
 from derive.audit.auditing import Audit, audited
 from derive.audit.claims import Claim, Outcome
 from derive.audit.fingerprint import differ, fingerprint
+from derive.audit.near import letters_in
 from derive.documents.layout import read_document
 from derive.documents.source import Format, source_of
 
@@ -111,6 +113,29 @@ def kind_of(claim: Claim) -> str:
     return "derived" if good else str(claim.verdict.outcome)
 
 
+def can_be_seen(right: Audit, claim: Claim) -> bool:
+    """Whether the document itself shows a slip in a claim.
+
+    It does not if the claim states something that no other row implies, and no later row uses it: the first value of a
+    letter, a law, or a condition. A later row uses it if its verdict names the claim, or if the row is undecided and
+    contains a letter that appears first in the claim.
+    """
+    assert claim.verdict is not None
+    if claim.is_step or claim.verdict.outcome is not Outcome.DEFINES:
+        return True
+    if any(claim.number in each.verdict.given for each in right.claims if each.verdict is not None):
+        return True
+    before, new = letters_of(right.claims[: claim.number]), letters_of([claim])
+    later = [e for e in right.claims[claim.number + 1 :] if e.verdict and e.verdict.outcome is Outcome.UNDECIDED]
+    return bool((new - before) & letters_of(later))
+
+
+def letters_of(claims: Sequence[Claim]) -> set[Any]:
+    """Return the letters that are written in claims, without their dots."""
+    sides = [side for each in claims for side in (each.left, each.right) if side is not None]
+    return {letter.identity for letter in letters_in(*sides)}
+
+
 def damaged_side(audit: Audit, claim: Claim, random_: random.Random) -> tuple[int, int]:
     """Return the span of the side that is damaged: the right one, or any of an equation."""
     both = [claim.right_span]
@@ -170,6 +195,7 @@ class Trial:
     damaged: str
     result: str
     because: str
+    visible: bool = True
 
 
 def trials(texts: dict[str, str], count: int, seed: int, each: int = 8) -> Iterator[Trial]:
@@ -208,7 +234,7 @@ def trials(texts: dict[str, str], count: int, seed: int, each: int = 8) -> Itera
             because = found.verdict.because if found.verdict is not None else ""
             yield Trial(
                 name, right.document.source.line_of(start), kind_of(claim), damage.kind, text[start:end], damage.text,
-                result, because,
+                result, because, can_be_seen(right, claim),
             )  # fmt: skip
             done += 1
             if done >= count:
@@ -242,9 +268,14 @@ def main(arguments: Any = None) -> None:
         if len(found) % 100 == 0:
             print(table(found, "kind"), flush=True)
         if trial.result in given.show:
-            print(f"{trial.result} {trial.document}.tex:{trial.line} {trial.claim} {trial.kind}: {trial.because}")
+            seen = "" if trial.visible else ", not visible"
+            print(f"{trial.result}{seen} {trial.document}.tex:{trial.line} {trial.claim} {trial.kind}: {trial.because}")
             print(f"    {trial.right.strip()[:150]!r}\n    {trial.damaged.strip()[:150]!r}", flush=True)
-    print(table(found, "kind"), table(found, "claim"), sep="\n\n")
+    visible = [trial for trial in found if trial.visible]
+    print(table(visible, "kind"), table(visible, "claim"), sep="\n\n")
+    hidden = [trial for trial in found if not trial.visible]
+    if hidden:
+        print("\nDamages that the document itself does not show:", table(hidden, "claim"), sep="\n")
     print(f"\n{len(found)} damages, {time.process_time() - started:.0f} s")
 
 

@@ -20,17 +20,16 @@ from derive.audit.dimensions import odd_claim
 from derive.audit.expected import Compared, Expected, compared
 from derive.audit.known import ASSUMED, Known
 from derive.audit.limited import FAULTS, OutOfTime, limited
-from derive.audit.near import Nearness, letters_in, root
-from derive.audit.numeric import NoNumber
+from derive.audit.near import Nearness, letters_in, terms_in
 from derive.audit.slips import WHY, Edit, nearest_edit
-from derive.audit.systems import equations_of, expanded, root_equation
+from derive.audit.systems import expanded, root_equation
 from derive.documents.choices import Choice, readings
 from derive.documents.facts import Facts, Identity, facts_of, shape_of
 from derive.documents.layout import Cue, Document, Row, Statement
 from derive.documents.meaning import Meaning, Meaningless, Value
 from derive.documents.parser import Unreadable, parsed
 from derive.documents.source import Span
-from derive.documents.syntax import Cases, Int, Letter, Mat, Node, Text
+from derive.documents.syntax import Add, Cases, Int, Letter, Mat, Node, Text
 
 SECONDS = 3.0  # seconds of processor time for one claim
 LEAST_SECONDS = 0.4  # the limit for a claim once a document has used much time
@@ -38,9 +37,9 @@ USUAL_SECONDS = 0.3  # the usual processor time of a claim
 MOST_LATE = 40.0  # the limit falls linearly with the seconds used beyond the usual time, to zero at this number
 SECONDS_OF_SEARCH = 2.0  # seconds of processor time for the search for a change that makes a claim right
 MOST_INDICES = 12
+MOST_ROWS = 10  # number of claims whose terms may be missing in the next row
 MOST_FIXED = 5  # number of earlier rows that are searched for a slip
 SPECIAL = frozenset({Cue.GIVEN, Cue.PUT_IN, Cue.ZERO, Cue.APPROXIMATE})  # words that explain lost terms
-PIVOT = Symbol("pivot_", real=True)
 MOST_READINGS = 8
 PLAIN = ("", "unmarked", "all", "tensors")
 GOOD = (Outcome.HOLDS, Outcome.APPROXIMATES, Outcome.DEFINES)
@@ -176,16 +175,20 @@ class _Auditor:
         """Begin a problem or section, in which only the assumed equations are known at first."""
         self.scope = scope
         self.meaning.scope = scope
-        self.known = self.scopes[scope] = Known(self.meaning)
+        self.known = self.scopes[scope] = self.assumptions()
+
+    def assumptions(self) -> Known:
+        known = Known(self.meaning)
         for each in self.assumed:
             try:
                 left, right = (self.meaning.of(readings(side, self.facts)[0][0]) for side in (each.left, each.right))
             except (Meaningless, *FAULTS):
                 continue
             if isinstance(left, Symbol) and not isinstance(right, MatrixBase):
-                self.known.assume(left, right)
+                known.assume(left, right)
             elif not isinstance(left, MatrixBase) and not isinstance(right, MatrixBase):
-                self.known.state(sympy.expand(left - right), ASSUMED)
+                known.state(sympy.expand(left - right), ASSUMED)
+        return known
 
     def meaning_of(self, scope: int, plain: str = "") -> Meaning:
         """Return a meaning of letters that shares the letters and derivatives of the whole document."""
@@ -224,10 +227,12 @@ class _Auditor:
         except RecursionError:
             claim.verdict = Verdict(Outcome.UNDECIDED, "this formula is nested too deep")
         search = min(seconds, SECONDS_OF_SEARCH)
-        if claim.verdict.outcome is Outcome.UNDECIDED and claim.row.block.display:
+        display, undecided = claim.row.block.display, claim.verdict.outcome is Outcome.UNDECIDED
+        if claim.verdict.outcome is Outcome.DEFINES or (undecided and display):
             with suppress(OutOfTime, RecursionError), limited(search):
                 self.accuse_if_near(claim, claim.verdict)
-        if claim.verdict.outcome is Outcome.DIFFERS and claim.verdict.inherits is None:
+        failed = claim.verdict.outcome is Outcome.DIFFERS and claim.verdict.inherits is None
+        if failed or (claim.verdict.outcome is Outcome.UNDECIDED and display and not self.may_be_special(claim)):
             with suppress(OutOfTime, RecursionError), limited(search):
                 self.fixes += self.fixes_before(claim)
         with suppress(OutOfTime, RecursionError), limited(seconds):
@@ -243,10 +248,17 @@ class _Auditor:
             and claim.left.identity == claim.right.identity
         ):
             if not claim.is_step and claim.left.dots == claim.right.dots:
+                verdict.outcome = Outcome.DIFFERS if claim.left.sub else verdict.outcome
                 verdict.because = "both sides are the same letter, so this says nothing"
                 if len(claim.right.sub) == 2 and claim.right.sub[0] != claim.right.sub[1]:
                     turned = claim.right.base + "_" + claim.right.sub[::-1]
                     verdict.suggestion, verdict.why_plausible = f"{turned} on one side", WHY["index"]
+        for side in (claim.left if claim.before is None else None, claim.right):
+            pair = same_letters(side) if verdict.outcome is not Outcome.DIFFERS else None
+            if pair is not None:
+                verdict.outcome, verdict.span = Outcome.DIFFERS, pair.span
+                verdict.because = "one letter appears twice where two letters belong"
+                verdict.why_plausible = WHY["letter"]
         for matrix in claim.right.walk() if claim.right is not None and not verdict.suggestion else ():
             if isinstance(matrix, Mat) and (odd := self.odd_entry(matrix)) is not None:
                 row, column, span = odd
@@ -328,31 +340,28 @@ class _Auditor:
 
     def accuse_if_near(self, claim: Claim, verdict: Verdict) -> None:
         """Blame a row that does not follow but would follow after one small change."""
-        left_side = self.last_good_side(claim)
-        if claim.values is None or claim.right is None or left_side is None or claim.relation not in ("=", ":="):
+        if claim.values is None or claim.relation not in ("=", ":="):
             return
         if claim.row.block.cues & {Cue.APPROXIMATE, Cue.INCORRECT}:
             return
-        left, right = claim.values
-        if isinstance(left, MatrixBase) or isinstance(right, MatrixBase):
+        if verdict.outcome is Outcome.DEFINES and claim.values[0] in self.known.definitions:
+            return  # the letter has another value in another part or case
+        if any(isinstance(each, MatrixBase) for each in claim.values):
             return
-        text = self.document.source.text
-        right_node, left_node = readings(claim.right, self.facts)[0][0], readings(left_side, self.facts)[0][0]
-        near = Nearness(
-            self.meaning, self.known, self.with_other_indices(letters_in(left_node, right_node)),
-            lambda span: text[span.start : span.end].strip(),
-        )  # fmt: skip
-        found = self.near_value(claim, left, right_node, near) if isinstance(left, Symbol) or claim.is_step else None
-        if found is None and not claim.is_step:
-            equations = equations_of(self.known, self.meaning, sure=True)
-            wanted, _ = expanded(self.known, left - right, sure=True)
-            pair = near.of_equation(left_node, right_node, equations, wanted)
-            found = (pair[0], pair[1].name, pair[1].claims) if pair is not None else None
-        if found is None:
-            self.accuse_if_letters_agree(claim, verdict)
+        edit = self.near_edit(claim, self.known)
+        if edit is None and not claim.is_step and claim.row.block.display and not self.may_be_special(claim):
+            near = Nearness(self.meaning, self.known, [], self.shown, terms=[])
+            if (lost := near.lost_term(claim.values[0] - claim.values[1])) is not None:
+                verdict.outcome, verdict.why_plausible = Outcome.DIFFERS, WHY["lost term"]
+                verdict.because = "it does not follow from earlier rows, but would with one more term"
+                verdict.suggestion = f"with the term {lost}"
+                return
+        if edit is None:
+            if verdict.outcome is Outcome.UNDECIDED:
+                self.accuse_if_letters_agree(claim, verdict)
             return
-        edit, because, given = found
-        verdict.outcome, verdict.given = Outcome.DIFFERS, given
+        verdict.outcome = Outcome.DIFFERS
+        because = "the side before it" if claim.is_step else "earlier rows"
         verdict.because = f"it does not follow from {because}, but would with one change"
         verdict.suggestion = suggestion_of(edit)
         verdict.why_plausible, verdict.span = WHY[edit.kind], edit.span
@@ -387,46 +396,65 @@ class _Auditor:
             verdict.because, verdict.counterexample = "it does not follow from the row above it", example
 
     def fixes_before(self, claim: Claim) -> list[Fix]:
-        """Return changes of the rows that define letters of a wrong claim, each of which makes the claim hold."""
+        """Return changes of earlier rows, each of which follows from all other rows up to a claim that does not."""
         if claim.values is None or any(isinstance(each, MatrixBase) for each in claim.values):
             return []
-        difference = claim.values[0] - claim.values[1]
         found: list[Fix] = []
-        _, used = expanded(self.known, difference)
-        own = {claim.row.number} | ({claim.before.row.number} if claim.before is not None else set())
-        for number in sorted(set(used) - {ASSUMED}, reverse=True)[:MOST_FIXED]:
-            earlier = self.claims[number]
-            if earlier.right is None or earlier.values is None or earlier.row.number in own or earlier.is_step:
+        wanted = self.letters_behind(claim)
+        tried = 0
+        for earlier in reversed(self.claims[: claim.number]):
+            if scope_of(self.document, earlier.row) != self.scope or tried == MOST_FIXED:
+                break
+            if not self.may_be_changed(earlier) or earlier.row.number == claim.row.number:
                 continue
-            if earlier.verdict is None or earlier.verdict.outcome is not Outcome.DEFINES:
+            if not self.letters_behind(earlier) & wanted:
                 continue
-            letter, power = earlier.values[0], 1
-            if isinstance(letter, sympy.Pow):
-                letter, power = letter.base, 2
-            if isinstance(letter, Symbol) and not isinstance(earlier.values[1], MatrixBase):
-                edit = self.edit_of_definition(claim, earlier, letter, power)
-                found += [Fix(claim, earlier, edit)] if edit is not None else []
+            tried += 1
+            edit = self.near_edit(earlier, self.known_without(earlier, claim))
+            found += [Fix(claim, earlier, edit)] if edit is not None else []
         return found
 
-    def edit_of_definition(self, claim: Claim, earlier: Claim, letter: Symbol, power: int) -> Edit | None:
-        """Return a change of a definition with which a later claim holds."""
-        assert claim.values is not None and earlier.right is not None
-        wanted, _ = expanded(self.known, claim.values[0] - claim.values[1], letter)
-        value = wanted.subs(letter, sympy.sqrt(PIVOT)) if power == 2 else wanted.subs(letter, PIVOT)
-        if letter in value.free_symbols or sympy.diff(value, PIVOT, 2) != 0:
-            return None
-        node = readings(earlier.right, self.facts)[0][0]
-        text = self.document.source.text
-        near = Nearness(
-            self.meaning, self.known, letters_in(node, claim.left, claim.right),
-            lambda span: text[span.start : span.end].strip(),
-        )  # fmt: skip
+    def may_be_changed(self, claim: Claim) -> bool:
+        """Whether a row was believed without a reason."""
+        if claim.verdict is None or claim.verdict.outcome is not Outcome.DEFINES or claim.relation not in ("=", ":="):
+            return False
+        if claim.left is None or claim.right is None or claim.values is None:
+            return False
+        return not any(isinstance(each, MatrixBase) for each in claim.values)
+
+    def letters_behind(self, claim: Claim) -> set[Symbol]:
+        assert claim.values is not None
+        value = claim.values[0] - claim.values[1]
+        found: set[Symbol] = value.free_symbols | expanded(self.known, value, sure=True)[0].free_symbols
+        return found
+
+    def known_without(self, earlier: Claim, claim: Claim) -> Known:
+        """Return what the rows up to a claim give if this claim is right and an earlier one is not read."""
+        kept, self.known = self.known, self.assumptions()
         try:
-            roots = [root(value, point, PIVOT) for point in near.points(letter)]
-            targets = [each for each in roots if each is not None and abs(each) > 1e-9]
-            return near.of_value(node, targets, letter) if len(targets) == len(roots) else None
-        except (*FAULTS, NoNumber):
+            for each in self.claims[: claim.number + 1]:
+                if each is not earlier and scope_of(self.document, each.row) == self.scope:
+                    self.remember(each, believed=each is claim)
+            return self.known
+        finally:
+            self.known = kept
+
+    def near_edit(self, claim: Claim, known: Known) -> Edit | None:
+        """Return one change with which a claim follows from what other rows give."""
+        left_side = self.last_good_side(claim)
+        if claim.right is None or left_side is None or claim.values is None:
             return None
+        right_node, left_node = readings(claim.right, self.facts)[0][0], readings(left_side, self.facts)[0][0]
+        letter = claim.values[0] if isinstance(claim.values[0], Symbol) and not claim.is_step else None
+        letters = self.with_other_indices(letters_in(left_node, right_node))
+        near = Nearness(
+            self.meaning, known, [each for each in letters if letter is None or self.meaning.symbol(each) != letter],
+            self.shown, known is not self.known, None if self.may_be_special(claim) else self.terms_before(claim),
+        )  # fmt: skip
+        if letter is not None and (at_root := root_equation(letter, self.meaning, known)) is not None:
+            return near.of_root(right_node, at_root[0], at_root[1])
+        edit = near.of_claim(left_node, right_node, letter, claim.is_step)
+        return None if edit is not None and claim.is_step and self.repeats_a_side(claim, edit.node) else edit
 
     def blame_earlier_rows(self) -> None:
         """Blame an earlier row if one change of it makes several wrong claims hold, or one without a suggestion."""
@@ -463,26 +491,27 @@ class _Auditor:
                 because = "the dimensions of its terms contradict the other rows"
                 odd.verdict = Verdict(Outcome.DIFFERS, because)
 
-    def near_value(
-        self, claim: Claim, left: Value, right_node: Node, near: Nearness
-    ) -> tuple[Edit, str, tuple[int, ...]] | None:
-        """Return a change with which the right side has the value that earlier rows give to the left side."""
-        try:
-            if isinstance(left, Symbol) and not claim.is_step:
-                if (at_root := root_equation(left, self.meaning, self.known)) is not None:
-                    edit = near.of_root(right_node, at_root[0], at_root[1])
-                    return (edit, "an earlier equation", (at_root[2],)) if edit is not None else None
-                decision = Decision(claim, left, claim.values[1], self.meaning, self.known, frozenset())  # type: ignore[index]
-                values = decision.value_of_letter() if not self.known.is_defined(left) else None
-                edit = near.of_value(right_node, values, left) if values is not None else None
-                return (edit, "earlier equations", ()) if edit is not None else None
-            targets = [each.of(left) for each in near.points()]
-            edit = near.of_value(right_node, targets)
-            if edit is None or self.repeats_a_side(claim, edit.node):
-                return None
-            return edit, "the side before it", ()
-        except (*FAULTS, NoNumber):
-            return None
+    def shown(self, span: Span) -> str:
+        return self.document.source.text[span.start : span.end].strip()
+
+    def may_be_special(self, claim: Claim) -> bool:
+        """Whether words or formulas before a claim show that it may hold in a special case only."""
+        if Cue.APPROXIMATE in claim.row.block.cues:
+            return True
+        for each in reversed(self.claims[: claim.number]):
+            if each.row.block.part != claim.row.block.part:
+                break
+            if each.row.block.display or each.values is None or each.row is claim.row:
+                continue
+            if each.relation not in ("=", ":=") or each.values[1].is_number or isinstance(each.values[1], Symbol):
+                return True
+        return False
+
+    def terms_before(self, claim: Claim) -> list[Node]:
+        """Return the terms of the last displays and of the claim itself."""
+        rows = [each for each in self.claims[: claim.number + 1] if each.row.block.display]
+        sides = [side for each in reversed(rows[-MOST_ROWS:]) for side in (each.left, each.right) if side is not None]
+        return terms_in(sides, self.shown)
 
     def repeats_a_side(self, claim: Claim, node: Node) -> bool:
         """Whether a changed side is an earlier side of its chain: `a = b = a` says nothing, so it was not meant."""
@@ -680,8 +709,8 @@ class _Auditor:
             return True
         return any(letter in equation.free_symbols for equation, _ in self.known.equations)
 
-    def remember(self, claim: Claim) -> None:
-        """Remember a definition or an equation for the rows that follow."""
+    def remember(self, claim: Claim, believed: bool = False) -> None:
+        """Remember a definition or an equation for the rows that follow; a wrong one only if it is believed."""
         if claim.values is None or claim.verdict is None:
             return
         if self.is_special_case(claim):
@@ -705,7 +734,7 @@ class _Auditor:
         while first.before is not None:
             first = first.before
         head = first.values[0] if first.values is not None else left
-        wrong = claim.verdict.outcome is Outcome.DIFFERS
+        wrong = claim.verdict.outcome is Outcome.DIFFERS and not believed
         pairs = [(head, right)] if not isinstance(head, MatrixBase) and not isinstance(right, MatrixBase) else []
         if isinstance(head, MatrixBase) and isinstance(right, MatrixBase) and head.shape == right.shape:
             pairs = list(zip(head, right, strict=True))
@@ -722,6 +751,16 @@ class _Auditor:
         if claim.verdict.outcome is Outcome.HOLDS and not claim.verdict.given and not isinstance(left, Symbol):
             return  # an identity gives nothing new
         self.known.state(sympy.expand(left - right) if sympy.count_ops(left - right) < 600 else left - right, number)
+
+
+def same_letters(side: Node | None) -> Node | None:
+    """Return a sum of which two terms are the same letter."""
+    for each in side.walk() if side is not None else ():
+        if isinstance(each, Add):
+            letters = [(term.identity, term.dots) for _, term in each.terms if isinstance(term, Letter)]
+            if len(set(letters)) < len(letters):
+                return each
+    return None
 
 
 def suggestion_of(edit: Edit) -> str:

@@ -370,6 +370,9 @@ class Decision:
             if order is not None:
                 letters, power = order
                 words = " and ".join(_word(each) for each in letters)
+                if letters == changing_letters(left.free_symbols, self.meaning) and power <= _degree(right, letters):
+                    because = f"the terms of order {power} in {words} are not those of the left side"
+                    return Verdict(Outcome.DIFFERS, because, used)
                 return Verdict(Outcome.APPROXIMATES, f"the error is of order {power} in {words}", used)
         if self.claim.relation in ("~", "prop"):
             return Verdict(
@@ -793,6 +796,12 @@ def order_of_error(
         if len(slopes) == POINTS and all(error - value > 0.8 for error, value in slopes):
             return letters, round(min(error for error, _ in slopes))
     return None
+
+
+def _degree(value: Expr, letters: tuple[Symbol, ...]) -> int:
+    """Return the highest power of letters in a polynomial; zero for an expression that is not a polynomial in them."""
+    poly = value.as_poly(*letters)
+    return int(poly.total_degree()) if poly is not None else 0
 
 
 def _approximate_multiple(wanted: Expr, equation: Expr, meaning: Meaning) -> bool | None:

@@ -23,6 +23,7 @@ USUAL = {  # the powers of mass, length and time
     "x": (0, 1, 0), "y": (0, 1, 0), "z": (0, 1, 0), "r": (0, 1, 0), "omega": (0, 0, -1), "T": (1, 2, -2),
     "U": (1, 2, -2),
 }  # fmt: skip
+LESS_USUAL = ("l", "T", "R")  # also an angular momentum; a period or tension; a resultant
 MOST_CANDIDATES = 12
 FEWEST_CLAIMS = 6
 Form = dict[str, Fraction]  # the exponents of the letters in a product
@@ -77,6 +78,10 @@ def odd_claim(claims: Sequence[Claim], meaning: Meaning) -> Claim | None:
         return None
     equations += usual(equations, meaning)
     conflicts = _conflicts(equations)
+    for letter in LESS_USUAL if conflicts else ():
+        without = [each for each in equations if each.source != -1 or list(each.form) != [letter]]
+        if not _conflicts(without):
+            return None  # the letter has another dimension here: `l` is an angular momentum
     if not conflicts:
         return None
     shared = set.intersection(*conflicts)

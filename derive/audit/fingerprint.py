@@ -9,12 +9,14 @@ import cmath
 from collections.abc import Callable
 from functools import lru_cache, partial
 from hashlib import blake2b
+from math import prod
 
 import sympy
 from sympy import Expr, Symbol
 
 POINTS = 3
 CLOSE = 1e-7
+SMALL = 1e-12
 
 
 @lru_cache(maxsize=20_000)
@@ -67,6 +69,24 @@ def at(value: Expr, number: Callable[[Symbol], complex]) -> complex:
     if value is sympy.I:
         return 1j
     return FUNCTIONS[value.func](at(value.args[0], number))
+
+
+def size_at(value: Expr, number: Callable[[Symbol], complex]) -> float:
+    """Return the number of an expression in which nothing is subtracted."""
+    if value.is_Add:
+        return sum(size_at(each, number) for each in value.args)
+    if value.is_Mul:
+        return prod(size_at(each, number) for each in value.args)
+    return abs(at(value, number))
+
+
+def is_zero(value: Expr) -> bool:
+    """Whether an expression vanishes at all fixed points."""
+    numbers = fingerprint(value)
+    if numbers is None:
+        return False
+    sizes = [size_at(value, partial(_number_at, point)) for point in range(POINTS)]
+    return all(abs(each) <= SMALL * size for each, size in zip(numbers, sizes, strict=True))
 
 
 def differ(left: Expr, right: Expr) -> bool | None:

@@ -1,7 +1,7 @@
 """Whether a row that does not follow would follow after one small change: then the row is probably a slip.
 
-The row is compared with what earlier rows determine: the value of its letter, or an equation for its highest rate. A
-change is tried with numbers; a row is accused only if one change makes it right at all points.
+A change is tried with numbers, at points where the earlier equations hold. A row is accused only if one change makes
+it right at all points.
 """
 
 from __future__ import annotations
@@ -11,21 +11,24 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import islice
 
-from sympy import Expr, Symbol
+from sympy import Add as Add_
+from sympy import Expr, Integral, Symbol, expand
 
 from derive.audit.known import Known
 from derive.audit.limited import FAULTS
 from derive.audit.numeric import NoNumber, Numbers, at, close
-from derive.audit.slips import Edit, edits_of_side
-from derive.audit.systems import POINTS, Equation, expanded
+from derive.audit.points import Surface
+from derive.audit.slips import Edit, edits_of_side, with_term
+from derive.audit.systems import equations_of, expanded
 from derive.documents.meaning import Meaning, Meaningless
-from derive.documents.syntax import Letter, Node
+from derive.documents.syntax import Add, Fun, Letter, Node, Num, Root
 
-SMALL, SMALLEST = 1e-8, 1e-6  # a residual relative to the value elsewhere; a value that counts as zero
+POINTS = 3
+SMALL, SMALLEST = 1e-7, 1e-6  # a residual relative to the value elsewhere; a value that counts as zero
 MOST_CHANGES = 4000
-MOST_TRIED = 6  # number of equations that are tried
-TOO_EASY = ("term", "extra factor")  # changes not tried: dropping a factor would turn x_0 cos(w t) into x_0
-RENAMED = ("letter", "index", "dots")
+MOST_TERMS = 60
+MOST_TERMS_OF_EQUATION = 8
+TOO_EASY = ("term", "extra factor")  # not tried in a special case: a lost factor would turn x_0 cos(w t) into x_0
 Shown = Callable[..., str]
 
 
@@ -37,39 +40,112 @@ class Nearness:
     known: Known
     letters: Sequence[Letter]
     shown: Shown
+    written: bool = False  # only the equations that the document writes are used
+    terms: Sequence[Node] | None = None  # terms that may be lost; None if the row may hold in a special case only
 
-    def points(self, without: Symbol | None = None) -> list[Numbers]:
+    def points(self, letter: Symbol | None = None) -> list[Numbers]:
+        """Return points where the earlier equations hold; `letter` is a letter whose own value is not used."""
+        equations = equations_of(self.known, self.meaning, letter, sure=True, written=self.written)
+        state = ("points", tuple(each.value for each in equations))
+        if state not in self.known.kept:
+            self.known.kept[state] = Surface(equations, self.meaning).find(POINTS).points
+        return [
+            Numbers(self.meaning, self.defined(letter), point, fixed)
+            for point, fixed in enumerate(self.known.kept[state])
+        ]
+
+    @cached_property
+    def bare(self) -> Numbers:
+        """A point where no earlier row holds."""
+        return Numbers(self.meaning, lambda symbol: symbol, POINTS)
+
+    def defined(self, letter: Symbol | None) -> Callable[[Symbol], Expr]:
         kept: dict[Symbol, Expr] = {}
 
-        def defined(symbol: Symbol) -> Expr:
+        def value(symbol: Symbol) -> Expr:
             if symbol not in kept:
-                kept[symbol] = symbol if symbol == without else expanded(self.known, symbol, without, sure=True)[0]
+                kept[symbol] = symbol if symbol == letter else expanded(self.known, symbol, letter, sure=True)[0]
             return kept[symbol]
 
-        return [Numbers(self.meaning, defined, point) for point in range(POINTS)]
+        return value
 
-    def edits(self, side: Node) -> list[Edit]:
-        found = [each for each in edits_of_side(side, self.letters, self.shown) if each.kind not in TOO_EASY]
+    def edits(self, side: Node, other: Node | None = None, complete: bool = True) -> list[Edit]:
+        """Return the changes of a side; terms are added or left out only if all letters of the row are known."""
+        if isinstance(side, Num):
+            return []
+        easy = self.terms is not None and complete
+        found = [each for each in edits_of_side(side, self.letters, self.shown) if easy or each.kind not in TOO_EASY]
+        sides = {self.shown(each.span) for each in (side, other) if each is not None}
+        at_rest = not any(each.dots for each in letters_in(side, other))
+        for term in self.terms or () if easy else ():
+            if self.shown(term.span) not in sides and not (at_rest and any(each.dots for each in letters_in(term))):
+                found += with_term(side, term, self.shown)
         return sorted(islice(found, MOST_CHANGES), key=lambda each: each.cost)
 
-    def of_value(self, side: Node, targets: Sequence[complex], without: Symbol | None = None) -> Edit | None:
-        """Return the cheapest change with which a side has the numbers of the targets."""
-        points = self.points(without)[: len(targets)]
-        if any(abs(each.imag) > SMALL or abs(each) < SMALLEST for each in targets):
-            return None  # a side that contains letters is not meant to be zero
-        for edit in self.edits(side):
+    def of_claim(self, left: Node, right: Node, letter: Symbol | None, is_step: bool) -> Edit | None:
+        """Return the cheapest change of a side with which a claim that does not follow would follow."""
+        points = self.points(letter)
+        if len(points) < 2:
+            return None
+        functions = all(any(isinstance(each, Fun) for each in side.walk()) for side in (left, right))
+        may_be_identity = is_step or functions
+
+        def holds(one: Node, other: Node) -> bool:
             try:
-                if all(close(p.of_node(edit.node), target) for p, target in zip(points, targets, strict=True)):
-                    return edit
+                for p in points:
+                    size = sum(abs(p.of_node(term)) for each in (one, other) for term in terms_of(each))
+                    if size < SMALLEST or abs(p.of_node(one) - p.of_node(other)) > SMALL * size:
+                        return False
+                return may_be_identity or not close(self.bare.of_node(one), self.bare.of_node(other))
             except (*FAULTS, NoNumber, Meaningless):
-                continue
+                return False
+
+        if holds(left, right):
+            return None
+        one, other = self.letters_behind(left, letter), self.letters_behind(right, letter)
+        complete = one == other if is_step else one | other <= set(points[0].fixed)
+        for edit, first in self.edits_of_both(left, right, complete):
+            if holds(edit.node, right) if first else holds(left, edit.node):
+                return None if is_other_root(edit, left if first else right) else edit
         return None
+
+    def lost_term(self, difference: Expr) -> Expr | None:
+        """Return a term with which an equation is a multiple of one earlier equation, or None."""
+        if self.terms is None or difference.has(Integral):
+            return None
+        wanted = expand(expanded(self.known, difference, sure=True)[0])
+        count = len(Add_.make_args(wanted))
+        if count < 2 or not any(map(self.is_rate, difference.free_symbols)):
+            return None  # at rest, the terms with rates are missing
+        for each in equations_of(self.known, self.meaning, sure=True, written=self.written):
+            terms = Add_.make_args(expand(each.value))
+            if len(terms) != count + 1 or len(terms) > MOST_TERMS_OF_EQUATION:
+                continue
+            for term in terms:
+                ratio = Add_.make_args(wanted)[0] / term
+                if any(map(self.is_rate, ratio.free_symbols)):
+                    continue
+                lost = expand(wanted - ratio * each.value)
+                if not lost.is_Add and lost != 0 and -lost in map(expand, (ratio * other for other in terms)):
+                    return -lost
+        return None
+
+    def is_rate(self, symbol: Symbol) -> bool:
+        return self.known.is_rate(symbol) or symbol in self.meaning.derivatives
+
+    def letters_behind(self, side: Node, letter: Symbol | None) -> set[Symbol]:
+        """Return the letters of a side after substituting definitions, without `letter`."""
+        value = self.defined(letter)
+        found = [value(self.meaning.symbol(each)).free_symbols for each in letters_in(side)]
+        behind: set[Symbol] = set().union(*found)
+        return behind - {letter}
 
     def of_root(self, side: Node, letter: Symbol, equation: Expr) -> Edit | None:
         """Return the cheapest change with which a side is a root of an equation for a letter."""
+        points = [Numbers(self.meaning, self.defined(None), point) for point in range(POINTS)]
         for edit in self.edits(side):
             try:
-                for point in self.points_of_roots:
+                for point in points:
                     value = point.of_node(edit.node)
                     found, elsewhere = (
                         at(equation, _at_root(point, letter, each)) for each in (value, 1.37 * value + 0.11)
@@ -82,92 +158,15 @@ class Nearness:
                 continue
         return None
 
-    @cached_property
-    def points_of_roots(self) -> list[Numbers]:
-        return self.points()
-
-    def of_equation(
-        self, left: Node, right: Node, equations: Sequence[Equation], wanted: Expr
-    ) -> tuple[Edit, Equation] | None:
-        """Return a change that turns an equation into an earlier equation, and the earlier equation."""
-        tried = 0
-        for equation in equations:
-            pivot = self.pivot(wanted, equation.value)
-            if pivot is None:
-                continue
-            tried += 1
-            if tried > MOST_TRIED:
-                break
-            try:
-                roots = [root(equation.value, p, pivot) for p in self.points(pivot)]
-            except (*FAULTS, NoNumber):
-                continue
-            if any(each is None or abs(each) < SMALLEST or abs(each.imag) > SMALL for each in roots):
-                continue  # roots of negative numbers do not show a slip
-            edit = self.with_roots(left, right, pivot, [each for each in roots if each is not None])
-            if edit is not None and (wanted.free_symbols <= equation.value.free_symbols or edit.kind in RENAMED):
-                return edit, equation
-        return None
-
-    def pivot(self, wanted: Expr, equation: Expr) -> Symbol | None:
-        """Return the highest rate that both equations contain linearly."""
-        both = wanted.free_symbols & equation.free_symbols
-        if not both or len(wanted.free_symbols ^ equation.free_symbols) > 2:
-            return None
-
-        def height(symbol: Symbol) -> tuple[int, str]:
-            letter = self.meaning.symbols.get(symbol)
-            return (letter.dots if letter is not None else 0), str(symbol)
-
-        point = self.points()[0]
-        for symbol in sorted(both, key=height, reverse=True)[:2]:
-            if _is_linear(equation, symbol, point) and _is_linear(wanted, symbol, point):
-                return symbol
-        return None
-
-    def with_roots(self, left: Node, right: Node, pivot: Symbol, roots: Sequence[complex]) -> Edit | None:
-        at_root = self.points(pivot)
-        for p, value in zip(at_root, roots, strict=True):
-            p.fixed[pivot] = value
-        elsewhere = self.points(pivot)[0]
-        elsewhere.fixed[pivot] = roots[0] * 1.37 + 0.11
-        for edit, first in self.edits_of_both(left, right):
-            one, other = (edit.node, right) if first else (left, edit.node)
-            try:
-                size = abs(elsewhere.of_node(one) - elsewhere.of_node(other))
-                if size > SMALLEST and all(abs(p.of_node(one) - p.of_node(other)) < SMALL * size for p in at_root):
-                    return edit
-            except (*FAULTS, NoNumber, Meaningless):
-                continue
-        return None
-
-    def edits_of_both(self, left: Node, right: Node) -> Iterator[tuple[Edit, bool]]:
-        both = [(each, True) for each in self.edits(left)] + [(each, False) for each in self.edits(right)]
+    def edits_of_both(self, left: Node, right: Node, complete: bool) -> Iterator[tuple[Edit, bool]]:
+        both = [(each, False) for each in self.edits(right, left, complete)]
+        if not isinstance(left, Letter):
+            both += [(each, True) for each in self.edits(left, right, complete)]
         yield from sorted(both, key=lambda pair: pair[0].cost)
 
 
 def _at_root(point: Numbers, letter: Symbol, value: complex) -> Callable[[Symbol], complex]:
     return lambda symbol: value if symbol == letter else point.basic(symbol)
-
-
-def _is_linear(value: Expr, pivot: Symbol, point: Numbers) -> bool:
-    try:
-        zero, one, two = (
-            at(value, lambda symbol, s=s: s if symbol == pivot else point.basic(symbol))  # type: ignore[misc]
-            for s in (0j, 1 + 0j, 2 + 0j)
-        )
-    except FAULTS:
-        return False
-    return close(zero + two, 2 * one) and not close(zero, one)
-
-
-def root(equation: Expr, point: Numbers, pivot: Symbol) -> complex | None:
-    """Return the value of a letter that an equation contains linearly."""
-    low, high = (
-        at(equation, lambda symbol, s=s: s if symbol == pivot else point.basic(symbol))  # type: ignore[misc]
-        for s in (0j, 1 + 0j)
-    )
-    return None if high == low else -low / (high - low)
 
 
 def letters_in(*sides: Node | None) -> list[Letter]:
@@ -179,4 +178,30 @@ def letters_in(*sides: Node | None) -> list[Letter]:
     return list(found.values())
 
 
-__all__ = ["Nearness", "letters_in", "root"]
+def is_other_root(edit: Edit, side: Node) -> bool:
+    """Whether a change turns the sign of a square root: both signs are roots, and the text may choose one."""
+    return edit.kind == "sign" and any(
+        isinstance(each, Root) and edit.span.start <= each.span.start < edit.span.end for each in side.walk()
+    )
+
+
+def terms_of(side: Node) -> list[Node]:
+    return [term for _, term in side.terms] if isinstance(side, Add) else [side]
+
+
+def terms_in(sides: Sequence[Node], shown: Shown) -> list[Node]:
+    """Return the terms of all sums, the sides that are not sums, and the letters, each once."""
+    found: dict[str, Node] = {}
+    for side in sides:
+        if not isinstance(side, Add | Num):
+            found.setdefault(shown(side.span), side)
+        for each in side.walk():
+            for _, term in each.terms if isinstance(each, Add) else ():
+                found.setdefault(shown(term.span), term)
+    for side in sides:
+        for letter in letters_in(side):
+            found.setdefault(shown(letter.span), letter)
+    return list(found.values())[:MOST_TERMS]
+
+
+__all__ = ["Nearness", "letters_in", "terms_in"]

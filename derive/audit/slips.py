@@ -8,7 +8,7 @@ from itertools import islice
 from typing import Any
 
 from derive.documents.source import Span
-from derive.documents.syntax import Add, Diff, Frac, Fun, Int, Letter, Mul, Node, Num, Pow, Sign
+from derive.documents.syntax import Add, Diff, Frac, Fun, Group, Int, Letter, Mul, Node, Num, Pow, Sign
 
 MOST_EDITS = 1500
 OTHER_FUNCTION = {"sin": "cos", "cos": "sin", "sinh": "cosh", "cosh": "sinh", "tan": "sin"}
@@ -35,6 +35,7 @@ WHY = {
     "factor": "a factor was lost",
     "extra factor": "a factor was written twice, or is superfluous",
     "term": "a superfluous term was written",
+    "lost term": "a term was lost",
     "function": "sine and cosine were exchanged",
     "differential": "the d of a differential was lost",
     "dots": "a dot was lost or added",
@@ -59,6 +60,34 @@ def edits_of_side(node: Node, letters: Sequence[Letter], shown: Callable[[Span],
         was = shown(node.span)
         yield Edit(Add(node.span, (("-", node),)), node.span, was, f"-{was}", "sign", 1.0)
     yield from edits_of(node, letters, shown)
+
+
+def with_term(node: Node, term: Node, shown: Callable[[Span], str]) -> Iterator[Edit]:
+    """Yield the changes that add a term to a side, or to a sum or bracket inside it, that lacks this term."""
+    was = shown(node.span)
+    terms = node.terms if isinstance(node, Add) else (("+", node),)
+    written = [shown(each.span) for _, each in terms]
+    for sign in "+-" if shown(term.span) not in written else "":
+        new = Add(node.span, (*terms, (sign, term)))
+        yield Edit(new, node.span, was, f"{was} {sign} {shown(term.span)}", "lost term", 2.5)
+    for each in fields(node):
+        for new, edit in _with_term_inside(getattr(node, each.name), term, shown):
+            yield replace(edit, node=replace(node, **{each.name: new}))
+
+
+def _with_term_inside(value: Any, term: Node, shown: Callable[[Span], str]) -> Iterator[tuple[Any, Edit]]:
+    if isinstance(value, Add | Group):
+        for edit in with_term(value, term, shown):
+            yield edit.node, edit
+    elif isinstance(value, Node):
+        for each in fields(value):
+            for new, edit in _with_term_inside(getattr(value, each.name), term, shown):
+                node = replace(value, **{each.name: new})
+                yield node, replace(edit, node=node)
+    elif isinstance(value, tuple):
+        for i, item in enumerate(value):
+            for new, edit in _with_term_inside(item, term, shown):
+                yield (*value[:i], new, *value[i + 1 :]), edit
 
 
 def edits_of(node: Node, letters: Sequence[Letter], shown: Callable[[Span], str]) -> Iterator[Edit]:

@@ -13,8 +13,8 @@ from dataclasses import dataclass, replace
 import sympy
 from sympy import Expr, Integral, Poly, Symbol
 
-from derive.audit.fingerprint import CLOSE
-from derive.audit.known import Known
+from derive.audit.fingerprint import CLOSE, is_zero
+from derive.audit.known import LAST_EQUATIONS, Known
 from derive.audit.limited import FAULTS
 from derive.audit.numeric import Numbers, at, determined, spanned
 from derive.documents.meaning import Meaning
@@ -38,35 +38,40 @@ class Equation:
     name: str = "earlier equations"
 
 
-def equations_of(known: Known, meaning: Meaning, without: Symbol | None = None, sure: bool = False) -> list[Equation]:
+def equations_of(
+    known: Known, meaning: Meaning, without: Symbol | None = None, sure: bool = False, written: bool = False
+) -> list[Equation]:
     """Return the equations that earlier rows give, the last ones first, with definitions substituted.
 
-    `sure` leaves out conditions in sentences and solutions in the time, which may hold in one case only.
+    `sure` leaves out conditions in sentences and solutions in the time, which may hold in one case only; `written`
+    leaves out Lagrange's and Hamilton's equations of a function.
     """
-    state = (len(known.equations), sum(map(len, known.definitions.values())), without, sure)
+    state = (len(known.equations), sum(map(len, known.definitions.values())), without, sure, written)
     if state not in known.kept:
         if len(known.kept) > 200:
             known.kept.clear()
-        known.kept[state] = _equations_of(known, meaning, without, sure)
+        known.kept[state] = _equations_of(known, meaning, without, sure, written)
     found: list[Equation] = known.kept[state]
     return found
 
 
-def _equations_of(known: Known, meaning: Meaning, without: Symbol | None, sure: bool) -> list[Equation]:
+def _equations_of(known: Known, meaning: Meaning, without: Symbol | None, sure: bool, written: bool) -> list[Equation]:
     found: list[Equation] = []
     seen = set()
 
     def add(value: Expr, claims: tuple[int, ...], name: str) -> None:
-        if value != 0 and value.free_symbols and value not in seen and sympy.count_ops(value) < LARGEST:
+        if value in seen or not value.free_symbols or is_zero(value):
+            return
+        if sympy.count_ops(value) < LARGEST:
             seen.add(value)
             found.append(Equation(value, claims, name))
 
-    for value, number in reversed(known.equations[-MOST_EQUATIONS:]):
-        if value.has(Integral) or (sure and number in known.conditions):
+    for value, number in reversed(known.equations[-LAST_EQUATIONS:]):
+        if value.has(Integral) or (sure and number in known.conditions) or len(found) == MOST_EQUATIONS:
             continue
         put_in, used = expanded(known, value, without, sure)
         add(put_in, (*used, number), "earlier equations")
-    for value, claims, name in motion(known, meaning):
+    for value, claims, name in motion(known, meaning) if not written else ():
         put_in, _ = expanded(known, value, without, sure)
         add(put_in, claims, name)
     for each in list(found[:6]):

@@ -63,8 +63,19 @@ $$ m \ddot x + k x = 0. $$
             "\\ddot\\theta + \\frac{g}{l} \\theta &= 0\n\\end{aligned}\n$$",
         ),
         (LAGRANGIAN[: LAGRANGIAN.index("$$ L")], "$$ L = T - U $$", "$$ L = T + U $$"),
+        (LAGRANGIAN[: LAGRANGIAN.index("$$ L")], "$$ L = T - U $$", "$$ L = T - T $$"),
+        (
+            "The Lagrangian is\n$$ L = \\frac12 m \\dot x^2 - \\frac12 k x^2 + m g x $$\n\nThe motion follows,\n",
+            "$$ m \\ddot x + k x - m g = 0 $$",
+            "$$ m \\ddot x + k x = 0 $$",
+        ),
+        ("A small angle has", r" $\cos\theta \approx 1 - \frac12 \theta^2$", r" $\cos\theta \approx 1 - \theta^2$"),
+        ("The tensor has", " $I_{31} = I_{13}$", " $I_{31} = I_{31}$"),
     ],
-    ids=["Lagrange", "Lagrange, solved", "a system", "a force", "a root", "a square", "the row above", "a Lagrangian"],
+    ids=[
+        "Lagrange", "Lagrange, solved", "a system", "a force", "a root", "a square", "the row above", "a Lagrangian",
+        "a letter twice", "a lost term", "an approximation", "an index",
+    ],
 )  # fmt: skip
 def test_what_follows_from_earlier_rows_is_compared_with_them(before: str, right: str, slip: str) -> None:
     assert wrong(before + right) == []
@@ -94,6 +105,11 @@ def test_a_definition_is_named_if_one_later_row_may_have_the_slip_instead() -> N
     text = ENERGY
     (claim,) = wrong(text)
     assert claim.row.line == 5 and claim.verdict is not None and claim.verdict.or_lines == (1,)
+
+
+def test_a_law_is_blamed_if_a_later_row_shows_its_slip() -> None:
+    text = ATWOOD.replace("m_1 g - S", "m_1 g + S") + r"$$ \ddot x = \frac{(m_1 - m_2) g}{m_1 + m_2} $$"
+    assert [each.row.line for each in wrong(text)] == [3]
 
 
 def test_a_row_with_other_dimensions_than_the_rest_is_blamed() -> None:

@@ -1,0 +1,134 @@
+"""Points at which earlier equations hold, with numbers for all letters.
+
+A row that follows from the equations holds at each of these points. Newton's method moves all letters of the
+equations by the shortest step; the letters that change move most easily.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from functools import lru_cache
+
+from sympy import Expr, Mul, Symbol, expand, factor_terms
+
+from derive.audit.fingerprint import at, number_of, size_at
+from derive.audit.limited import FAULTS
+from derive.audit.systems import Equation
+from derive.documents.meaning import Meaning
+
+STEPS = 12  # the most steps of Newton's method
+TRIED = 8  # the most points with which Newton's method begins
+SLOPE = 1e-6  # the relative change of a letter for a slope
+SMALL = 1e-10  # a residual relative to the terms of its equation, or a letter that counts as zero
+DAMPING = 1e-9  # relative to the diagonal
+SMALLEST = 1e-3  # the smallest number of a letter that is positive
+LARGEST = 1e3  # the largest number of a letter
+WEIGHTS = (0.05, 0.3, 1.0)  # how easily a letter moves: one that does not change, one that changes, a rate
+
+Numbers = dict[Symbol, complex]
+
+
+@dataclass
+class Surface:
+    """The points at which the equations hold that do not contradict each other; the first equations come first."""
+
+    equations: Sequence[Equation]
+    meaning: Meaning
+    kept: list[Equation] = field(default_factory=list)
+    points: list[Numbers] = field(default_factory=list)
+
+    def find(self, count: int) -> Surface:
+        """Find points, and leave out each equation that makes a letter zero or has no solution with those before."""
+        here = self.begin(0)
+        for each in self.equations:
+            found = self.moved(here, [*self.kept, each])
+            if found is not None:
+                here = found
+                self.kept.append(each)
+        for point in range(TRIED):
+            found = here if point == 0 else self.moved(self.begin(point), self.kept)
+            if found is not None:
+                self.points.append(found)
+            if len(self.points) == count:
+                break
+        return self
+
+    def begin(self, point: int) -> Numbers:
+        letters = set().union(*(each.value.free_symbols for each in self.equations)) if self.equations else set()
+        return {each: complex(number_of(each.name, point)) for each in sorted(letters, key=str)}
+
+    def weight(self, symbol: Symbol) -> float:
+        letter = self.meaning.symbols.get(symbol)
+        if letter is None:
+            return WEIGHTS[1]
+        return WEIGHTS[2 if letter.dots else 1 if self.meaning.facts.changes(letter) else 0]
+
+    def moved(self, start: Numbers, equations: Sequence[Equation]) -> Numbers | None:
+        """Return the point that Newton's method reaches, or None."""
+        here = dict(start)
+        try:
+            for _ in range(STEPS):
+                residuals, slopes, sizes = [], [], []
+                for each in equations:
+                    value, slope = self.slopes(reduced(each.value), here)
+                    size = size_at(reduced(each.value), here.__getitem__) or 1.0
+                    residuals.append(value / size)
+                    slopes.append({letter: s / size for letter, s in slope.items()})
+                    sizes.append(abs(value) / size)
+                if max(sizes, default=0.0) < SMALL:
+                    return here if self.is_general(here, equations) else None
+                weights = {each: self.weight(each) ** 2 * max(abs(value), 0.1) ** 2 for each, value in here.items()}
+                factors = _solved([[_times(one, other, weights) for other in slopes] for one in slopes], residuals)
+                for factor, slope in zip(factors, slopes, strict=True):
+                    for letter, s in slope.items():
+                        here[letter] -= factor * s.conjugate() * weights[letter]
+        except FAULTS:
+            return None
+        return None
+
+    def slopes(self, equation: Expr, here: Numbers) -> tuple[complex, Numbers]:
+        value = at(equation, here.__getitem__)
+        found = {}
+        for letter in equation.free_symbols:
+            step = SLOPE * max(abs(here[letter]), 0.1)
+            there = {**here, letter: here[letter] + step}
+            found[letter] = (at(equation, there.__getitem__) - value) / step
+        return value, found
+
+    def is_general(self, here: Numbers, equations: Sequence[Equation]) -> bool:
+        """Whether no letter of the equations vanishes or grows without limit."""
+        letters = set().union(*(each.value.free_symbols for each in equations)) if equations else set()
+        return all(
+            SMALLEST < abs(here[each]) < LARGEST and (here[each].real > 0 or not each.is_positive) for each in letters
+        )
+
+
+@lru_cache(maxsize=2000)
+def reduced(value: Expr) -> Expr:
+    """Return an expression without the letters that are factors of all its terms; they are not meant to vanish."""
+    terms = factor_terms(expand(value))
+    return Mul(*(each for each in Mul.make_args(terms) if not each.as_base_exp()[0].is_Symbol))
+
+
+def _times(one: Numbers, other: Numbers, weights: dict[Symbol, float]) -> complex:
+    return sum((s * other[each].conjugate() * weights[each] for each, s in one.items() if each in other), 0j)
+
+
+def _solved(matrix: list[list[complex]], right: list[complex]) -> list[complex]:
+    """Return the solution of linear equations; a small number on the diagonal makes it unique."""
+    count = len(right)
+    rows = [[*row, value] for row, value in zip(matrix, right, strict=True)]
+    for i, row in enumerate(rows):
+        row[i] += DAMPING * abs(row[i])
+    for column in range(count):
+        pivot = max(range(column, count), key=lambda i: abs(rows[i][column]))
+        rows[column], rows[pivot] = rows[pivot], rows[column]
+        for i in range(count):
+            if i != column and rows[i][column]:
+                factor = rows[i][column] / rows[column][column]
+                rows[i] = [a - factor * b for a, b in zip(rows[i], rows[column], strict=True)]
+    return [rows[i][-1] / rows[i][i] for i in range(count)]
+
+
+__all__ = ["Numbers", "Surface"]
