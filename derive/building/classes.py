@@ -23,17 +23,17 @@ from typing import Any
 from derive.building.cache import Cache, digest, file_digest, folder_digest
 from derive.building.files import folder, shown_path, write
 from derive.building.lock import locked
+from derive.building.papers import list_again
 from derive.building.preload import preload
 from derive.building.recipe import recipe_digest, recipe_of
 from derive.building.set_names import set_folder
 from derive.building.tex import Engine, chosen_engine, typeset
 from derive.building.workers import Bug, Crew, Job, done
-from derive.course.names import KEY, LOGO, NAME, SHEET, SOLUTIONS
+from derive.course.names import CLASS, INDEX, KEY, LOGO, NAME, SHEET, SOLUTIONS, STUDENTS
 from derive.course.problem_set import ProblemSet, problem_set
-from derive.errors import Complaint, DeriveError, Faults, Place, Rejected
+from derive.errors import Complaint, DeriveError, Faults, Misused, Place, Rejected
 from derive.grading.table import harmless
 
-STUDENTS, CLASS = "students", "class"  # folders of a set's outputs
 CACHE, MADE = ".derived", ".made"
 MADE_FROM = ".inputs"  # the digest of the inputs that all documents of a class share, and the seed
 ANSWERS = "answers"
@@ -186,6 +186,7 @@ def made_class(
     """Make the documents of each student whose inputs have changed. An error in one variant stops no other student."""
     begun, chosen = time.monotonic(), chosen_engine(engine)
     heading = done(Job(f"`problems/{set_id}/set.yaml`", partial(problem_set, root, set_id), limit))
+    _check_codes(students, heading)
     inputs = _inputs(root, set_id, heading, chosen, seed)
     shared = ClassDocuments(root, set_id, heading, seed, chosen, limit, inputs)
     report = ClassReport(len(students))
@@ -221,10 +222,21 @@ def made_class(
                     report.made += not made.complaints
         _remove_others(shared, students)
         _write_answers(shared, students)
+        _write_page(shared, students)
         write(shared.outputs / CLASS / MADE_FROM, json.dumps({"inputs": inputs, "seed": seed}))
         Cache(shared.outputs / CACHE).evict()
+    list_again(root, set_id)
     report.seconds = time.monotonic() - begun
     return report
+
+
+def _check_codes(students: Sequence[Student], heading: ProblemSet) -> None:
+    """Check that no sheet of a student would have the name of another file for students."""
+    names = {INDEX, *(file.lower() for _, file in heading.documents)}
+    for student in students:
+        if student.code.lower() in names:
+            message = f"the code `{student.code}` of {student.name} is the name of a document of the set"
+            raise Misused(Complaint("roster", message, help="give this student another code"))
 
 
 def class_is_older(root: Path, set_id: str, engine: Engine) -> list[Complaint]:
@@ -324,6 +336,19 @@ def _write_answers(shared: ClassDocuments, students: Sequence[Student]) -> None:
     for student in students:
         rows.writerows([plain(cell) for cell in row] for row in shared.answers(student) or ())
     write(shared.outputs / CLASS / f"{ANSWERS}.csv", table.getvalue())
+
+
+def _write_page(shared: ClassDocuments, students: Sequence[Student]) -> None:
+    """Write the page with links to the documents of each student, for the instructor."""
+    from derive.building.set_document import class_page
+
+    folder = shared.outputs / CLASS
+    shown = []
+    for student in students:
+        files = [(kind, shared.file(student, kind)) for kind in KINDS]
+        links = [(kind, os.path.relpath(file, folder)) for kind, file in files if file.exists()]
+        shown.append({"name": student.name, "code": student.code, "files": links})
+    write(folder / f"{INDEX}.html", class_page(shared.root, shared.heading, shown))
 
 
 def plain(cell: str) -> str:

@@ -16,12 +16,13 @@ from typing import Any
 from derive.building import signed
 from derive.building.cache import digest, file_digest
 from derive.building.recipe import OPTIONS, Recipe, of_documents, recipe_digest
-from derive.course.names import INDEX, ON_A_PAGE
+from derive.course.names import INDEX, ON_A_PAGE, SHEET, STUDENTS
 from derive.render.formats import built_formats
 
 Documents = Sequence[Sequence[str]]  # pairs: the kind of a document, and the name of its files without a suffix
 
-_PLAIN_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]*\.([a-z]+)")
+_PLAIN_NAME = re.compile(rf"(?:{STUDENTS}/)?[A-Za-z0-9][A-Za-z0-9_-]*\.([a-z]+)")
+INDEX_PAGES = (f"{INDEX}.html", f"{STUDENTS}/{INDEX}.html")
 
 
 @dataclass
@@ -63,6 +64,10 @@ class Manifest:
         if _is_plain(output) and not file.is_symlink() and self.holds(output):
             file.unlink(missing_ok=True)
         self.outputs.pop(output, None)
+
+    def wrote(self, output: str) -> None:
+        """Record the present content of an output."""
+        self.outputs[output] = file_digest(self.folder / output)
 
     def forget(self, name: str) -> None:
         """Remove the outputs of a problem or document that the set no longer has."""
@@ -113,7 +118,7 @@ class Manifest:
             and all(read(path) == content for path, content in self.set_inputs.items())
             and all(self.pages.get(name) == self.page_key(name, page, read) for name in self.problems)
             and all(self.typeset_by.get(name) == document and self._reads_so(name, read) for name in names)
-            and all(self.holds(name) for name in [*self._outputs_of_problems(), *of_set, f"{INDEX}.html"])
+            and all(self.holds(name) for name in [*self._outputs_of_problems(), *of_set, *INDEX_PAGES])
         )
 
     def _reads_so(self, document: str, read: Callable[[str], str]) -> bool:
@@ -137,7 +142,7 @@ class Manifest:
     def all_outputs(self) -> list[str]:
         """Return the outputs of every problem and of every document, and the page of the set for a browser."""
         of_set = [output for kind, file in self.documents for output in outputs_of_document(kind, file)]
-        return [*self._outputs_of_problems(), *of_set, f"{INDEX}.html"]
+        return [*self._outputs_of_problems(), *of_set, *INDEX_PAGES]
 
     def _outputs_of_problems(self) -> list[str]:
         return [output for name in self.problems for output in self.outputs_of(name)]
@@ -146,7 +151,7 @@ class Manifest:
         """Return all outputs of a problem, including its drawings, or all outputs of the document with that file
         name."""
         if name == INDEX:
-            return [f"{INDEX}.html"]
+            return [*INDEX_PAGES]
         if kind := next((kind for kind, file in self.documents if file == name), None):
             return outputs_of_document(kind, name)
         return [*outputs_of(name), *self.drawings.get(name, [])]
@@ -202,4 +207,5 @@ def outputs_of(name: str) -> list[str]:
 
 def outputs_of_document(kind: str, file: str) -> list[str]:
     """Return the outputs of a document of the whole set."""
-    return [f"{file}.{suffix}" for suffix in ("pdf", "tex", *(("html",) if kind in ON_A_PAGE else ()))]
+    found = [f"{file}.{suffix}" for suffix in ("pdf", "tex", *(("html",) if kind in ON_A_PAGE else ()))]
+    return [*found, *(f"{STUDENTS}/{file}.{suffix}" for suffix in ("pdf", "html") if kind == SHEET)]

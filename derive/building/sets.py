@@ -20,7 +20,7 @@ from derive.building.cache import NOT_KEPT, PACKAGES, Cache, Kept, digest, engin
 from derive.building.documents import named_documents, still_there, with_asked
 from derive.building.files import folder, write, writing
 from derive.building.lock import locked
-from derive.building.manifest import Documents, Manifest, outputs_of, outputs_of_document
+from derive.building.manifest import INDEX_PAGES, Documents, Manifest, outputs_of, outputs_of_document
 from derive.building.preamble import at_hand, beginning
 from derive.building.preload import preload
 from derive.building.recipe import EDITED, EVIDENCE, MODULES, ONLY, Recipe, edited_since, recipe_digest, recipe_of
@@ -30,7 +30,7 @@ from derive.building.signed import regular_content
 from derive.building.staleness import left_older
 from derive.building.tex import Engine, by_the_clock, chosen_engine, chosen_name, prepare, typeset
 from derive.building.workers import TIME_LIMIT, Bug, Crew, Job, Outcome, done, job_of, under_way
-from derive.course.names import INDEX, LOGO, ON_A_PAGE, REPORT, SHEET, SOLUTIONS, EvidenceShown
+from derive.course.names import INDEX, LOGO, ON_A_PAGE, REPORT, SHEET, SOLUTIONS, STUDENTS, EvidenceShown
 from derive.errors import Complaint, DeriveError, Misused
 from derive.render.formats import built_formats
 from derive.render.rendered import Files, Rendered
@@ -197,9 +197,7 @@ class _Build:
         self.made_by[EVIDENCE] = self.options.evidence or heading.evidence
         self.made_by[ONLY] = self._kinds_of_each_problem()
         shown = EvidenceShown(self.made_by[EVIDENCE])
-        held, wanted = self.manifest.holds, self._wanted()
-        there = [(kind, file) for kind, file in self.documents if [kind, file] in wanted or held(f"{file}.pdf")]
-        self.heading = replace(heading, evidence=shown, documents=tuple(there))
+        self.heading = replace(heading, evidence=shown)
         self.names = [problem.rpartition("/")[2] for problem in heading.problems]
         if unlisted := [name for name in self.options.only if name not in self.names]:
             message = f"the set `{self.set_id}` does not list `{unlisted[0]}`"
@@ -328,7 +326,7 @@ class _Build:
         """Remove drawings that the problem no longer has; report an error if two outputs would have the same name."""
         files = [file for file, _ in derived.files]
         of_documents = [output for kind, file in self.documents for output in outputs_of_document(kind, file)]
-        others = {*(output for other in self.names for output in outputs_of(other)), *of_documents, f"{INDEX}.html"}
+        others = {*(output for other in self.names for output in outputs_of(other)), *of_documents, *INDEX_PAGES}
         for file in self.manifest.drawings.get(name, []):
             if file not in {*files, *others}:
                 self.manifest.remove(file)
@@ -368,12 +366,18 @@ class _Build:
         """Make the documents of the set, if all its problems are derived and nothing has failed."""
         if len(self.derived) < len(self.names) or self.result.failed:
             return
+        from derive.building.papers import papers, papers_of, there_of
         from derive.building.set_document import document_page, index_page, the_document
 
         parts = [self.derived[name] for name in self.names]
         files = tuple(file for part in parts for file in part.files)
         logo = ((LOGO, self.heading.logo),) if self.heading.logo else ()
-        if self._record(self._page(INDEX, lambda: index_page(self.root, self.heading, parts))):
+        there = there_of(self.outputs, self.documents, self._wanted())
+        index = partial(index_page, self.root, self.heading, parts)
+        pages = self._page(INDEX, partial(index, papers(self.root, self.set_id, there)))
+        sheets = papers_of(self.root, [pair for pair in there if pair[0] == SHEET])
+        pages |= self._page(f"{STUDENTS}/{INDEX}", partial(index, sheets, for_students=True))
+        if self._record(pages):
             self._was_made(INDEX)
         for kind, file in self._wanted():
             # With known page numbers, one run of TeX is enough.
@@ -381,6 +385,8 @@ class _Build:
             document = partial(the_document(kind), self.root, self.heading, parts)
             of_set = partial(document_page, self.root, self.heading, parts, kind)
             page = self._page(file, of_set) if kind in ON_A_PAGE else {}
+            if kind == SHEET:
+                page |= {f"{STUDENTS}/{name}": text for name, text in page.items()}
             rank = FIRST if kind == SOLUTIONS else LAST
             beside = (*(files if kind != REPORT else ()), *logo)
             self._typeset(file, document, page, beside, rank, numbers if kind not in (SHEET, REPORT) else None)
@@ -397,7 +403,7 @@ class _Build:
         self,
         name: str,
         document: Callable[[], str],
-        texts: dict[str, str],
+        texts: Mapping[str, str | bytes],
         files: Files,
         rank: float,
         numbers: Kept | None = None,
@@ -412,7 +418,7 @@ class _Build:
         texts = {f"{name}.tex": tex, **texts}
         kept = self.cache.get(source)
         if kept is not None:
-            if self._record({pdf: kept, **texts}):
+            if self._record({pdf: kept, **self._for_students(name, kept), **texts}):
                 self._was_made(name)
             return
         limit = self.options.limit
@@ -424,7 +430,7 @@ class _Build:
         job = Job(f"the pages of `{self.set_id}/{name}`", work, by_the_clock(limit), rank=rank)
         self._put(job, partial(self._was_typeset, pdf, source, texts))
 
-    def _was_typeset(self, pdf: str, source: str, texts: dict[str, str], outcome: Outcome) -> None:
+    def _was_typeset(self, pdf: str, source: str, texts: Mapping[str, str | bytes], outcome: Outcome) -> None:
         """Write the text and the source after their PDF, so that the files of one name always match."""
         self.ended(Ended("failed" if outcome.error else "typeset", f"{self.set_id}/{pdf}", outcome.seconds))
         name = pdf.removesuffix(".pdf")
@@ -436,10 +442,16 @@ class _Build:
         if outcome.value:
             self._changed(pdf)
         with suppress(OSError):  # another process may have just removed the PDF
-            self.cache.keep(source, regular_content(self.outputs / pdf))
+            content = regular_content(self.outputs / pdf)
+            self.cache.keep(source, content)
+            texts = {**self._for_students(name, content), **texts}
         self.manifest.outputs[pdf] = file_digest(self.outputs / pdf)
         if self._record(texts):
             self._was_made(name)
+
+    def _for_students(self, name: str, pdf: bytes) -> dict[str, str | bytes]:
+        """Return the PDF of the sheet under its name in the students' folder; nothing for any other document."""
+        return {f"{STUDENTS}/{name}.pdf": pdf} if (SHEET, name) in map(tuple, self.documents) else {}
 
     def _was_made(self, name: str) -> None:
         self.manifest.was_typeset(name, self._recipe(), self.engine.identity)

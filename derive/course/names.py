@@ -18,6 +18,8 @@ DOCUMENTS = (*OF_EVERY_SET, *MORE)
 ON_A_PAGE = (SHEET, *MORE)  # each of these documents is also built as a single page for a browser
 LOGO = "logo.png"  # the name of the logo where TeX runs
 INDEX = "index"  # the page of a set for a browser
+# Folders of a set's outputs: the files that students may see, and the documents of a class for the instructor.
+STUDENTS, CLASS = "students", "class"
 
 
 class Paper(StrEnum):

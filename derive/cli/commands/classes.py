@@ -12,9 +12,10 @@ from derive.cli.terminal import complain
 
 
 def make_class(arguments: argparse.Namespace) -> int:
-    from derive.building.classes import CLASS, STUDENTS, made_class, read_roster
+    from derive.building.classes import made_class, read_roster
     from derive.building.files import shown_path
     from derive.building.set_names import check_asked, set_folder
+    from derive.course.names import CLASS, STUDENTS
 
     root, set_id = root_of(arguments), new_id_of(arguments.set)
     check_asked(root, set_id)

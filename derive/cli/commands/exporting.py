@@ -15,6 +15,7 @@ SUFFIX = {"moodle": "xml", "stack": "xml", "qti": "zip", "docx": "docx", "prairi
 
 def export(arguments: argparse.Namespace) -> int:
     from derive.building.files import shown_path
+    from derive.building.papers import list_again
     from derive.building.set_names import set_folder
     from derive.building.solution import rendered
     from derive.building.workers import done, job_of
@@ -53,6 +54,7 @@ def export(arguments: argparse.Namespace) -> int:
 
         content = qti_package(set_id, heading.title, questions)
     deliver(content, output)
+    list_again(root, set_id)
     if output != "-":
         print(f"wrote {shown_path(root / output)}: {sum(len(each.parts) for each in questions)} questions")
     return 0
