@@ -122,7 +122,7 @@ class _Printing:
             documents=documents,
             texts=self._texts(warnings),
             warnings=warnings,
-            inputs=(*problem.inputs, *reference_paths(problem), *(self.heading.inputs if self.heading else ())),
+            inputs=self._inputs(),
             grades=_grades(solved),
             counts=document.checks.counts(),
             steps=len(solved.derivation.steps) + len(solved.values),
@@ -131,6 +131,11 @@ class _Printing:
             source_faults=_source_faults(solved.compared, notation),
             files=files,
         )
+
+    def _inputs(self) -> tuple[str, ...]:
+        problem, figure = self.problem, self.problem.figure
+        of_set = self.heading.inputs if self.heading else ()
+        return (*problem.inputs, *([figure.path] if figure else []), *reference_paths(problem), *of_set)
 
     # --- what the formats share ---
 

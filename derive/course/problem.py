@@ -29,6 +29,7 @@ from derive.course.declared import declared_letters
 from derive.course.defined import Defined, read_defined
 from derive.course.expression import Declared
 from derive.course.given import Given, Measured, read_givens, read_numbers
+from derive.course.own_figure import OwnFigure, read_figure
 from derive.course.parts import Question
 from derive.course.placement import Placement, case_label, placements
 from derive.course.problem_set import path_of
@@ -81,6 +82,7 @@ class Problem:
     reference: str = ""
     variations: tuple[Variation, ...] = ()
     is_variant: bool = False
+    figure: OwnFigure | None = None
     warnings: tuple[Complaint, ...] = field(default=(), repr=False, compare=False)
 
     @property
@@ -170,7 +172,8 @@ class Problem:
         wording = (prose for by_outcome in self.wording.values() for prose in by_outcome.values())
         captions = (placement.caption for placement in self.drawings if placement.caption)
         around = (prose for prose in (self.strategy, self.note, *(each.why for each in self.limits)) if prose)
-        return (self.title, self.statement, *(part.ask for part in self.parts), *around, *wording, *captions)
+        own = [self.figure.alt, *filter(None, [self.figure.caption])] if self.figure else []
+        return (self.title, self.statement, *own, *(part.ask for part in self.parts), *around, *wording, *captions)
 
     def place_of(self, *keys: str) -> Place:
         """Return the place where a key was written: `place_of("show", "spin")`, `place_of("given")`."""
@@ -205,6 +208,7 @@ def problem_and_faults(root: Path, problem_id: str, chosen: Chosen | None = None
     drawings = placements(written.drawings, {**brought_in, **pinned.symbols}, len(written.parts), of_drawings)
     _check_cases(written.parts, drawings, of_drawings)
     _check_plots(drawings, script, of_drawings)
+    figure = read_figure(root, path, written.figure, drawings, of_drawings)
     asked, given = _asked(written.parts, written.limits, drawings), (pinned.givens, pinned.measured, pinned.described)
     warnings = () if faults or of_drawings else unused_in(written, asked, *given)
     if faults:
@@ -237,6 +241,7 @@ def problem_and_faults(root: Path, problem_id: str, chosen: Chosen | None = None
         observations=written.observations,
         reference=as_text(written.reference),
         variations=written.variants,
+        figure=figure,
         is_variant=bool(chosen),
         warnings=warnings,
     )
