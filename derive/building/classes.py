@@ -25,7 +25,7 @@ from derive.building.files import folder, shown_path, write
 from derive.building.lock import locked
 from derive.building.papers import list_again
 from derive.building.preload import preload
-from derive.building.recipe import recipe_digest, recipe_of
+from derive.building.recipe import recipe_digest, recipe_of, stated_by
 from derive.building.set_names import set_folder
 from derive.building.tex import Engine, chosen_engine, typeset
 from derive.building.workers import Bug, Crew, Job, done
@@ -255,7 +255,7 @@ def class_is_older(root: Path, set_id: str, engine: Engine) -> list[Complaint]:
 
 def _inputs(root: Path, set_id: str, heading: ProblemSet, engine: Engine, seed: str) -> str:
     """Return the digest of all inputs that the students share."""
-    recipe = recipe_of(root, None, heading.evidence)
+    recipe = recipe_of(root, of_set=stated_by(heading))
     files = [file_digest(root / path) for path in heading.inputs]
     course = folder_digest(root / "problems" / set_id, "*")
     return digest("class", recipe_digest(recipe), engine.identity, seed, course, *files)
@@ -281,7 +281,7 @@ def _documents_of_one(shared: ClassDocuments, student: Student) -> Made:
             chosen = chosen_for(shared.set_id, problem_id.rpartition("/")[2], variations, student.code, shared.seed)
             told = ", ".join(f"{each.name} = {each.told(chosen[each.name])}" for each in variations)
             page = rendered(
-                shared.root, problem_id, None, cache, True, ("latex", "html", "json"),
+                shared.root, problem_id, shared.heading.detail, cache, True, ("latex", "html", "json"),
                 shared.heading.evidence, (KEY, SHEET), chosen,
             )  # fmt: skip
             pages.append(page)

@@ -40,7 +40,7 @@ class Manifest:
     drawings: dict[str, list[str]] = field(default_factory=dict)  # problem -> the files of its drawings
     documents: list[list[str]] = field(default_factory=list)  # the documents of the set, see `Documents`
     asked: list[str] = field(default_factory=list)  # documents that `--only` requested and the set does not list
-    evidence: str = ""  # how much solutions show of their checks, as the set's file states
+    of_set: dict[str, str] = field(default_factory=dict)  # entries of recipes that the set's file and course.yaml state
     made_by: dict[str, str] = field(default_factory=dict)  # problem -> digest of the recipe of its page
     typeset_from: dict[str, dict[str, str]] = field(default_factory=dict)  # document -> digests of its input files
     typeset_by: dict[str, str] = field(default_factory=dict)  # document -> digest of its recipe
@@ -174,7 +174,7 @@ def _is_record(recorded: Any) -> bool:
         return False
     if any(type(value) is not type(getattr(empty, name)) for name, value in recorded.items()):
         return False
-    tables = [recorded[name] for name in ("set_inputs", "pages", "outputs", "made_by", "typeset_by")]
+    tables = [recorded[name] for name in ("set_inputs", "pages", "outputs", "of_set", "made_by", "typeset_by")]
     tables += [each for name in ("inputs", "recipes", "typeset_from") for each in recorded[name].values()]
     lists = [recorded["problems"], recorded["asked"], *recorded["documents"], *recorded["drawings"].values()]
     if not all(isinstance(each, dict) for each in tables):

@@ -9,22 +9,43 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from derive import FOLDER
 from derive.building.cache import PACKAGES, digest, engine_digest, file_digest, package_version
 
+if TYPE_CHECKING:
+    from derive.course.problem_set import ProblemSet
+
 MODULES = "the modules of derive"
 EDITED = "edited during the build"  # instead of a digest
 OPTIONS = DETAIL, EVIDENCE, ONLY, ENGINE = "--detail", "--evidence", "--only", "--engine"
+FORM = "the `form` of the set"
 OWN = "templates of derive"
 
 Recipe = Mapping[str, str]
 
 
-def recipe_of(root: Path, detail: str | None, evidence: str) -> dict[str, str]:
-    """Return the recipe of pages, without the entry for the documents to which the pages contribute."""
+def recipe_of(
+    root: Path, detail: str | None = None, evidence: str | None = None, of_set: Mapping[str, str] | None = None
+) -> dict[str, str]:
+    """Return the recipe of pages, without the entry for the documents to which the pages contribute.
+
+    of_set   the entries that the files of the set and of the course state; options come first
+    """
+    stated = of_set or {}
+    options = {
+        DETAIL: detail or stated.get(DETAIL, ""),
+        EVIDENCE: evidence or stated.get(EVIDENCE, ""),
+        FORM: stated.get(FORM, ""),
+    }
     packages = {name: package_version(name) or "" for name in PACKAGES}
-    return {MODULES: engine_digest(), **packages, **_templates(root), DETAIL: detail or "", EVIDENCE: evidence}
+    return {MODULES: engine_digest(), **packages, **_templates(root), **options}
+
+
+def stated_by(heading: ProblemSet) -> dict[str, str]:
+    """Return the entries of a recipe that the files of a set and of its course state."""
+    return {DETAIL: heading.detail or "", EVIDENCE: heading.evidence, FORM: heading.form_in_words}
 
 
 def of_documents(recipe: Recipe, engine: str) -> dict[str, str]:

@@ -164,6 +164,7 @@ def _facts(root: Path, heading: ProblemSet, problems: Sequence[Listed]) -> dict[
     return {
         "set_id": Tex(heading.id),
         "heading": heading,
+        "font_size": Tex((heading.font_size or "").replace(" ", "")),
         "logo_file": Tex(LOGO) if heading.logo else "",
         "logo_data": b64encode(heading.logo).decode() if heading.logo else "",
         "problems": problems,

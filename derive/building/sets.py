@@ -23,7 +23,18 @@ from derive.building.lock import locked
 from derive.building.manifest import INDEX_PAGES, Documents, Manifest, outputs_of, outputs_of_document
 from derive.building.preamble import at_hand, beginning
 from derive.building.preload import preload
-from derive.building.recipe import EDITED, EVIDENCE, MODULES, ONLY, Recipe, edited_since, recipe_digest, recipe_of
+from derive.building.recipe import (
+    DETAIL,
+    EDITED,
+    EVIDENCE,
+    MODULES,
+    ONLY,
+    Recipe,
+    edited_since,
+    recipe_digest,
+    recipe_of,
+    stated_by,
+)
 from derive.building.scratch import sweep
 from derive.building.set_names import check_asked, set_folder
 from derive.building.signed import regular_content
@@ -135,7 +146,7 @@ class _Build:
         self.cache = Cache(outputs / CACHE, fresh=options.force)
         self.manifest = Manifest.read(outputs)
         self.documents = with_asked(self.manifest.documents, options.documents)
-        self.made_by = recipe_of(root, options.detail, options.evidence or self.manifest.evidence)
+        self.made_by = recipe_of(root, options.detail, options.evidence, self.manifest.of_set)
         self.made_by[ONLY] = self._kinds_of_each_problem()
         self.anew = options.force or self.manifest.engine != engine_digest(*PACKAGES)
         self.result = Report(set_id)
@@ -192,9 +203,10 @@ class _Build:
         self.prepares = not os.listdir(at_hand().name)  # all workers share the TeX formats in this folder
         reading = partial(problem_set, self.root, self.set_id)
         heading = done(Job(f"`problems/{self.set_id}/set.yaml`", reading, self.options.limit))
-        self.manifest.evidence = heading.evidence
+        self.manifest.of_set = stated_by(heading)
         self.documents = named_documents(heading, self.manifest, self.options.documents)
-        self.made_by[EVIDENCE] = self.options.evidence or heading.evidence
+        options = {DETAIL: self.options.detail, EVIDENCE: self.options.evidence}
+        self.made_by |= self.manifest.of_set | {name: value for name, value in options.items() if value}
         self.made_by[ONLY] = self._kinds_of_each_problem()
         shown = EvidenceShown(self.made_by[EVIDENCE])
         self.heading = replace(heading, evidence=shown)
@@ -286,7 +298,7 @@ class _Build:
         more = [kind for kind, _ in self.documents if kind in ON_A_PAGE]
         for name in names:
             problem = f"{self.set_id}/{name}"
-            work = partial(rendered, self.root, problem, self.options.detail, self.cache, draws=True)
+            work = partial(rendered, self.root, problem, self.made_by[DETAIL] or None, self.cache, draws=True)
             work = partial(work, evidence=shown, documents=more)
             self._put(job_of(self.root, problem, work, self.options.limit), partial(self._was_derived, name))
         self.crew.start()
@@ -296,7 +308,7 @@ class _Build:
         from derive.page.template import templates_of
 
         if self.prepares:
-            begins = partial(beginning, templates_of(self.root), self.options.detail)
+            begins = partial(beginning, templates_of(self.root), self.made_by[DETAIL], self.heading.font_size)
             work = lambda: prepare(begins(), self.engine, self.cache)  # noqa: E731
             self._put(Job("the beginning of all documents", work, self.options.limit, rank=FIRST), lambda _: None)
             self.crew.start()

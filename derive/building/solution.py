@@ -217,7 +217,12 @@ def _check_answers(known: dict[str, Quantity], asked: list[dict[str, Word]]) -> 
 
 
 def _usual_unit(problem: Problem, kind: str | None, dimension: Dimension) -> tuple[str, Expr]:
-    """Return degrees for an angle if a given angle is in degrees; else the coherent SI unit."""
+    """Return the first unit of the set's `form:` that fits; else degrees for an angle if a given angle is in degrees;
+    else the coherent SI unit."""
+    for unit in problem.units:
+        read = read_unit(unit, unit.place)
+        if misfit(read, kind, dimension) is None:
+            return unit, read.factor
     given = next((m for m in problem.measured if kind == "angle" and m.unit in IN_DEGREES), None)
     if given is not None:
         return given.unit, given.factor

@@ -29,6 +29,14 @@ class Paper(StrEnum):
     A4 = "a4"
 
 
+class FontSize(StrEnum):
+    """The size of the text in the PDFs of a set."""
+
+    SMALL = "10 pt"
+    NORMAL = "11 pt"
+    LARGE = "12 pt"
+
+
 class EvidenceShown(StrEnum):
     """How much a solution shows about its verification; the report of its set always shows everything."""
 

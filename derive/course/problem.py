@@ -32,7 +32,7 @@ from derive.course.given import Given, Measured, read_givens, read_numbers
 from derive.course.own_figure import OwnFigure, read_figure
 from derive.course.parts import Question
 from derive.course.placement import Placement, case_label, placements
-from derive.course.problem_set import path_of
+from derive.course.problem_set import form_of_set, path_of
 from derive.course.prose import Prose
 from derive.course.schema import THE_KEYS_ARE, read_record
 from derive.course.script import Parameter, Script, imported_script, run
@@ -83,6 +83,7 @@ class Problem:
     variations: tuple[Variation, ...] = ()
     is_variant: bool = False
     figure: OwnFigure | None = None
+    units: tuple[Word, ...] = ()  # the units of answers that the set prefers
     warnings: tuple[Complaint, ...] = field(default=(), repr=False, compare=False)
 
     @property
@@ -217,6 +218,7 @@ def problem_and_faults(root: Path, problem_id: str, chosen: Chosen | None = None
     assert written.title is not None
     assert written.statement is not None
     assert script is not None
+    form = form_of_set(root, problem_id.partition("/")[0])
     problem = Problem(
         id=problem_id,
         path=path,
@@ -228,7 +230,8 @@ def problem_and_faults(root: Path, problem_id: str, chosen: Chosen | None = None
         points=points,
         wording=written.wording,
         show=written.show,
-        figures=written.figures or DEFAULT_FIGURES,
+        figures=written.figures or (form.figures if form else None) or DEFAULT_FIGURES,
+        units=form.units if form else (),
         drawings=drawings,
         script=script,
         script_path=script_path,

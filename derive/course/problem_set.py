@@ -8,10 +8,12 @@ from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
-from derive.course.names import DOCUMENTS, INDEX, NAME, OF_EVERY_SET, EvidenceShown, Paper
+from derive.course.names import DOCUMENTS, INDEX, NAME, OF_EVERY_SET, EvidenceShown, FontSize, Paper
+from derive.course.parts import FORM_OF_SET, AnswerForm
 from derive.course.schema import TEXT, Reader, Record, key, keys_of, list_of, one_of, read_record, wrong_type
 from derive.course.yaml_tree import Mapping, Scalar, Sequence, Tree, Word, read_yaml, shape_of
 from derive.errors import Complaint, DeriveError, Faults, Misused, Rejected, did_you_mean, nearest
+from derive.steps.level import Level
 
 COURSE = "course.yaml"  # the file in the folder of a course with the keys that all its sets share
 LARGEST_LOGO = 2_000_000  # bytes
@@ -40,6 +42,9 @@ class ProblemSet:
     evidence: EvidenceShown = EvidenceShown.NONE
     documents: tuple[tuple[str, str], ...] = THOSE_OF_EVERY_SET
     paper: Paper = Paper.LETTER
+    font_size: FontSize | None = None
+    detail: str | None = None
+    form: AnswerForm | None = None
     student: str = ""  # the student for whom a document is made
 
     @property
@@ -47,6 +52,12 @@ class ProblemSet:
         """What a title page says about the course, in the order in which it is printed."""
         known = (self.course, self.institution, self.instructor, self.term, self.date, self.student)
         return [fact for fact in known if fact]
+
+    @property
+    def form_in_words(self) -> str:
+        """The default form of answers as text; empty if the set states none."""
+        units, figures = (self.form.units, self.form.figures) if self.form else ((), None)
+        return ", ".join([*units, *([f"{figures} figures"] if figures else [])])
 
     @property
     def numbers(self) -> dict[str, int]:
@@ -101,6 +112,15 @@ class CourseKeys(Record):
     logo: Word | None = key("a PNG file in the folder of the course, for the title of each document of a set", TEXT)
     evidence: str | None = key("how much solutions show about their verification", one_of(tuple(EvidenceShown)))
     paper: str | None = key("the size of the pages, by default `letter`", one_of(tuple(Paper)))
+    font_size: str | None = key(
+        "the size of the text in PDFs, by default `11 pt`, and `10 pt` at the detail `brief`", one_of(tuple(FontSize))
+    )
+    detail: str | None = key("how much algebra pages show where `--detail` states nothing", one_of(tuple(Level)))
+    form: AnswerForm | None = key(
+        "units and significant figures of the answers whose part states none: `{unit: [degree, cm], figures: 3}`; each "
+        "answer uses the first unit that fits",
+        FORM_OF_SET,
+    )
 
 
 @dataclass(frozen=True)
@@ -234,7 +254,23 @@ def problem_set(root: Path, set_id: str) -> ProblemSet:
         EvidenceShown(own("evidence") or EvidenceShown.NONE),
         tuple((str(kind), str(file)) for kind, file in written.documents.items()) or THOSE_OF_EVERY_SET,
         Paper(own("paper") or Paper.LETTER),
+        FontSize(size) if (size := own("font_size")) else None,
+        own("detail"),
+        written.form or of_course.form,
     )
+
+
+def form_of_set(root: Path, set_id: str) -> AnswerForm | None:
+    """Return the default form of answers in a set; None if a file has errors, which reading the set reports."""
+    path = f"problems/{set_id}/set.yaml"
+    with suppress(DeriveError):
+        faults = Faults()
+        of_course = _course(root, faults)
+        of_set = (
+            read_record(SetKeys, mapping_in(root, path, "a set"), "a set", faults) if (root / path).is_file() else None
+        )
+        return (of_set.form if of_set else None) or of_course.form
+    return None
 
 
 def _logo(root: Path, path: Word, faults: Faults) -> bytes | None:

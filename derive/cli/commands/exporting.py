@@ -33,7 +33,7 @@ def export(arguments: argparse.Namespace) -> int:
     pages = []
     for problem_id in [asked] if name else heading.problems:
         with waiting(f"deriving {problem_id}"):
-            work = partial(rendered, root, problem_id, draws=True, only=("questions",))
+            work = partial(rendered, root, problem_id, heading.detail, draws=True, only=("questions",))
             pages.append(done(job_of(root, problem_id, work, arguments.time_limit)))
     complain(warning for page in pages for warning in page.warnings)
     questions = questions_of(pages)

@@ -37,7 +37,8 @@ def solve(arguments: argparse.Namespace) -> int:
         heading = problem_set(root, set_id)
         heading = replace(heading, evidence=EvidenceShown(arguments.evidence or heading.evidence))
         draws, evidence = form == "pdf" or bool(beside), heading.evidence
-        return rendered(root, problem_id, arguments.detail, draws=draws, only=(form,), evidence=evidence), heading
+        detail = arguments.detail or heading.detail
+        return rendered(root, problem_id, detail, draws=draws, only=(form,), evidence=evidence), heading
 
     with waiting(f"deriving {problem_id}"):
         solved, heading = done(job_of(root, problem_id, told, limit))
