@@ -86,8 +86,9 @@ def _class(of_class: argparse.ArgumentParser) -> None:
 
 def _export(export: argparse.ArgumentParser) -> None:
     named(export.add_argument("id", metavar="SET|ID", help="a set, or one problem"), "ids and sets")
-    known = ("moodle", "stack", "qti", "prairielearn", "docx")
-    export.add_argument("--format", choices=known, default="moodle", help="default moodle; stack: Moodle with STACK")
+    known = ("moodle", "stack", "qti", "canvas", "prairielearn", "docx")
+    told = "default moodle; stack: Moodle with STACK; qti: QTI 2.1; canvas: QTI 1.2"
+    export.add_argument("--format", choices=known, default="moodle", help=told)
     export.add_argument("-o", dest="output", metavar="FILE", help="file to write; - is standard output")
     _time_limit(export)
 

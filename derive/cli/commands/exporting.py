@@ -10,7 +10,7 @@ from derive.cli.output import check_output, deliver
 from derive.cli.running import waiting
 from derive.cli.terminal import complain
 
-SUFFIX = {"moodle": "xml", "stack": "xml", "qti": "zip", "docx": "docx", "prairielearn": "zip"}
+SUFFIX = {"moodle": "xml", "stack": "xml", "qti": "zip", "canvas": "zip", "docx": "docx", "prairielearn": "zip"}
 
 
 def export(arguments: argparse.Namespace) -> int:
@@ -45,6 +45,10 @@ def export(arguments: argparse.Namespace) -> int:
         from derive.exporting.prairielearn import prairielearn_package
 
         content = prairielearn_package(set_id, heading.title, questions)
+    elif arguments.format == "canvas":
+        from derive.exporting.canvas import canvas_package
+
+        content = canvas_package(set_id, heading.title, questions)
     elif arguments.format == "docx":
         from derive.exporting.word import word_document
 
