@@ -52,6 +52,7 @@ def rendered(
     only: tuple[str, ...] | None = None,
     evidence: str = "none",
     documents: tuple[str, ...] = (),
+    width: float | None = None,
 ) -> Rendered:
     path = path_of(root, problem_id)
     said = (root / path).read_text(encoding="utf-8").strip()

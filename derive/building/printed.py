@@ -53,6 +53,7 @@ class Wanted:
     only        the formats; default: all formats of a build
     evidence    how much the page shows about its checks
     documents   other documents, such as the key, hints or a rubric
+    width       the width of the reader's text in centimetres, for a fragment
     """
 
     detail: str | None = None
@@ -60,6 +61,7 @@ class Wanted:
     only: Collection[str] | None = None
     evidence: EvidenceShown = EvidenceShown.NONE
     documents: Collection[str] = ()
+    width: float | None = None
 
     @property
     def level(self) -> Level:
@@ -232,6 +234,7 @@ class _Printing:
             solved.compared,
             warnings,
             self.level.value,
+            self.wanted.width,
         )
         return {name: form.render(solution) for name, form in formats().items() if name in self.wanted.formats}
 

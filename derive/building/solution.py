@@ -66,13 +66,14 @@ def rendered(
     evidence: EvidenceShown = EvidenceShown.NONE,
     documents: Collection[str] = (),
     chosen: Chosen | None = None,
+    width: float | None = None,
 ) -> Rendered:
     """Derive a problem and print it; raise `DeriveError` if there are errors.
 
     cache    the steps and drawings of earlier builds, which are used and extended
     chosen   the choices of a variant; a variant is not compared with the reference of the problem
 
-    `detail` and the parameters between `cache` and `chosen` are the fields of `Wanted`.
+    `detail`, `width` and the parameters between `cache` and `chosen` are the fields of `Wanted`.
     """
     begun = time.time_ns()
     problem, faults = problem_and_faults(root, problem_id, chosen)
@@ -82,7 +83,7 @@ def rendered(
     problem = with_known_observations(problem, faults)
     with faults:
         solved, failures = _solved(problem, NO_CACHE if faults else cache, begun, faults)
-        page = printed(problem, solved, Wanted(detail, draws, only, evidence, documents), cache, failures)
+        page = printed(problem, solved, Wanted(detail, draws, only, evidence, documents, width), cache, failures)
     faults.stop()
     return replace(page, warnings=(*page.warnings, *dict.fromkeys(cache.unkept))) if cache.unkept else page
 
