@@ -31,7 +31,7 @@ def solve(arguments: argparse.Namespace) -> int:
     root = root_with(arguments, problem_id.partition("/")[0])
     if arguments.width and arguments.format != "fragment":
         message = "`--width` has no effect without `--format fragment`"
-        raise Misused(Complaint("unused-option", message, help="leave it out"))
+        raise Misused(Complaint("usage", message, help="leave it out"))
     check_output(arguments.output, root)
     path_of(root, problem_id)
     set_id, form = problem_id.partition("/")[0], arguments.format
