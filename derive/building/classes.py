@@ -21,6 +21,7 @@ from pathlib import Path
 from typing import Any
 
 from derive.building.cache import Cache, digest, file_digest, folder_digest
+from derive.building.cluster import Cluster
 from derive.building.files import folder, shown_path, write
 from derive.building.lock import locked
 from derive.building.papers import list_again
@@ -182,8 +183,13 @@ def made_class(
     jobs: int = 0,
     limit: float = 120,
     tell: Callable[[str], None] = lambda _: None,
+    scheduler: str = "",
 ) -> ClassReport:
-    """Make the documents of each student whose inputs have changed. An error in one variant stops no other student."""
+    """Make the documents of each student whose inputs have changed. An error in one variant stops no other student.
+
+    scheduler   the address of a Dask scheduler, whose workers do the jobs; by default processes of this machine
+    """
+    root = root.resolve()
     begun, chosen = time.monotonic(), chosen_engine(engine)
     heading = done(Job(f"`problems/{set_id}/set.yaml`", partial(problem_set, root, set_id), limit))
     _check_codes(students, heading)
@@ -193,10 +199,10 @@ def made_class(
     waiting: dict[Job, Sequence[Student]] = {}
     with locked(folder(shared.outputs), lambda: tell(f"waiting for another build of `{set_id}`")):
         unmade = [student for student in students if shared.answers(student) is None]
-        if unmade:
+        if unmade and not scheduler:
             preload(root, derives=True, draws=True, set_id=set_id)
 
-        def put(crew: Crew, group: Sequence[Student]) -> None:
+        def put(crew: Crew | Cluster, group: Sequence[Student]) -> None:
             job = Job(f"the documents of {group[0].code}", partial(_documents_of, shared, group), limit * len(group))
             waiting[job] = group
             crew.put(job)
@@ -204,7 +210,7 @@ def made_class(
         def tick(_: Mapping[str, float]) -> None:
             tell(f"{set_id}: documents of {report.made} of {len(unmade)} students ({time.monotonic() - begun:.0f} s)")
 
-        with Crew(jobs or os.cpu_count() or 1, tick) as crew:
+        with Cluster(scheduler, tick) if scheduler else Crew(jobs or os.cpu_count() or 1, tick) as crew:
             for start in range(0, len(unmade), AT_ONCE):
                 put(crew, unmade[start : start + AT_ONCE])
             for outcome in crew.outcomes():

@@ -80,6 +80,7 @@ def _class(of_class: argparse.ArgumentParser) -> None:
     named(of_class.add_argument("set", metavar="SET", help="a set with `variants:` in its problems"), "sets")
     of_class.add_argument("--roster", required=True, metavar="FILE", help="CSV with the column name, and maybe code")
     of_class.add_argument("--seed", default="", metavar="TEXT", help="another text gives other variants")
+    of_class.add_argument("--scheduler", default="", metavar="ADDRESS", help="of a Dask cluster: tcp://10.0.0.1:8786")
     _engine(of_class)
     _time_limit(of_class)
     _jobs_and_messages(of_class)

@@ -21,8 +21,9 @@ def make_class(arguments: argparse.Namespace) -> int:
     check_asked(root, set_id)
     students = read_roster(Path(arguments.roster))
     voice = Voice(arguments.quiet, arguments.verbose)
+    limit, scheduler = arguments.time_limit, arguments.scheduler
     report = made_class(
-        root, set_id, students, arguments.seed, arguments.engine, arguments.jobs, arguments.time_limit, voice.tell
+        root, set_id, students, arguments.seed, arguments.engine, arguments.jobs, limit, voice.tell, scheduler
     )
     voice.tell("")
     complain([*report.warnings, *report.complaints])
