@@ -52,6 +52,7 @@ def rendered(
     only: tuple[str, ...] | None = None,
     evidence: str = "none",
     documents: tuple[str, ...] = (),
+    width: float | None = None,
 ) -> Rendered:
     path = path_of(root, problem_id)
     said = (root / path).read_text(encoding="utf-8").strip()
@@ -151,8 +152,8 @@ def problem_page(root: Path, problem: Rendered, heading: object) -> str:
     return f"<!-- {problem.id} -->{problem.html}\n"
 
 
-def index_page(root: Path, heading: object, problems: list[Rendered]) -> str:
-    return "".join(f"<!-- {problem.id} -->\n" for problem in problems)
+def index_page(root: Path, heading: object, problems: list[Rendered], *_: object, **__: object) -> str:
+    return "".join(f"<!-- {problem.id} -->\n" for problem in problems) + '<ul class="documents"></ul>\n'
 
 
 class Course:

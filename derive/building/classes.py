@@ -21,19 +21,20 @@ from pathlib import Path
 from typing import Any
 
 from derive.building.cache import Cache, digest, file_digest, folder_digest
+from derive.building.cluster import Cluster
 from derive.building.files import folder, shown_path, write
 from derive.building.lock import locked
+from derive.building.papers import list_again
 from derive.building.preload import preload
-from derive.building.recipe import recipe_digest, recipe_of
+from derive.building.recipe import recipe_digest, recipe_of, stated_by
 from derive.building.set_names import set_folder
 from derive.building.tex import Engine, chosen_engine, typeset
 from derive.building.workers import Bug, Crew, Job, done
-from derive.course.names import KEY, LOGO, NAME, SHEET, SOLUTIONS
+from derive.course.names import CLASS, INDEX, KEY, LOGO, NAME, SHEET, SOLUTIONS, STUDENTS
 from derive.course.problem_set import ProblemSet, problem_set
-from derive.errors import Complaint, DeriveError, Faults, Place, Rejected
+from derive.errors import Complaint, DeriveError, Faults, Misused, Place, Rejected
 from derive.grading.table import harmless
 
-STUDENTS, CLASS = "students", "class"  # folders of a set's outputs
 CACHE, MADE = ".derived", ".made"
 MADE_FROM = ".inputs"  # the digest of the inputs that all documents of a class share, and the seed
 ANSWERS = "answers"
@@ -179,21 +180,27 @@ def made_class(
     jobs: int = 0,
     limit: float = 120,
     tell: Callable[[str], None] = lambda _: None,
+    scheduler: str = "",
 ) -> ClassReport:
     """Make the documents of each student whose inputs have changed. An error in one variant does not stop the
-    others."""
+    others.
+
+    scheduler   the address of a Dask scheduler, whose workers do the jobs; by default processes of this machine
+    """
+    root = root.resolve()
     begun, chosen = time.monotonic(), chosen_engine(engine)
     heading = done(Job(f"`problems/{set_id}/set.yaml`", partial(problem_set, root, set_id), limit))
+    _check_codes(students, heading)
     inputs = _inputs(root, set_id, heading, chosen, seed)
     shared = ClassDocuments(root, set_id, heading, seed, chosen, limit, inputs)
     report = ClassReport(len(students))
     waiting: dict[Job, Sequence[Student]] = {}
     with locked(folder(shared.outputs), lambda: tell(f"waiting for another build of `{set_id}`")):
         unmade = [student for student in students if shared.answers(student) is None]
-        if unmade:
+        if unmade and not scheduler:
             preload(root, derives=True, draws=True, set_id=set_id)
 
-        def put(crew: Crew, group: Sequence[Student]) -> None:
+        def put(crew: Crew | Cluster, group: Sequence[Student]) -> None:
             job = Job(f"the documents of {group[0].code}", partial(_documents_of, shared, group), limit * len(group))
             waiting[job] = group
             crew.put(job)
@@ -201,7 +208,7 @@ def made_class(
         def tick(_: Mapping[str, float]) -> None:
             tell(f"{set_id}: documents of {report.made} of {len(unmade)} students ({time.monotonic() - begun:.0f} s)")
 
-        with Crew(jobs or os.cpu_count() or 1, tick) as crew:
+        with Cluster(scheduler, tick) if scheduler else Crew(jobs or os.cpu_count() or 1, tick) as crew:
             for start in range(0, len(unmade), AT_ONCE):
                 put(crew, unmade[start : start + AT_ONCE])
             for outcome in crew.outcomes():
@@ -219,10 +226,21 @@ def made_class(
                     report.made += not made.complaints
         _remove_others(shared, students)
         _write_answers(shared, students)
+        _write_page(shared, students)
         write(shared.outputs / CLASS / MADE_FROM, json.dumps({"inputs": inputs, "seed": seed}))
         Cache(shared.outputs / CACHE).evict()
+    list_again(root, set_id)
     report.seconds = time.monotonic() - begun
     return report
+
+
+def _check_codes(students: Sequence[Student], heading: ProblemSet) -> None:
+    """Check that no sheet of a student would have the name of another file for students."""
+    names = {INDEX, *(file.lower() for _, file in heading.documents)}
+    for student in students:
+        if student.code.lower() in names:
+            message = f"the code `{student.code}` of {student.name} is the name of a document of the set"
+            raise Misused(Complaint("roster", message, help="give this student another code"))
 
 
 def class_is_older(root: Path, set_id: str, engine: Engine) -> list[Complaint]:
@@ -240,7 +258,7 @@ def class_is_older(root: Path, set_id: str, engine: Engine) -> list[Complaint]:
 
 
 def _inputs(root: Path, set_id: str, heading: ProblemSet, engine: Engine, seed: str) -> str:
-    recipe = recipe_of(root, set_id, None, heading.evidence)
+    recipe = recipe_of(root, of_set=stated_by(heading))
     files = [file_digest(root / path) for path in heading.inputs]
     course = folder_digest(root / "problems" / set_id, "*")
     return digest("class", recipe_digest(recipe), engine.identity, seed, course, *files)
@@ -266,7 +284,7 @@ def _documents_of_one(shared: ClassDocuments, student: Student) -> Made:
             chosen = chosen_for(shared.set_id, problem_id.rpartition("/")[2], variations, student.code, shared.seed)
             told = ", ".join(f"{each.name} = {each.told(chosen[each.name])}" for each in variations)
             page = rendered(
-                shared.root, problem_id, None, cache, True, ("latex", "html", "json"),
+                shared.root, problem_id, shared.heading.detail, cache, True, ("latex", "html", "json"),
                 shared.heading.evidence, (KEY, SHEET), chosen,
             )  # fmt: skip
             pages.append(page)
@@ -321,6 +339,19 @@ def _write_answers(shared: ClassDocuments, students: Sequence[Student]) -> None:
     for student in students:
         rows.writerows([plain(cell) for cell in row] for row in shared.answers(student) or ())
     write(shared.outputs / CLASS / f"{ANSWERS}.csv", table.getvalue())
+
+
+def _write_page(shared: ClassDocuments, students: Sequence[Student]) -> None:
+    """Write the page with links to the documents of each student, for the instructor."""
+    from derive.building.set_document import class_page
+
+    folder = shared.outputs / CLASS
+    shown = []
+    for student in students:
+        files = [(kind, shared.file(student, kind)) for kind in KINDS]
+        links = [(kind, os.path.relpath(file, folder)) for kind, file in files if file.exists()]
+        shown.append({"name": student.name, "code": student.code, "files": links})
+    write(folder / f"{INDEX}.html", class_page(shared.root, shared.heading, shown))
 
 
 def plain(cell: str) -> str:

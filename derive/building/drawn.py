@@ -12,6 +12,7 @@ from sympy import Symbol
 
 from derive.algebra.expressions import explicit
 from derive.building.cache import Cache, digest, engine_digest
+from derive.building.own_figures import own_files
 from derive.course.placement import STATEMENT, Placement
 from derive.course.problem import Problem
 from derive.errors import Rejected
@@ -50,14 +51,18 @@ def drawing_files(
     notation: Notation,
     cache: Cache,
 ) -> Files:
-    """Return a PDF and an SVG of each drawing on the page, by file name."""
+    """Return a PDF and an SVG of each drawing on the page and of the figure of the author, by file name."""
     by_key = {drawing.key: drawing for drawing in drawings}
+
+    def both(shown: Illustration) -> tuple[bytes, bytes]:
+        if problem.figure and shown.key == problem.figure.key:
+            return own_files(problem.figure, inline_text(shown.alt, notation), cache)
+        return _files(problem, by_key[shown.key], shown, words, notation, cache)
+
     return tuple(
         (f"{shown.stem}.{suffix}", content)
         for shown in document.illustrations
-        for suffix, content in zip(
-            SUFFIXES, _files(problem, by_key[shown.key], shown, words, notation, cache), strict=True
-        )
+        for suffix, content in zip(SUFFIXES, both(shown), strict=True)
     )
 
 

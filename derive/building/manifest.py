@@ -16,12 +16,13 @@ from typing import Any
 from derive.building import signed
 from derive.building.cache import digest, file_digest
 from derive.building.recipe import OPTIONS, Recipe, of_documents, recipe_digest
-from derive.course.names import INDEX, ON_A_PAGE
+from derive.course.names import INDEX, ON_A_PAGE, SHEET, STUDENTS
 from derive.render.formats import built_formats
 
 Documents = Sequence[Sequence[str]]  # pairs: the kind of a document, and the name of its files
 
-_PLAIN_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]*\.([a-z]+)")
+_PLAIN_NAME = re.compile(rf"(?:{STUDENTS}/)?[A-Za-z0-9][A-Za-z0-9_-]*\.([a-z]+)")
+INDEX_PAGES = (f"{INDEX}.html", f"{STUDENTS}/{INDEX}.html")
 
 
 @dataclass
@@ -39,7 +40,7 @@ class Manifest:
     drawings: dict[str, list[str]] = field(default_factory=dict)  # problem -> the files of its drawings
     documents: list[list[str]] = field(default_factory=list)  # the documents of the set, see `Documents`
     asked: list[str] = field(default_factory=list)  # documents that `--only` requested and the set does not list
-    evidence: str = ""  # how much solutions show of their checks, as the set's file states
+    of_set: dict[str, str] = field(default_factory=dict)  # entries of recipes that the set's file and course.yaml state
     made_by: dict[str, str] = field(default_factory=dict)  # problem -> digest of the recipe of its page
     typeset_from: dict[str, dict[str, str]] = field(default_factory=dict)  # document -> digests of its input files
     typeset_by: dict[str, str] = field(default_factory=dict)  # document -> digest of its recipe
@@ -63,6 +64,10 @@ class Manifest:
         if _is_plain(output) and not file.is_symlink() and self.holds(output):
             file.unlink(missing_ok=True)
         self.outputs.pop(output, None)
+
+    def wrote(self, output: str) -> None:
+        """Record the present content of an output."""
+        self.outputs[output] = file_digest(self.folder / output)
 
     def forget(self, name: str) -> None:
         """Remove the outputs of a problem or document that the set no longer has."""
@@ -112,7 +117,7 @@ class Manifest:
             and all(read(path) == content for path, content in self.set_inputs.items())
             and all(self.pages.get(name) == self.page_key(name, page, read) for name in self.problems)
             and all(self.typeset_by.get(name) == document and self._reads_so(name, read) for name in names)
-            and all(self.holds(name) for name in [*self._outputs_of_problems(), *of_set, f"{INDEX}.html"])
+            and all(self.holds(name) for name in [*self._outputs_of_problems(), *of_set, *INDEX_PAGES])
         )
 
     def _reads_so(self, document: str, read: Callable[[str], str]) -> bool:
@@ -132,7 +137,7 @@ class Manifest:
     def all_outputs(self) -> list[str]:
         """Return the names of all outputs."""
         of_set = [output for kind, file in self.documents for output in outputs_of_document(kind, file)]
-        return [*self._outputs_of_problems(), *of_set, f"{INDEX}.html"]
+        return [*self._outputs_of_problems(), *of_set, *INDEX_PAGES]
 
     def _outputs_of_problems(self) -> list[str]:
         return [output for name in self.problems for output in self.outputs_of(name)]
@@ -140,7 +145,7 @@ class Manifest:
     def outputs_of(self, name: str) -> list[str]:
         """Return all outputs of a problem or of a document."""
         if name == INDEX:
-            return [f"{INDEX}.html"]
+            return [*INDEX_PAGES]
         if kind := next((kind for kind, file in self.documents if file == name), None):
             return outputs_of_document(kind, name)
         return [*outputs_of(name), *self.drawings.get(name, [])]
@@ -162,7 +167,7 @@ def _is_record(recorded: Any) -> bool:
         return False
     if any(type(value) is not type(getattr(empty, name)) for name, value in recorded.items()):
         return False
-    tables = [recorded[name] for name in ("set_inputs", "pages", "outputs", "made_by", "typeset_by")]
+    tables = [recorded[name] for name in ("set_inputs", "pages", "outputs", "of_set", "made_by", "typeset_by")]
     tables += [each for name in ("inputs", "recipes", "typeset_from") for each in recorded[name].values()]
     lists = [recorded["problems"], recorded["asked"], *recorded["documents"], *recorded["drawings"].values()]
     if not all(isinstance(each, dict) for each in tables):
@@ -195,4 +200,5 @@ def outputs_of(name: str) -> list[str]:
 
 def outputs_of_document(kind: str, file: str) -> list[str]:
     """Return the outputs of a document of the whole set."""
-    return [f"{file}.{suffix}" for suffix in ("pdf", "tex", *(("html",) if kind in ON_A_PAGE else ()))]
+    found = [f"{file}.{suffix}" for suffix in ("pdf", "tex", *(("html",) if kind in ON_A_PAGE else ()))]
+    return [*found, *(f"{STUDENTS}/{file}.{suffix}" for suffix in ("pdf", "html") if kind == SHEET)]

@@ -38,12 +38,13 @@ CANNOT = b""  # stored in place of a format if the engine cannot dump this pream
 Environment = Mapping[str, str]
 
 
-def beginning(templates: Templates, detail: str | None) -> str:
-    """Return the preamble that all documents at the level `detail` share; it may be empty."""
+def beginning(templates: Templates, detail: str | None, font_size: str | None = None) -> str:
+    """Return the preamble that all documents of this level and font size share; it may be empty."""
     from derive.render.printing.templates import filled_above
     from derive.steps.level import Level
 
-    above = filled_above(templates, "document.tex.j2", DIFFERS, {"detail": Level(detail or "standard").value})
+    facts = {"detail": Level(detail or "standard").value, "font_size": (font_size or "").replace(" ", "")}
+    above = filled_above(templates, "document.tex.j2", DIFFERS, facts)
     return above + DIFFERS if above else ""
 
 

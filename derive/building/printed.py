@@ -53,6 +53,7 @@ class Wanted:
     only        the formats; default: all formats of a build
     evidence    how much the page shows about its checks
     documents   other documents, such as the key, hints or a rubric
+    width       the width of the reader's text in centimetres, for a fragment
     """
 
     detail: str | None = None
@@ -60,6 +61,7 @@ class Wanted:
     only: Collection[str] | None = None
     evidence: EvidenceShown = EvidenceShown.NONE
     documents: Collection[str] = ()
+    width: float | None = None
 
     @property
     def level(self) -> Level:
@@ -122,7 +124,7 @@ class _Printing:
             documents=documents,
             texts=self._texts(warnings),
             warnings=warnings,
-            inputs=(*problem.inputs, *reference_paths(problem), *(self.heading.inputs if self.heading else ())),
+            inputs=self._inputs(),
             grades=_grades(solved),
             counts=document.checks.counts(),
             steps=len(solved.derivation.steps) + len(solved.values),
@@ -131,6 +133,11 @@ class _Printing:
             source_faults=_source_faults(solved.compared, notation),
             files=files,
         )
+
+    def _inputs(self) -> tuple[str, ...]:
+        problem, figure = self.problem, self.problem.figure
+        of_set = self.heading.inputs if self.heading else ()
+        return (*problem.inputs, *([figure.path] if figure else []), *reference_paths(problem), *of_set)
 
     # --- what the formats share ---
 
@@ -228,6 +235,7 @@ class _Printing:
             solved.compared,
             warnings,
             self.level.value,
+            self.wanted.width,
         )
         return {name: form.render(solution) for name, form in formats().items() if name in self.wanted.formats}
 

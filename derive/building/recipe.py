@@ -8,42 +8,52 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from contextlib import suppress
-from dataclasses import astuple
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from derive import FOLDER
 from derive.building.cache import PACKAGES, digest, engine_digest, file_digest, package_version
-from derive.course.problem_set import language_of
-from derive.errors import DeriveError
+
+if TYPE_CHECKING:
+    from derive.course.problem_set import ProblemSet
 
 MODULES = "the modules of derive"
 EDITED = "edited during the build"  # instead of a digest
 OPTIONS = DETAIL, EVIDENCE, ONLY, ENGINE = "--detail", "--evidence", "--only", "--engine"
+FORM = "the `form` of the set"
 OWN = "templates of derive"
 LANGUAGE = "the language of the set"
 
 Recipe = Mapping[str, str]
 
 
-def recipe_of(root: Path, set_id: str, detail: str | None, evidence: str) -> dict[str, str]:
-    """Return the recipe of the pages of a set."""
-    packages = {name: package_version(name) or "" for name in PACKAGES}
-    return {
-        MODULES: engine_digest(),
-        **packages,
-        **_templates(root),
-        **_language(root, set_id),
-        DETAIL: detail or "",
-        EVIDENCE: evidence,
+def recipe_of(
+    root: Path, detail: str | None = None, evidence: str | None = None, of_set: Mapping[str, str] | None = None
+) -> dict[str, str]:
+    """Return the recipe of pages.
+
+    of_set   the entries that the files of the set and of the course state; options come first
+    """
+    stated = of_set or {}
+    options = {
+        DETAIL: detail or stated.get(DETAIL, ""),
+        EVIDENCE: evidence or stated.get(EVIDENCE, ""),
+        FORM: stated.get(FORM, ""),
+        LANGUAGE: stated.get(LANGUAGE, ""),
     }
+    packages = {name: package_version(name) or "" for name in PACKAGES}
+    return {MODULES: engine_digest(), **packages, **_templates(root), **options}
 
 
-def _language(root: Path, set_id: str) -> dict[str, str]:
-    """Return the digest of the language of a set; nothing if its file cannot be read."""
-    with suppress(DeriveError):
-        return {LANGUAGE: digest(*map(str, astuple(language_of(root, set_id))))}
-    return {}
+def stated_by(heading: ProblemSet) -> dict[str, str]:
+    """Return the entries of a recipe that the files of a set and of its course state."""
+    language = f"{heading.language.name} {heading.language.decimal or ''}".strip()
+    return {
+        DETAIL: heading.detail or "",
+        EVIDENCE: heading.evidence,
+        FORM: heading.form_in_words,
+        LANGUAGE: language,
+    }
 
 
 def of_documents(recipe: Recipe, engine: str) -> dict[str, str]:

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from base64 import b64encode
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
 from pathlib import Path
 from typing import Any
 
-from derive.course.names import LOGO, MORE, ON_A_PAGE, REPORT, SHEET, SOLUTIONS
+from derive.building.papers import Paper
+from derive.course.names import LOGO, MORE, REPORT, SHEET, SOLUTIONS
 from derive.course.parts import points_text
 from derive.course.problem_set import ProblemSet
 from derive.page.template import templates_of
@@ -116,17 +117,29 @@ def live_page(root: Path, heading: ProblemSet, name: str, main: str) -> str:
     return _page(root, "live.html.j2", heading, [], name=name, main=Html(main))
 
 
-def index_page(root: Path, heading: ProblemSet, problems: Sequence[Rendered]) -> str:
-    """Return the page of a set: its documents to print and its statements."""
+def index_page(
+    root: Path,
+    heading: ProblemSet,
+    problems: Sequence[Rendered],
+    papers: Sequence[Paper] = (),
+    for_students: bool = False,
+) -> str:
+    """Return the page of a set: its documents to print and its statements. The page for students has no link to a
+    solution."""
+    shown = {"papers": papers, "for_students": for_students}
     questions = numbered_in_a_row(each.card_html for each in problems)
-    return _page(root, "index.html.j2", heading, _listed(problems), questions=questions)
+    return _page(root, "index.html.j2", heading, _listed(problems), questions=questions, **shown)
+
+
+def class_page(root: Path, heading: ProblemSet, students: Sequence[Mapping[str, Any]]) -> str:
+    """Return the page with links to the documents of each student of a class."""
+    return _page(root, "class.html.j2", heading, [], students=students)
 
 
 def _page(root: Path, template: str, heading: ProblemSet, problems: Sequence[Listed], **more: Any) -> str:
     templates = templates_of(root)
     font = b64encode(templates.file(f"{HTML}/{FONT}").read_bytes()).decode()
-    documents = {"documents": heading.documents, "on_a_page": ON_A_PAGE}
-    return filled_html(templates, template, {**_facts(root, heading, problems), **documents, "font": font, **more})
+    return filled_html(templates, template, {**_facts(root, heading, problems), "font": font, **more})
 
 
 def _standalone(problem: Rendered, heading: ProblemSet) -> Listed:
@@ -151,6 +164,7 @@ def _facts(root: Path, heading: ProblemSet, problems: Sequence[Listed]) -> dict[
     return {
         "set_id": Tex(heading.id),
         "heading": heading,
+        "font_size": Tex((heading.font_size or "").replace(" ", "")),
         "logo_file": Tex(LOGO) if heading.logo else "",
         "logo_data": b64encode(heading.logo).decode() if heading.logo else "",
         "problems": problems,

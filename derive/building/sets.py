@@ -19,10 +19,21 @@ from derive.building.cache import NOT_KEPT, PACKAGES, Cache, Kept, digest, engin
 from derive.building.documents import named_documents, still_there, with_asked
 from derive.building.files import folder, write, writing
 from derive.building.lock import locked
-from derive.building.manifest import Documents, Manifest, outputs_of, outputs_of_document
+from derive.building.manifest import INDEX_PAGES, Documents, Manifest, outputs_of, outputs_of_document
 from derive.building.preamble import at_hand, beginning
 from derive.building.preload import preload
-from derive.building.recipe import EDITED, EVIDENCE, MODULES, ONLY, Recipe, edited_since, recipe_digest, recipe_of
+from derive.building.recipe import (
+    DETAIL,
+    EDITED,
+    EVIDENCE,
+    MODULES,
+    ONLY,
+    Recipe,
+    edited_since,
+    recipe_digest,
+    recipe_of,
+    stated_by,
+)
 from derive.building.scratch import sweep
 from derive.building.set_names import check_asked, set_folder
 from derive.building.signed import regular_content
@@ -37,7 +48,17 @@ from derive.building.tex import (
     typeset,
 )
 from derive.building.workers import TIME_LIMIT, Bug, Crew, Job, Outcome, done, job_of, under_way
-from derive.course.names import ENGLISH, INDEX, LOGO, ON_A_PAGE, REPORT, SHEET, SOLUTIONS, EvidenceShown
+from derive.course.names import (
+    ENGLISH,
+    INDEX,
+    LOGO,
+    ON_A_PAGE,
+    REPORT,
+    SHEET,
+    SOLUTIONS,
+    STUDENTS,
+    EvidenceShown,
+)
 from derive.errors import Complaint, DeriveError, Misused
 from derive.render.formats import built_formats
 from derive.render.rendered import Files, Rendered
@@ -140,7 +161,7 @@ class _Build:
         self.cache = Cache(outputs / CACHE, fresh=options.force)
         self.manifest = Manifest.read(outputs)
         self.documents = with_asked(self.manifest.documents, options.documents)
-        self.made_by = recipe_of(root, set_id, options.detail, options.evidence or self.manifest.evidence)
+        self.made_by = recipe_of(root, options.detail, options.evidence, self.manifest.of_set)
         self.made_by[ONLY] = self._kinds_of_each_problem()
         self.anew = options.force or self.manifest.engine != engine_digest(*PACKAGES)
         self.result = Report(set_id)
@@ -201,14 +222,13 @@ class _Build:
             message = f"no word is hyphenated: this TeX has no patterns for the language `{heading.language.name}`"
             help_line = "install a complete TeX and choose it with `--engine`"
             self.result.warnings.append(Complaint("no-hyphenation", message, help=help_line, severity="warning"))
-        self.manifest.evidence = heading.evidence
+        self.manifest.of_set = stated_by(heading)
         self.documents = named_documents(heading, self.manifest, self.options.documents)
-        self.made_by[EVIDENCE] = self.options.evidence or heading.evidence
+        options = {DETAIL: self.options.detail, EVIDENCE: self.options.evidence}
+        self.made_by |= self.manifest.of_set | {name: value for name, value in options.items() if value}
         self.made_by[ONLY] = self._kinds_of_each_problem()
         shown = EvidenceShown(self.made_by[EVIDENCE])
-        held, wanted = self.manifest.holds, self._wanted()
-        there = [(kind, file) for kind, file in self.documents if [kind, file] in wanted or held(f"{file}.pdf")]
-        self.heading = replace(heading, evidence=shown, documents=tuple(there))
+        self.heading = replace(heading, evidence=shown)
         self.names = [problem.rpartition("/")[2] for problem in heading.problems]
         if unlisted := [name for name in self.options.only if name not in self.names]:
             message = f"the set `{self.set_id}` does not list `{unlisted[0]}`"
@@ -296,7 +316,7 @@ class _Build:
         more = [kind for kind, _ in self.documents if kind in ON_A_PAGE]
         for name in names:
             problem = f"{self.set_id}/{name}"
-            work = partial(rendered, self.root, problem, self.options.detail, self.cache, draws=True)
+            work = partial(rendered, self.root, problem, self.made_by[DETAIL] or None, self.cache, draws=True)
             work = partial(work, evidence=shown, documents=more)
             self._put(job_of(self.root, problem, work, self.options.limit), partial(self._was_derived, name))
         self.crew.start()
@@ -306,7 +326,7 @@ class _Build:
         from derive.page.template import templates_of
 
         if self.prepares:
-            begins = partial(beginning, templates_of(self.root), self.options.detail)
+            begins = partial(beginning, templates_of(self.root), self.made_by[DETAIL], self.heading.font_size)
             work = lambda: prepare(begins(), self.engine, self.cache)  # noqa: E731
             self._put(Job("the beginning of all documents", work, self.options.limit, rank=FIRST), lambda _: None)
             self.crew.start()
@@ -336,7 +356,7 @@ class _Build:
         """Remove drawings that the problem no longer has; report an error if two outputs would have the same name."""
         files = [file for file, _ in derived.files]
         of_documents = [output for kind, file in self.documents for output in outputs_of_document(kind, file)]
-        others = {*(output for other in self.names for output in outputs_of(other)), *of_documents, f"{INDEX}.html"}
+        others = {*(output for other in self.names for output in outputs_of(other)), *of_documents, *INDEX_PAGES}
         for file in self.manifest.drawings.get(name, []):
             if file not in {*files, *others}:
                 self.manifest.remove(file)
@@ -376,12 +396,18 @@ class _Build:
         """Make the documents of the set, if all its problems are derived and nothing has failed."""
         if len(self.derived) < len(self.names) or self.result.failed:
             return
+        from derive.building.papers import papers, papers_of, there_of
         from derive.building.set_document import document_page, index_page, the_document
 
         parts = [self.derived[name] for name in self.names]
         files = tuple(file for part in parts for file in part.files)
         logo = ((LOGO, self.heading.logo),) if self.heading.logo else ()
-        if self._record(self._page(INDEX, lambda: index_page(self.root, self.heading, parts))):
+        there = there_of(self.outputs, self.documents, self._wanted())
+        index = partial(index_page, self.root, self.heading, parts)
+        pages = self._page(INDEX, partial(index, papers(self.root, self.set_id, there)))
+        sheets = papers_of(self.root, [pair for pair in there if pair[0] == SHEET])
+        pages |= self._page(f"{STUDENTS}/{INDEX}", partial(index, sheets, for_students=True))
+        if self._record(pages):
             self._was_made(INDEX)
         for kind, file in self._wanted():
             # With known page numbers, one run of TeX is enough.
@@ -389,6 +415,8 @@ class _Build:
             document = partial(the_document(kind), self.root, self.heading, parts)
             of_set = partial(document_page, self.root, self.heading, parts, kind)
             page = self._page(file, of_set) if kind in ON_A_PAGE else {}
+            if kind == SHEET:
+                page |= {f"{STUDENTS}/{name}": text for name, text in page.items()}
             rank = FIRST if kind == SOLUTIONS else LAST
             beside = (*(files if kind != REPORT else ()), *logo)
             self._typeset(file, document, page, beside, rank, numbers if kind not in (SHEET, REPORT) else None)
@@ -405,7 +433,7 @@ class _Build:
         self,
         name: str,
         document: Callable[[], str],
-        texts: dict[str, str],
+        texts: Mapping[str, str | bytes],
         files: Files,
         rank: float,
         numbers: Kept | None = None,
@@ -420,7 +448,7 @@ class _Build:
         texts = {f"{name}.tex": tex, **texts}
         kept = self.cache.get(source)
         if kept is not None:
-            if self._record({pdf: kept, **texts}):
+            if self._record({pdf: kept, **self._for_students(name, kept), **texts}):
                 self._was_made(name)
             return
         limit = self.options.limit
@@ -432,7 +460,7 @@ class _Build:
         job = Job(f"the pages of `{self.set_id}/{name}`", work, by_the_clock(limit), rank=rank)
         self._put(job, partial(self._was_typeset, pdf, source, texts))
 
-    def _was_typeset(self, pdf: str, source: str, texts: dict[str, str], outcome: Outcome) -> None:
+    def _was_typeset(self, pdf: str, source: str, texts: Mapping[str, str | bytes], outcome: Outcome) -> None:
         """Write the text and the source after their PDF, so that they match."""
         self.ended(Ended("failed" if outcome.error else "typeset", f"{self.set_id}/{pdf}", outcome.seconds))
         name = pdf.removesuffix(".pdf")
@@ -444,10 +472,16 @@ class _Build:
         if outcome.value:
             self._changed(pdf)
         with suppress(OSError):  # another process may have just removed the PDF
-            self.cache.keep(source, regular_content(self.outputs / pdf))
+            content = regular_content(self.outputs / pdf)
+            self.cache.keep(source, content)
+            texts = {**self._for_students(name, content), **texts}
         self.manifest.outputs[pdf] = file_digest(self.outputs / pdf)
         if self._record(texts):
             self._was_made(name)
+
+    def _for_students(self, name: str, pdf: bytes) -> dict[str, str | bytes]:
+        """Return the PDF of the sheet under its name in the students' folder; nothing for any other document."""
+        return {f"{STUDENTS}/{name}.pdf": pdf} if (SHEET, name) in map(tuple, self.documents) else {}
 
     def _was_made(self, name: str) -> None:
         self.manifest.was_typeset(name, self._recipe(), self.engine.identity)
@@ -461,7 +495,7 @@ class _Build:
         """Write outputs, and return whether all were written; an error is added to the report."""
         try:
             for name, content in contents.items():
-                if write(self.outputs / name, content):
+                if write(self.outputs / name, content) and not name.startswith(f"{STUDENTS}/"):
                     self._changed(name)
                 self.manifest.outputs[name] = file_digest(self.outputs / name)
         except DeriveError as error:

@@ -67,6 +67,7 @@ def rendered(
     evidence: EvidenceShown = EvidenceShown.NONE,
     documents: Collection[str] = (),
     chosen: Chosen | None = None,
+    width: float | None = None,
 ) -> Rendered:
     """Derive a problem and print it; raise `DeriveError` if there are errors.
 
@@ -85,7 +86,7 @@ def rendered(
     problem = with_known_observations(problem, faults)
     with faults:
         solved, failures = _solved(problem, NO_CACHE if faults else cache, begun, faults)
-        page = printed(problem, solved, Wanted(detail, draws, only, evidence, documents), cache, failures)
+        page = printed(problem, solved, Wanted(detail, draws, only, evidence, documents, width), cache, failures)
     faults.stop()
     return replace(page, warnings=(*page.warnings, *dict.fromkeys(cache.unkept))) if cache.unkept else page
 
@@ -219,7 +220,12 @@ def _check_answers(known: dict[str, Quantity], asked: list[dict[str, Word]]) -> 
 
 
 def _usual_unit(problem: Problem, kind: str | None, dimension: Dimension) -> tuple[str, Expr]:
-    """Return the coherent SI unit, or degrees if a given angle is in degrees."""
+    """Return the first unit of the set's `form:` that fits. Without one, return degrees if a given angle is in degrees,
+    and otherwise the coherent SI unit."""
+    for unit in problem.units:
+        read = read_unit(unit, unit.place)
+        if misfit(read, kind, dimension) is None:
+            return unit, read.factor
     given = next((m for m in problem.measured if kind == "angle" and m.unit in IN_DEGREES), None)
     if given is not None:
         return given.unit, given.factor

@@ -74,7 +74,16 @@ def steps_key(problem: Problem) -> str:
     texts = [file.read_bytes() if file.is_file() else f"is there: {file.exists()}" for file in files]
     forms = [sorted((str(key), form) for key, form in part.forms.items()) for part in problem.parts]
     asked = [(part.answers, form, problem.cases_of(part)) for part, form in zip(problem.parts, forms, strict=True)]
-    facts = (problem.id, problem.givens, problem.described, problem.symbols, problem.measured, problem.figures, asked)
+    facts = (
+        problem.id,
+        problem.givens,
+        problem.described,
+        problem.symbols,
+        problem.measured,
+        problem.figures,
+        problem.units,
+        asked,
+    )
     observed = (problem.observations, [part.observations for part in problem.parts])
     plots = [
         (d.key, d.plot, d.curves, d.labels, d.surfaces, d.against, d.range, d.then, d.levels, d.over, d.per, d.energies)

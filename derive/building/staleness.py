@@ -117,7 +117,7 @@ def staleness(asked: Asked) -> Staleness:
 def _reasons(asked: Asked, manifest: Manifest, outputs: Sequence[str]) -> Iterator[str]:
     """Yield the reasons, first the changed files."""
     read: Callable[[str], str] = cache(lambda path: file_digest(asked.root / path))
-    now = recipe_of(asked.root, asked.set_id, asked.detail, asked.evidence or manifest.evidence)
+    now = recipe_of(asked.root, asked.detail, asked.evidence, manifest.of_set)
     documents = _documents(manifest, outputs)
     made = [name for name in documents if name in manifest.typeset_by]
     for name in made:
@@ -219,7 +219,7 @@ def _of_output(manifest: Manifest, name: str) -> Iterator[str]:
 
 def _fixes(asked: Asked, manifest: Manifest, outputs: Sequence[str]) -> Iterator[str]:
     yield _built_by(asked, manifest, outputs)
-    now = recipe_of(asked.root, asked.set_id, asked.detail, asked.evidence or manifest.evidence)
+    now = recipe_of(asked.root, asked.detail, asked.evidence, manifest.of_set)
     options: dict[str, str] = {}
     for name in _documents(manifest, outputs):
         before: Mapping[str, str] = manifest.recipes.get(manifest.typeset_by.get(name, ""), {})

@@ -14,6 +14,7 @@ DETAILS = ("brief", "standard", "full")
 EVIDENCE = ("none", "end", "margin")
 SHELLS = ("bash", "zsh", "fish")
 _TIME_LIMIT = 120.0
+_IN_CM = {"cm": 1.0, "mm": 0.1, "in": 2.54, "pt": 2.54 / 72.27}
 
 _WHERE = """\
 Print the script by which a shell completes names and options. It belongs in
@@ -79,6 +80,7 @@ def _class(of_class: argparse.ArgumentParser) -> None:
     named(of_class.add_argument("set", metavar="SET", help="a set with `variants:` in its problems"), "sets")
     of_class.add_argument("--roster", required=True, metavar="FILE", help="CSV with the column name, and maybe code")
     of_class.add_argument("--seed", default="", metavar="TEXT", help="another text gives other variants")
+    of_class.add_argument("--scheduler", default="", metavar="ADDRESS", help="of a Dask cluster: tcp://10.0.0.1:8786")
     _engine(of_class)
     _time_limit(of_class)
     _jobs_and_messages(of_class)
@@ -86,8 +88,9 @@ def _class(of_class: argparse.ArgumentParser) -> None:
 
 def _export(export: argparse.ArgumentParser) -> None:
     named(export.add_argument("id", metavar="SET|ID", help="a set, or one problem"), "ids and sets")
-    known = ("moodle", "stack", "qti", "prairielearn", "docx")
-    export.add_argument("--format", choices=known, default="moodle", help="default moodle; stack: Moodle with STACK")
+    known = ("moodle", "stack", "qti", "canvas", "prairielearn", "docx")
+    told = "default moodle; stack: Moodle with STACK; qti: QTI 2.1; canvas: QTI 1.2"
+    export.add_argument("--format", choices=known, default="moodle", help=told)
     export.add_argument("-o", dest="output", metavar="FILE", help="file to write; - is standard output")
     _time_limit(export)
 
@@ -161,6 +164,7 @@ def _solve(solve: argparse.ArgumentParser) -> None:
     typed = sorted([*formats(), *TYPESET])
     solve.add_argument("--format", choices=typed, default="text", metavar="F", help=", ".join(typed))
     solve.add_argument("-o", dest="output", metavar="FILE", help="file to write; - is standard output")
+    solve.add_argument("--width", metavar="LENGTH", type=_width, help="of the text around a fragment, such as 10.8cm")
     _detail(solve)
     _evidence(solve)
     _engine(solve)
@@ -299,6 +303,15 @@ def _documents(text: str) -> tuple[str, ...]:
         message = f"`{odd[0]}` is not a document: name some of {', '.join(DOCUMENTS)}, with commas between them"
         raise argparse.ArgumentTypeError(message)
     return documents
+
+
+def _width(text: str) -> float:
+    """Return a width in centimetres, from 4 to 40 cm."""
+    found = re.fullmatch(r"([\d.]+)\s*(cm|mm|in|pt)", text)
+    width = float(found[1]) * _IN_CM[found[2]] if found else 0.0
+    if not 4 <= width <= 40:
+        raise argparse.ArgumentTypeError(f"`{text}` is not a width from 4 cm to 40 cm, such as 10.8cm, 4.5in or 300pt")
+    return width
 
 
 def _port(text: str) -> int:

@@ -17,6 +17,8 @@ DOCUMENTS = (*OF_EVERY_SET, *MORE)
 ON_A_PAGE = (SHEET, *MORE)  # each of these documents is also built as a single page for a browser
 LOGO = "logo.png"  # the name of the logo where TeX runs
 INDEX = "index"  # the page of a set for a browser
+# Folders of a set's outputs: the files that students may see, and the documents of a class for the instructor.
+STUDENTS, CLASS = "students", "class"
 
 
 class Paper(StrEnum):
@@ -43,6 +45,14 @@ class Language:
 
 
 ENGLISH = Language()
+
+
+class FontSize(StrEnum):
+    """The size of the text in the PDFs of a set."""
+
+    SMALL = "10 pt"
+    NORMAL = "11 pt"
+    LARGE = "12 pt"
 
 
 class EvidenceShown(StrEnum):

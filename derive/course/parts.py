@@ -132,6 +132,18 @@ _FORM = record_of(AnswerForm, "a form", _FORM_IS, "the form of `{}`")
 _FORM_BY_ANSWER = mapping_of(_FORM, _FORM_IS)
 
 
+def _form_of_set(node: Tree, name: str, faults: Faults) -> AnswerForm | None:
+    form = _FORM.read(node, name, faults)
+    if isinstance(node, Mapping) and not node.pairs:
+        faults.error(
+            "unused-key", f"`{name}` has no effect without `unit` or `figures`", node.place, help="leave it out"
+        )
+    return form
+
+
+FORM_OF_SET = Reader(_FORM.schema, _form_of_set)
+
+
 def _forms(node: Tree, name: str, faults: Faults) -> dict[str | None, AnswerForm]:
     """Return the form of each answer by its key; one form for all answers has the key `None`."""
     if not isinstance(node, Mapping):

@@ -134,7 +134,7 @@ def placements(
             at=_at(written.at, parts, faults),
             at_place=written.at.place if written.at else None,
             caption=written.caption,
-            width=_width(written.width, faults),
+            width=width_of(written.width, faults),
             view=written.view,
             view_place=written.places.get("view"),
             values=_values(written.values, symbols, faults),
@@ -175,7 +175,8 @@ def _at(node: Tree | None, parts: int, faults: Faults) -> str | None:
     return None
 
 
-def _width(node: Tree | None, faults: Faults) -> float | None:
+def width_of(node: Tree | None, faults: Faults) -> float | None:
+    """Return the width in centimetres that the key `width` states."""
     if node is None:
         return None
     with faults:

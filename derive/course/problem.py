@@ -29,9 +29,10 @@ from derive.course.declared import declared_letters
 from derive.course.defined import Defined, read_defined
 from derive.course.expression import Declared
 from derive.course.given import Given, Measured, read_givens, read_numbers
+from derive.course.own_figure import OwnFigure, read_figure
 from derive.course.parts import Question
 from derive.course.placement import Placement, case_label, placements
-from derive.course.problem_set import path_of
+from derive.course.problem_set import form_of_set, path_of
 from derive.course.prose import Prose
 from derive.course.schema import THE_KEYS_ARE, read_record
 from derive.course.script import Parameter, Script, imported_script, run
@@ -78,6 +79,8 @@ class Problem:
     reference: str = ""
     variations: tuple[Variation, ...] = ()
     is_variant: bool = False
+    figure: OwnFigure | None = None
+    units: tuple[Word, ...] = ()  # the units of answers that the set prefers
     warnings: tuple[Complaint, ...] = field(default=(), repr=False, compare=False)
 
     @property
@@ -161,7 +164,8 @@ class Problem:
         wording = (prose for by_outcome in self.wording.values() for prose in by_outcome.values())
         captions = (placement.caption for placement in self.drawings if placement.caption)
         around = (prose for prose in (self.strategy, self.note, *(each.why for each in self.limits)) if prose)
-        return (self.title, self.statement, *(part.ask for part in self.parts), *around, *wording, *captions)
+        own = [self.figure.alt, *filter(None, [self.figure.caption])] if self.figure else []
+        return (self.title, self.statement, *own, *(part.ask for part in self.parts), *around, *wording, *captions)
 
     def place_of(self, *keys: str) -> Place:
         """Return the place of a key: `place_of("show", "spin")`, `place_of("given")`."""
@@ -196,6 +200,7 @@ def problem_and_faults(root: Path, problem_id: str, chosen: Chosen | None = None
     drawings = placements(written.drawings, {**brought_in, **pinned.symbols}, len(written.parts), of_drawings)
     _check_cases(written.parts, drawings, of_drawings)
     _check_plots(drawings, script, of_drawings)
+    figure = read_figure(root, path, written.figure, drawings, of_drawings)
     asked, given = _asked(written.parts, written.limits, drawings), (pinned.givens, pinned.measured, pinned.described)
     warnings = () if faults or of_drawings else unused_in(written, asked, *given)
     if faults:
@@ -204,6 +209,7 @@ def problem_and_faults(root: Path, problem_id: str, chosen: Chosen | None = None
     assert written.title is not None
     assert written.statement is not None
     assert script is not None
+    form = form_of_set(root, problem_id.partition("/")[0])
     problem = Problem(
         id=problem_id,
         path=path,
@@ -215,7 +221,8 @@ def problem_and_faults(root: Path, problem_id: str, chosen: Chosen | None = None
         points=points,
         wording=written.wording,
         show=written.show,
-        figures=written.figures or DEFAULT_FIGURES,
+        figures=written.figures or (form.figures if form else None) or DEFAULT_FIGURES,
+        units=form.units if form else (),
         drawings=drawings,
         script=script,
         script_path=script_path,
@@ -228,6 +235,7 @@ def problem_and_faults(root: Path, problem_id: str, chosen: Chosen | None = None
         observations=written.observations,
         reference=as_text(written.reference),
         variations=written.variants,
+        figure=figure,
         is_variant=bool(chosen),
         warnings=warnings,
     )

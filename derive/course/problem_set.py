@@ -16,12 +16,15 @@ from derive.course.names import (
     OF_EVERY_SET,
     DecimalSign,
     EvidenceShown,
+    FontSize,
     Language,
     Paper,
 )
+from derive.course.parts import FORM_OF_SET, AnswerForm
 from derive.course.schema import TEXT, Reader, Record, key, keys_of, list_of, one_of, read_record, wrong_type
 from derive.course.yaml_tree import Mapping, Scalar, Sequence, Tree, Word, read_yaml, shape_of
 from derive.errors import Complaint, DeriveError, Faults, Misused, Rejected, did_you_mean, nearest
+from derive.steps.level import Level
 
 COURSE = "course.yaml"  # the file with the keys that all sets of a course share
 LARGEST_LOGO = 2_000_000  # bytes
@@ -51,6 +54,9 @@ class ProblemSet:
     documents: tuple[tuple[str, str], ...] = THOSE_OF_EVERY_SET
     paper: Paper = Paper.LETTER
     language: Language = ENGLISH
+    font_size: FontSize | None = None
+    detail: str | None = None
+    form: AnswerForm | None = None
     student: str = ""  # the student for whom a document is made
 
     @property
@@ -58,6 +64,12 @@ class ProblemSet:
         """What a title page says about the course, in the order in which it is printed."""
         known = (self.course, self.institution, self.instructor, self.term, self.date, self.student)
         return [fact for fact in known if fact]
+
+    @property
+    def form_in_words(self) -> str:
+        """The default form of answers as text; empty if the set states none."""
+        units, figures = (self.form.units, self.form.figures) if self.form else ((), None)
+        return ", ".join([*units, *([f"{figures} figures"] if figures else [])])
 
     @property
     def numbers(self) -> dict[str, int]:
@@ -114,6 +126,15 @@ class CourseKeys(Record):
     paper: str | None = key("the size of the pages, by default `letter`", one_of(tuple(Paper)))
     language: Word | None = key("the language of the pages: a folder of `templates/phrases`, by default `en`", TEXT)
     decimal: str | None = key("the decimal sign, by default that of the language", one_of(tuple(DecimalSign)))
+    font_size: str | None = key(
+        "the size of the text in PDFs, by default `11 pt`, and `10 pt` at the detail `brief`", one_of(tuple(FontSize))
+    )
+    detail: str | None = key("how much algebra pages show where `--detail` states nothing", one_of(tuple(Level)))
+    form: AnswerForm | None = key(
+        "units and significant figures of the answers whose part states none: `{unit: [degree, cm], figures: 3}`; each "
+        "answer uses the first unit that fits",
+        FORM_OF_SET,
+    )
 
 
 @dataclass(frozen=True)
@@ -245,6 +266,9 @@ def problem_set(root: Path, set_id: str) -> ProblemSet:
         tuple((str(kind), str(file)) for kind, file in written.documents.items()) or THOSE_OF_EVERY_SET,
         Paper(own("paper") or Paper.LETTER),
         language_of(root, set_id),
+        FontSize(size) if (size := own("font_size")) else None,
+        own("detail"),
+        written.form or of_course.form,
     )
 
 
@@ -261,6 +285,19 @@ def language_of(root: Path, set_id: str) -> Language:
     faults.stop()
     decimal = found.get("decimal")
     return Language(found.get("language", Language.name), DecimalSign(decimal) if decimal else None)
+
+
+def form_of_set(root: Path, set_id: str) -> AnswerForm | None:
+    """Return the default form of answers in a set; None if a file has errors, which reading the set reports."""
+    path = f"problems/{set_id}/set.yaml"
+    with suppress(DeriveError):
+        faults = Faults()
+        of_course = _course(root, faults)
+        of_set = (
+            read_record(SetKeys, mapping_in(root, path, "a set"), "a set", faults) if (root / path).is_file() else None
+        )
+        return (of_set.form if of_set else None) or of_course.form
+    return None
 
 
 def _logo(root: Path, path: Word, faults: Faults) -> bytes | None:

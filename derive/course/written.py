@@ -416,6 +416,23 @@ _DRAWING = record_of(DrawingKeys, "a drawing", "a mapping with `at`, `caption` o
 
 
 @dataclass(frozen=True)
+class FigureKeys(Record):
+    """The keys of `figure:`."""
+
+    file: Word | None = key(
+        "a PDF, SVG or PNG file; its path is relative to the folder of the problem", TEXT, required=True
+    )
+    alt: Prose | None = key("what the figure shows, for a reader who does not see it", PROSE, required=True)
+    caption: Prose | None = key("the caption, in prose; with a caption the figure has a number", PROSE)
+    width: Tree | None = key(
+        "the width, such as `5 cm`; by default that of the file", as_written(TEXT.schema, "a length")
+    )
+
+
+_FIGURE = record_of(FigureKeys, "a figure", "a mapping such as `{file: cart.pdf, alt: A cart on a track}`")
+
+
+@dataclass(frozen=True)
 class ProblemKeys(Record):
     """The keys of a problem's file."""
 
@@ -469,6 +486,7 @@ class ProblemKeys(Record):
         "the drawings, by their names: where each appears, its caption, width and numbers, or what it plots",
         mapping_of(_DRAWING),
     )
+    figure: FigureKeys | None = key("a figure of your own, which appears with the statement", _FIGURE)
     limits: tuple[LimitKeys, ...] = key("limiting and special cases that check the answers at the end", LIMITS)
     observations: tuple[Word, ...] | None = key(OBSERVATIONS_MEANING, OBSERVATIONS)
     note: Prose | None = key("a remark after the last part, in prose", PROSE)

@@ -202,7 +202,8 @@ _HEADING = re.compile(
 )
 _PART = re.compile(
     r"\\item\b|\\begin\{(?:solution|proof|problem|exercise|example)\}|^[ \t]*\*\*\w+"
-    r"|^[ \t]*(?:[*_]{0,2}|\\textbf\{)\(?[a-h]\)|^[ \t]*(?:\\(?:big|med|small)skip)?\\noindent\\textbf\{|^:::+\s*\{|^[ \t]*\d+\.\s",
+    r"|^[ \t]*(?:[*_]{0,2}|\\textbf\{)\(?[a-h]\)"
+    r"|^[ \t]*(?:\\(?:big|med|small)skip)?\\noindent\\textbf\{|^:::+\s*\{|^[ \t]*\d+\.\s",
     re.MULTILINE,
 )
 _LEVELS = {"part": 0, "chapter": 0, "section": 1, "subsection": 2, "subsubsection": 3, "paragraph": 4}

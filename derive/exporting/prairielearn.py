@@ -9,14 +9,13 @@ Source of the format: PrairieLearn documentation, "Question configuration" and "
 
 from __future__ import annotations
 
-import io
 import json
 import re
 import uuid
-import zipfile
 from collections.abc import Sequence
 from html import escape
 
+from derive.exporting.packages import zipped
 from derive.exporting.questions import Answer, Part, Question, with_files
 from derive.render.printing.tex_in_html import formula_html
 
@@ -27,11 +26,7 @@ def prairielearn_package(set_id: str, title: str, questions: Sequence[Question])
     for question in questions:
         for part in question.parts:
             files |= _folder(set_id, title, question, part)
-    made = io.BytesIO()
-    with zipfile.ZipFile(made, "w", zipfile.ZIP_DEFLATED) as package:
-        for name in sorted(files):
-            package.writestr(zipfile.ZipInfo(name), files[name], zipfile.ZIP_DEFLATED)
-    return made.getvalue()
+    return zipped(files)
 
 
 def _folder(set_id: str, title: str, question: Question, part: Part) -> dict[str, bytes]:

@@ -10,12 +10,11 @@ Model*, version 2.1.
 
 from __future__ import annotations
 
-import io
 import re
-import zipfile
 from collections.abc import Sequence
 from xml.sax.saxutils import escape, quoteattr
 
+from derive.exporting.packages import zipped
 from derive.exporting.questions import Answer, Part, Question, with_files
 from derive.render.printing.tex_in_html import formula_html
 
@@ -37,11 +36,7 @@ def qti_package(set_id: str, title: str, questions: Sequence[Question]) -> bytes
             items.append((name, [f"files/{each}" for each in used]))
     files["test.xml"] = _test(set_id, title, [name for name, _ in items]).encode()
     files["imsmanifest.xml"] = _manifest(set_id, items).encode()
-    made = io.BytesIO()
-    with zipfile.ZipFile(made, "w", zipfile.ZIP_DEFLATED) as package:
-        for name in sorted(files):
-            package.writestr(zipfile.ZipInfo(name), files[name], zipfile.ZIP_DEFLATED)
-    return made.getvalue()
+    return zipped(files)
 
 
 def _identifier(text: str) -> str:

@@ -68,7 +68,7 @@ class Depicted:
 
 
 def caption_numbers(problem: Problem, drawings: Sequence[m.Recorded], derivation: Derivation) -> dict[str, int]:
-    """Return the figure numbers of the drawings with a caption, in the order of the page.
+    """Return the figure numbers of the author's figure and of the drawings with a caption, in the order of the page.
 
     A drawing that leaves out conditions or given forces has a caption, which states them. A force diagram, and the
     drawings of a normal mode and of polhodes, also have captions.
@@ -76,7 +76,9 @@ def caption_numbers(problem: Problem, drawings: Sequence[m.Recorded], derivation
     captioned = {p.key for p in problem.drawings if p.caption}
     shown = [d for d in drawings if d.key in captioned or _left_out(d) or _has_standard_caption(d)]
     placed = [(index, d) for d in shown if (index := _index(problem, d, derivation)) is not None]
-    return {d.key: n for n, (_, d) in enumerate(sorted(placed, key=lambda entry: entry[0]), 1)}
+    keys = [d.key for _, d in sorted(placed, key=lambda entry: entry[0])]
+    own = [problem.figure.key] if problem.figure and problem.figure.caption else []
+    return {key: number for number, key in enumerate([*own, *keys], 1)}
 
 
 def depictions(

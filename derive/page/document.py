@@ -294,7 +294,13 @@ class _Writer:
         stem = self.problem.id.rpartition("/")[2]
         away = {chr(ord("a") + i) for i, part in enumerate(self.problem.parts) if not self.level.shows(part.detail)}
         here = [d for d in found if d.at not in away]  # without the drawings of parts that are not shown
-        return [
+        own: list[Illustration] = []
+        if figure := self.problem.figure:
+            caption = self._told(figure.caption.pieces) if figure.caption else ()
+            alt = self._told(figure.alt.pieces)
+            number = self.references.figures.get(figure.key)
+            own = [Illustration(figure.key, f"{stem}-{figure.key}", alt, number, caption, STATEMENT)]
+        return own + [
             Illustration(
                 d.key, f"{stem}-{d.key}", d.alt, d.number, d.caption, d.at, placed_after(d.drawing), leads_to(d.drawing)
             )

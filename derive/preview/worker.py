@@ -76,7 +76,9 @@ def main_part(root: Path, problem_id: str, detail: str | None) -> str:
     set_id = problem_id.partition("/")[0]
     heading = problem_set(root, set_id)
     kept = Cache(set_folder(root, set_id) / CACHE)
-    solved = rendered(root, problem_id, detail, kept, draws=True, only=(HTML,), evidence=heading.evidence)
+    solved = rendered(
+        root, problem_id, detail or heading.detail, kept, draws=True, only=(HTML,), evidence=heading.evidence
+    )
     return problem_main(root, solved, heading)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import json
 import re
 from pathlib import Path
 
@@ -13,8 +14,9 @@ from derive.building import classes
 from derive.building.classes import Student, code_of, made_class, plain, read_roster
 from derive.cli.options import main
 from derive.course.variants import chosen_for
-from derive.errors import Rejected
+from derive.errors import Misused, Rejected
 from tests.course.test_variants import bead
+from tests.leaks import leaks
 
 NAMES = ("Ada Lovelace", "Emmy Noether")
 
@@ -92,12 +94,26 @@ def test_each_student_has_documents_with_own_numbers_and_the_sheet_has_no_answer
         assert value not in sheet and value not in page
         assert (build / "class" / f"{student.code}-key.pdf").exists()
     assert {file.suffix for file in (build / "students").iterdir()} == {".pdf", ".html"}
+    for row in rows.values():
+        answer = {"sympy": row["formula"], "text": "√(g/b)", "latex": r"\sqrt{\frac{g}{b}}"}
+        page = json.dumps({"answers": {"frequency": {**answer, "number": {"value": row["value"]}}}})
+        assert leaks(build / "students", {"json": page}) == []
+    assert {each.partition(":")[0] for each in leaks(build / "class", {"json": page})} >= {"E2-solutions.pdf"}
+    links = re.findall(r'href="([^"#]*)"', (build / "class" / "index.html").read_text())
+    assert all((build / "class" / link).is_file() for link in links if link != "../index.html") and len(links) >= 8
 
     monkeypatch.setattr(classes, "_documents_of", lambda *_: pytest.fail("nothing changed"))
     assert made_class(tmp_path, "week1", students, seed="3", jobs=1).made == 0
     made_class(tmp_path, "week1", students[:1], seed="3", jobs=1)
     assert not list((build / "students").glob("E2*")) and not list((build / "class").glob("E2*"))
     assert list((build / "students").glob("A1*"))
+
+
+def test_a_code_cannot_be_the_name_of_the_sheet_of_the_set(tmp_path: Path) -> None:
+    bead(tmp_path, "{b: [10 cm, 20 cm]}")
+    for code in ("index", "Problems"):
+        with pytest.raises(Misused, match="is the name of a document"):
+            made_class(tmp_path, "week1", [Student("Ada", code)], jobs=1)
 
 
 def test_an_error_in_one_variant_stops_no_other_student(tmp_path: Path) -> None:

@@ -110,7 +110,7 @@ def test_the_documents_of_a_set_say_where_they_differ() -> None:
     above, differs, below = template.partition(DIFFERS)
     assert differs
     asked = meta.find_undeclared_variables(environment().parse(above))
-    assert asked == {"detail"}, "what else differs stands below the line"
+    assert asked == {"detail", "font_size"}, "what else differs stands below the line"
     assert "\\usepackage" not in below
 
 

@@ -32,7 +32,8 @@ def codes(report: Report) -> list[str]:
 
 def test_a_first_build_makes_every_output(course: Course) -> None:
     report = build(course)
-    assert set(course.contents()) == set(Manifest.read(course.outputs).all_outputs())
+    made = {str(file.relative_to(course.outputs)) for file in course.outputs.rglob("[!.]*") if file.is_file()}
+    assert {each for each in made if not each.startswith(".")} == set(Manifest.read(course.outputs).all_outputs())
     assert {*outputs_of("one"), "index.html", "solutions.pdf", "problems.pdf", "report.pdf"} <= set(course.contents())
     assert (report.derived, report.problems, report.failed) == (2, 2, False)
     assert "first" in (course.outputs / "solutions.pdf").read_text()
@@ -417,3 +418,16 @@ def test_an_option_beats_what_the_set_says_of_evidence(course: Course) -> None:
 def test_the_report_lies_beside_the_solutions(course: Course) -> None:
     build(course)
     assert b"checks of hw1/one" in course.contents()["report.tex"]
+
+
+def test_the_detail_and_the_form_of_the_set_are_ingredients_of_its_pages(course: Course) -> None:
+    build(course)
+    course.derived()
+    heading = (course.folder / "set.yaml").read_text()
+    for line in ("detail: full\n", "form: {figures: 3}\n", ""):
+        (course.folder / "set.yaml").write_text(line + heading)
+        build(course)
+        assert (len(course.derived()), build(course).derived) == (0 if not line else 2, 0), line
+    (course.folder / "set.yaml").write_text("detail: full\n" + heading)
+    build(course, Options(detail="full"))
+    assert course.derived() == [], "the option and the key have the same effect"

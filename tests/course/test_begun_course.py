@@ -75,7 +75,7 @@ def test_a_workflow_publishes_the_sheets_only(tmp_path: Path, path: str) -> None
         assert steps["pages"]["artifacts"]["paths"] == ["public"]
         assert steps["build"]["artifacts"]["access"] == "developer"
     copied = re.findall(r"build/\*/(\S+?)[\s;]", text)
-    assert copied == ["problems.pdf", "problems.html"]
+    assert copied == ["students"]
 
 
 def test_the_image_runs_as_a_plain_user(tmp_path: Path) -> None:

@@ -6,9 +6,11 @@ from pathlib import Path
 
 import pytest
 
+from derive.building.solution import rendered
 from derive.course.names import ENGLISH, DecimalSign, EvidenceShown, Language, Paper
 from derive.course.problem_set import PNG, ProblemSet, problem_set
 from derive.errors import Rejected
+from tests.course.test_variants import BEAD
 
 
 def read(root: Path, of_course: str | None, of_set: str) -> ProblemSet:
@@ -104,3 +106,38 @@ def test_any_other_logo_is_an_error_at_its_line(tmp_path: Path, path: str, conte
         read(course, f"course: A\nlogo: {path}\n", "")
     (complaint,) = caught.value.complaints
     assert complaint.place and (complaint.place.path, complaint.place.line) == ("course.yaml", 2)
+
+
+def test_the_default_form_of_answers_is_that_of_the_set_or_of_the_course(tmp_path: Path) -> None:
+    """sqrt(9.81/0.2) rad/s = 7.0036 rad/s = 66.879 rpm, worked out by hand."""
+    problem = BEAD.replace("VARIANTS\n", "").replace("    form: {unit: rad/s}\n", "")
+    found = read(tmp_path, "course: A\nform: {unit: [cm, rpm], figures: 3}\n", "font_size: 12 pt\ndetail: full\n")
+    assert (found.font_size, found.detail, found.form_in_words) == ("12 pt", "full", "cm, rpm, 3 figures")
+    folder = tmp_path / "problems" / "week1"
+
+    def value(written: str) -> str:
+        (folder / "bead.yaml").write_text(written)
+        return rendered(tmp_path, "week1/bead", only=("text",)).texts["text"].rpartition("≈ ")[2].partition("  ")[0]
+
+    assert value(problem) == "66.9 rpm"
+    assert value(problem.rstrip() + "\n    form: {unit: rev/s}\n") == "1.11 rev/s"
+    assert value(problem + "figures: 2\n") == "67 rpm"
+    (folder / "set.yaml").write_text("title: A\nform: {figures: 5}\nproblems: [bead]\n")
+    assert value(problem) == "7.0036 rad/s", "the form of the set takes the place of that of the course"
+
+
+@pytest.mark.parametrize(
+    ("of_set", "code"),
+    [
+        ("form: {}\n", "unused-key"),
+        ("form: {figures: 3, units: cm}\n", "unknown-key"),
+        ("form: {unit: parsnip}\n", "unknown-unit"),
+        ("figures: 3\n", "unknown-key"),
+        ("font_size: 13 pt\n", "wrong-type"),
+        ("detail: long\n", "wrong-type"),
+    ],
+)
+def test_a_key_without_effect_is_an_error(tmp_path: Path, of_set: str, code: str) -> None:
+    with pytest.raises(Rejected) as caught:
+        read(tmp_path, "course: A\n", of_set)
+    assert [each.code for each in caught.value.complaints] == [code]

@@ -16,6 +16,9 @@ import pytest
 
 from derive.building.solution import rendered
 from derive.errors import BuildFailed, Misused
+from derive.exporting.canvas import PACKAGE as CANVAS_PACKAGE
+from derive.exporting.canvas import QTI as QTI_1
+from derive.exporting.canvas import canvas_package
 from derive.exporting.moodle import moodle_xml
 from derive.exporting.prairielearn import prairielearn_package
 from derive.exporting.qti import PACKAGE, QTI, qti_package
@@ -129,6 +132,35 @@ def test_a_package_of_qti_is_complete(questions: list[Question]) -> None:
             assert [each.get("tolerance") for each in equal] == ["0.0005 0.0005", "0.005 0.005"]
             added = [each.text for each in item.iter(f"{{{QTI}}}baseValue") if each.get("baseType") == "float"]
             assert added == ["2", "2"], "the four points are shared"
+
+
+def test_a_package_of_canvas_has_a_question_for_each_number_of_a_part(questions: list[Question]) -> None:
+    content = canvas_package("week1", "Week <1>", questions)
+    assert content == canvas_package("week1", "Week <1>", questions)
+    with zipfile.ZipFile(io.BytesIO(content)) as package:
+        files = {name: package.read(name) for name in package.namelist()}
+    manifest = ElementTree.fromstring(files["imsmanifest.xml"])
+    listed = {each.get("href") for each in manifest.iter(f"{{{CANVAS_PACKAGE}}}file")}
+    assert listed == files.keys() - {"imsmanifest.xml"}
+    (quiz,) = [name for name in files if name.endswith(".xml") and "/" in name and "meta" not in name]
+    items = list(ElementTree.fromstring(files[quiz]).iter(f"{{{QTI_1}}}item"))
+    assert [item.get("title", "").partition(" A bead")[0] for item in items] == ["1 (a)", "1 (b)", "1 (c)", "1 (c)"]
+    assert len({item.get("ident") for item in items}) == 4
+    entries = [[each.text for each in item.iter(f"{{{QTI_1}}}fieldentry")] for item in items]
+    number = "numerical_question"
+    assert entries == [["essay_question", "2"], [number, "3"], [number, "2"], [number, "2"]]
+    assert b"<points_possible>9</points_possible>" in files[quiz.replace(quiz.partition("/")[2], "assessment_meta.xml")]
+    ranges = [
+        [each.text for tag in ("varequal", "vargte", "varlte") for each in item.iter(f"{{{QTI_1}}}{tag}")]
+        for item in items
+    ]
+    assert ranges == [[], *[["7.004", "7.0035", "7.0045"]] * 2, ["0.9", "0.895", "0.905"]]
+    for item in items:
+        body, solution = (each.text or "" for each in item.iter(f"{{{QTI_1}}}mattext"))
+        assert "&lt; 1\xa0m &amp; more" in body and r"\(" in body and r"\[" in solution
+        for address in re.findall(r'src="%24IMS-CC-FILEBASE%24/(.*?)"', body):
+            assert address in files
+    assert ", in rad/s</p>" in ElementTree.tostring(items[1], "unicode").replace("&lt;", "<").replace("&gt;", ">")
 
 
 def test_hostile_titles_stay_text(questions: list[Question]) -> None:

@@ -10,12 +10,13 @@ import pytest
 from pypdf import PdfReader
 
 from derive.building.tex import chosen_engine, typeset
+from derive.page.chain_lines import ChainLine, Equations
 from derive.page.template import templates_of
 from derive.page.tree import Paragraph
 from derive.page.wording import FigureRef, Text
 from derive.render.printing.fragment_page import fragment
 from tests.courses import ROOT, rendered_once
-from tests.render.pages import AXES, NOTATION, VECTORS, WHOLE, WORDS, page
+from tests.render.pages import AXES, NOTATION, VECTORS, WHOLE, WORDS, M, T, a, display, page
 
 TEMPLATES = templates_of(ROOT)
 ALONG = WORDS, NOTATION, TEMPLATES
@@ -58,3 +59,10 @@ def test_a_plain_article_with_these_packages_typesets_it(tmp_path: Path, name: s
     typeset("\n".join(document), target, chosen_engine(None), included=found.files, log=log)
     said = " ".join(page.extract_text() for page in PdfReader(target).pages)
     assert said.count("Figure 1") == 1 and "??" not in said
+
+
+def test_lines_are_shorter_for_a_narrow_text() -> None:
+    chain = (ChainLine(T, "equals", sum(M * a**n for n in range(1, 9))),)
+    long = page(replace(display("mass"), groups=(Equations("mass", chain, 1, 0),)), illustrations=())
+    rows = [fragment(long, *ALONG, width).count(" \\\\\n") for width in (None, 12.1, 5.0)]
+    assert rows[0] == rows[1] < rows[2]

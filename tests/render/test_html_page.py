@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from derive.building.papers import papers_of
 from derive.building.set_document import document_page, index_page, problem_page
 from derive.building.solution import rendered
 from derive.course.names import MORE, SHEET
@@ -111,7 +112,8 @@ def test_each_display_says_what_it_is_in_latex(tmp_path: Path) -> None:
 def test_the_page_of_a_set_leads_to_its_problems_and_to_what_can_be_printed(tmp_path: Path) -> None:
     root = course_in(tmp_path)
     solved = rendered_once(root, "hw9/block", draws=True, only=("html",))
-    page = index_page(root, problem_set(root, "hw9"), [solved])
+    heading = problem_set(root, "hw9")
+    page = index_page(root, heading, [solved], papers_of(root, heading.documents))
     assert "A uniform block of mass" in page and "<svg" in page, "its statement and its drawing"
     tags = read(page)
     assert (tags.open, tags.faults) == ([], [])

@@ -8,6 +8,7 @@ import time
 from collections.abc import Mapping
 from contextlib import nullcontext
 from functools import partial
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from derive.cli.asked import problem_id_of, root_of, warn_of_names, warn_of_templates
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
 
 
 def check(arguments: argparse.Namespace) -> int:
+    from derive.building.papers import list_again
     from derive.building.preload import preload
     from derive.building.set_names import check_asked, set_names
     from derive.building.solution import rendered
@@ -72,6 +74,7 @@ def check(arguments: argparse.Namespace) -> int:
             written = reports(root, solved, arguments.engine, arguments.time_limit)
         for output, pdf in written.items():
             delivered(pdf, output, arguments.quiet)
+            list_again(root, Path(output).parent.name)
     return code
 
 

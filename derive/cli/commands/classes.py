@@ -12,16 +12,18 @@ from derive.cli.terminal import complain
 
 
 def make_class(arguments: argparse.Namespace) -> int:
-    from derive.building.classes import CLASS, STUDENTS, made_class, read_roster
+    from derive.building.classes import made_class, read_roster
     from derive.building.files import shown_path
     from derive.building.set_names import check_asked, set_folder
+    from derive.course.names import CLASS, STUDENTS
 
     root, set_id = root_of(arguments), new_id_of(arguments.set)
     check_asked(root, set_id)
     students = read_roster(Path(arguments.roster))
     voice = Voice(arguments.quiet, arguments.verbose)
+    limit, scheduler = arguments.time_limit, arguments.scheduler
     report = made_class(
-        root, set_id, students, arguments.seed, arguments.engine, arguments.jobs, arguments.time_limit, voice.tell
+        root, set_id, students, arguments.seed, arguments.engine, arguments.jobs, limit, voice.tell, scheduler
     )
     voice.tell("")
     complain([*report.warnings, *report.complaints])

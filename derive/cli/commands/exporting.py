@@ -10,11 +10,12 @@ from derive.cli.output import check_output, deliver
 from derive.cli.running import waiting
 from derive.cli.terminal import complain
 
-SUFFIX = {"moodle": "xml", "stack": "xml", "qti": "zip", "docx": "docx", "prairielearn": "zip"}
+SUFFIX = {"moodle": "xml", "stack": "xml", "qti": "zip", "canvas": "zip", "docx": "docx", "prairielearn": "zip"}
 
 
 def export(arguments: argparse.Namespace) -> int:
     from derive.building.files import shown_path
+    from derive.building.papers import list_again
     from derive.building.set_names import set_folder
     from derive.building.solution import rendered
     from derive.building.workers import done, job_of
@@ -32,7 +33,7 @@ def export(arguments: argparse.Namespace) -> int:
     pages = []
     for problem_id in [asked] if name else heading.problems:
         with waiting(f"deriving {problem_id}"):
-            work = partial(rendered, root, problem_id, draws=True, only=("questions",))
+            work = partial(rendered, root, problem_id, heading.detail, draws=True, only=("questions",))
             pages.append(done(job_of(root, problem_id, work, arguments.time_limit)))
     complain(warning for page in pages for warning in page.warnings)
     questions = questions_of(pages)
@@ -44,6 +45,10 @@ def export(arguments: argparse.Namespace) -> int:
         from derive.exporting.prairielearn import prairielearn_package
 
         content = prairielearn_package(set_id, heading.title, questions)
+    elif arguments.format == "canvas":
+        from derive.exporting.canvas import canvas_package
+
+        content = canvas_package(set_id, heading.title, questions)
     elif arguments.format == "docx":
         from derive.exporting.word import word_document
 
@@ -53,6 +58,7 @@ def export(arguments: argparse.Namespace) -> int:
 
         content = qti_package(set_id, heading.title, questions)
     deliver(content, output)
+    list_again(root, set_id)
     if output != "-":
         print(f"wrote {shown_path(root / output)}: {sum(len(each.parts) for each in questions)} questions")
     return 0

@@ -12,6 +12,7 @@ from derive.cli.asked import found_root, problem_id_of, root_with
 from derive.cli.output import check_output, deliver
 from derive.cli.running import delivered, waiting
 from derive.cli.terminal import complain, table
+from derive.errors import Complaint, Misused
 from derive.render.formats import TYPESET, formats
 
 if TYPE_CHECKING:
@@ -28,6 +29,9 @@ def solve(arguments: argparse.Namespace) -> int:
 
     problem_id, limit = problem_id_of(arguments.id), arguments.time_limit
     root = root_with(arguments, problem_id.partition("/")[0])
+    if arguments.width and arguments.format != "fragment":
+        message = "`--width` has no effect without `--format fragment`"
+        raise Misused(Complaint("usage", message, help="leave it out"))
     check_output(arguments.output, root)
     path_of(root, problem_id)
     set_id, form = problem_id.partition("/")[0], arguments.format
@@ -37,7 +41,9 @@ def solve(arguments: argparse.Namespace) -> int:
         heading = problem_set(root, set_id)
         heading = replace(heading, evidence=EvidenceShown(arguments.evidence or heading.evidence))
         draws, evidence = form == "pdf" or bool(beside), heading.evidence
-        return rendered(root, problem_id, arguments.detail, draws=draws, only=(form,), evidence=evidence), heading
+        detail = arguments.detail or heading.detail
+        made = partial(rendered, root, problem_id, detail, draws=draws, only=(form,), evidence=evidence)
+        return made(width=arguments.width), heading
 
     with waiting(f"deriving {problem_id}"):
         solved, heading = done(job_of(root, problem_id, told, limit))

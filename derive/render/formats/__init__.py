@@ -38,6 +38,7 @@ class Solution:
     values     the steps that evaluate answers numerically, by key
     compared   outcomes of the comparison with a reference
     warnings   warnings for the author, which are not part of the page
+    width      the width of the reader's text in centimetres, for a fragment
     """
 
     document: Document
@@ -49,6 +50,7 @@ class Solution:
     compared: Sequence[Told] = ()
     warnings: Sequence[Complaint] = ()
     detail: str = "standard"
+    width: float | None = None
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ def _rendered(solution: Solution) -> str:
     from derive.render.printing.fragment_page import fragment
 
     templates = templates_of(solution.problem.root)
-    return fragment(solution.document, solution.words, solution.notation, templates)
+    return fragment(solution.document, solution.words, solution.notation, templates, solution.width)
 
 
 FORMAT = Format("fragment", "tex", _rendered, built=False, drawings="pdf")

@@ -19,7 +19,8 @@ from derive.render.printing.lines import Printed
 from derive.render.printing.templates import filled_template
 from derive.render.rendered import Tex
 
-WIDTH = 46.0  # characters in a line of the class `article`
+WIDTH, ARTICLE = 46.0, 12.1  # characters, and centimetres, in a line of the class `article`
+LEAST = 16.0  # characters in the shortest line
 # Packages, in the order of loading, with the commands that need them.
 PACKAGES = {
     r"\usepackage[T1]{fontenc}": (r"\textquotedbl", r"\guill", r"\k{", r"\DJ", r"\dj"),
@@ -29,8 +30,14 @@ PACKAGES = {
 }
 
 
-def fragment(document: Document, words: Phrases, notation: Notation, templates: Templates) -> Tex:
-    page = FragmentPage(document, words, notation)
+def fragment(
+    document: Document, words: Phrases, notation: Notation, templates: Templates, width: float | None = None
+) -> Tex:
+    """Return a page for another document.
+
+    width   the width of the text in centimetres at the size 10 pt; by default that of the class `article`
+    """
+    page = FragmentPage(document, words, notation, WIDTH * (width or ARTICLE) / ARTICLE)
     body = filled_template(templates, "fragment.tex.j2", {"page": page})
     needed = [package for package, signs in PACKAGES.items() if any(sign in body for sign in signs)]
     return filled_template(
@@ -41,8 +48,9 @@ def fragment(document: Document, words: Phrases, notation: Notation, templates: 
 class FragmentPage(LatexPage):
     """A page without custom commands."""
 
-    def __init__(self, document: Document, words: Phrases, notation: Notation):
+    def __init__(self, document: Document, words: Phrases, notation: Notation, width: float = WIDTH):
         super().__init__(document, words, notation)
+        self._width = max(width, LEAST)
         self._keys: dict[Number, str] = {}
         for key, number in document.numbers.items():
             self._keys.setdefault(number, key)
@@ -64,7 +72,9 @@ class FragmentPage(LatexPage):
     def drawing(self, drawing: Illustration) -> Tex:
         """Return the drawing. If it has a figure number, its caption follows, with the next figure number of the
         surrounding document."""
-        shown = rf"\includegraphics{{{drawing.stem}.pdf}}"
+        natural = rf"\includegraphics{{{drawing.stem}.pdf}}"
+        fitted = r"\ifdim\wd0>\linewidth\resizebox{\linewidth}{!}{\usebox0}\else\usebox0\fi"
+        shown = rf"\sbox0{{{natural}}}{fitted}"
         if drawing.number is None:
             return Tex(shown)
         number = rf"\refstepcounter{{figure}}\label{{{self._figure(drawing.key)}}}"
@@ -73,7 +83,7 @@ class FragmentPage(LatexPage):
 
     def display(self, display: Display) -> Tex:
         """Return the rows of a display; each numbered line has the next equation number of the surrounding document."""
-        *rows, last = display_rows(display, self.notation, WIDTH, self._ending)
+        *rows, last = display_rows(display, self.notation, self._width, self._ending)
         return Tex("".join(f"{row} \\\\\n" for row in rows) + str(last))
 
     def _node(self, node: Inline) -> str:

@@ -12,7 +12,7 @@ from tests.render.pages import NOTATION, WHOLE, WORDS
 
 def test_it_is_a_page_without_preamble() -> None:
     problem = SimpleNamespace(root=ROOT)
-    solution: Any = SimpleNamespace(document=WHOLE, words=WORDS, notation=NOTATION, problem=problem)
+    solution: Any = SimpleNamespace(document=WHOLE, words=WORDS, notation=NOTATION, problem=problem, width=None)
     text = FORMAT.render(solution)
     assert text.startswith("% Written by derive from hw9/one;")
     assert "\\documentclass" not in text

@@ -1,0 +1,77 @@
+"""The list of documents on the page of a set for a browser: the documents that exist, whichever command wrote them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from derive.building.files import write
+from derive.building.lock import locked
+from derive.building.manifest import Documents, Manifest
+from derive.building.set_names import set_folder
+from derive.course.names import CLASS, INDEX, ON_A_PAGE, STUDENTS
+from derive.page.template import templates_of
+from derive.page.wording import phrases
+from derive.render.printing.templates import filled_html
+
+_LIST = re.compile(r'<ul class="documents">.*?</ul>', re.DOTALL)
+_EXPORTED = re.compile(r"[\w-]+-(?:moodle|stack|qti|canvas|prairielearn|docx)\.(?:xml|zip|docx)")
+
+
+@dataclass(frozen=True)
+class Paper:
+    """A document with its name and its files, each as a pair: the address and the name of the format."""
+
+    name: str
+    files: tuple[tuple[str, str], ...]
+
+
+def papers_of(root: Path, documents: Documents) -> list[Paper]:
+    """Return documents of a set with their names."""
+    names = phrases(templates_of(root)).labels["documents"]
+    page = {kind: ((f"{file}.html", "HTML"),) for kind, file in documents if kind in ON_A_PAGE}
+    return [Paper(names[kind], ((f"{file}.pdf", "PDF"), *page.get(kind, ()))) for kind, file in documents]
+
+
+def there_of(outputs: Path, documents: Documents, made: Documents = ()) -> Documents:
+    """Return those of these documents that are being made or have a PDF in the folder of outputs."""
+    return [pair for pair in documents if pair in made or (outputs / f"{pair[1]}.pdf").is_file()]
+
+
+def papers(root: Path, set_id: str, documents: Documents) -> list[Paper]:
+    """Return these documents, followed by the page for students, the page of the class and the exports."""
+    outputs, words = set_folder(root, set_id), phrases(templates_of(root)).labels["web"]
+    of_class = (outputs / CLASS / f"{INDEX}.html").is_file()
+    folders = [(STUDENTS, words["for_students"]), *([(CLASS, words["class"])] if of_class else [])]
+    exported = sorted(each.name for each in outputs.glob("*") if _EXPORTED.fullmatch(each.name))
+    return [
+        *papers_of(root, documents),
+        *(Paper(name, ((f"{folder}/{INDEX}.html", "HTML"),)) for folder, name in folders),
+        *(Paper(name, ((name, name.rpartition(".")[2].upper()),)) for name in exported),
+    ]
+
+
+def listed(root: Path, found: Sequence[Paper]) -> str:
+    """Return the list of documents in HTML."""
+    return filled_html(templates_of(root), "papers.html.j2", {"papers": found}).strip()
+
+
+def list_again(root: Path, set_id: str) -> None:
+    """Update the list of documents on the page of a set after a command other than a build wrote or removed files.
+
+    Nothing is done if no build has made the page, or if the page was edited since.
+    """
+    outputs = set_folder(root, set_id)
+    page = outputs / f"{INDEX}.html"
+    if not page.is_file():
+        return
+    with locked(outputs, lambda: None):
+        manifest = Manifest.read(outputs)
+        if not manifest.holds(page.name):
+            return
+        there = listed(root, papers(root, set_id, there_of(outputs, manifest.documents)))
+        if write(page, _LIST.sub(lambda _: there, page.read_text(encoding="utf-8"), count=1)):
+            manifest.wrote(page.name)
+            manifest.save()

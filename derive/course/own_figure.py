@@ -1,0 +1,169 @@
+"""A figure of the author: the key `figure:` of a problem names a PDF, SVG or PNG file next to the problem.
+
+The file is data of another program, so it is checked: its place, its size and its kind. An SVG keeps only shapes, text
+and pictures inside the file; a script or a reference to another file is an error.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+from pathlib import Path
+from xml.etree import ElementTree
+
+from derive.course.names import NAME
+from derive.course.placement import Placement, width_of
+from derive.course.prose import Prose
+from derive.course.written import FigureKeys
+from derive.course.yaml_tree import Word
+from derive.errors import Faults, Place
+
+LARGEST = 2_000_000  # bytes
+MOST_PIXELS = 16_000_000
+KINDS = ("pdf", "svg", "png")
+_BEGINS = {"pdf": b"%PDF-", "png": b"\x89PNG\r\n\x1a\n"}
+_SVG = "http://www.w3.org/2000/svg"
+_XLINK = "http://www.w3.org/1999/xlink"
+_SHAPES = {
+    "svg", "g", "defs", "symbol", "use", "path", "rect", "circle", "ellipse", "line", "polyline", "polygon", "text",
+    "tspan", "textPath", "title", "desc", "style", "linearGradient", "radialGradient", "stop", "pattern", "clipPath",
+    "mask", "marker", "image", "switch", "view", "filter",
+}  # fmt: skip
+_DROPPED = {"metadata"}
+_DOCTYPE = re.compile(r"<!DOCTYPE[^\[>]*>")
+_INSIDE = re.compile(r"#|data:image/(png|jpeg|gif);", re.IGNORECASE)
+_URL = re.compile(r"url\(\s*['\"]?\s*(?!#)", re.IGNORECASE)
+
+
+@dataclass(frozen=True)
+class OwnFigure:
+    """A checked figure.
+
+    path      the file, relative to the folder of the course
+    content   the file itself; of an SVG, only its shapes
+    """
+
+    path: str
+    kind: str
+    content: bytes = field(repr=False)
+    alt: Prose
+    caption: Prose | None
+    width: float | None  # centimetres
+    place: Place = field(repr=False, compare=False)
+
+    @property
+    def key(self) -> str:
+        """The name by which prose mentions the figure."""
+        return Path(self.path).stem
+
+
+def read_figure(
+    root: Path, problem: str, written: FigureKeys | None, drawings: tuple[Placement, ...], faults: Faults
+) -> OwnFigure | None:
+    """Return the figure of a problem; the path of its file begins in the folder of the file `problem`."""
+    if written is None or written.file is None or written.alt is None:  # a missing key is already reported
+        return None
+    place, kind = written.file.place, written.file.rpartition(".")[2].lower()
+    if kind not in KINDS:
+        help_line = "save the figure as PDF, SVG or PNG"
+        faults.error("figure", f"`{written.file}` is not a PDF, SVG or PNG file", place, help=help_line)
+        return None
+    content = _content(root, problem, written.file, faults)
+    if content is None:
+        return None
+    if not NAME.fullmatch(Path(written.file).stem):
+        help_line = "use letters, digits, `-` and `_`"
+        faults.error("figure", f"`{Path(written.file).name}` cannot be the name of a figure", place, help=help_line)
+    if any(drawing.key == Path(written.file).stem for drawing in drawings):
+        message = f"the figure `{written.file}` has the name of one of `drawings:`"
+        faults.error("figure", message, place, help="rename the file")
+    wrong = ""
+    if kind == "svg":
+        content, wrong = shapes_of(content)
+    elif not content.startswith(_BEGINS[kind]):
+        wrong = f"is not a {kind.upper()} file"
+    elif kind == "png" and _pixels(content) > MOST_PIXELS:
+        wrong = f"has more than {MOST_PIXELS // 10**6} million pixels"
+    if wrong:
+        help_line = "save it again as plain SVG, without links" if kind == "svg" else "save it again in this format"
+        faults.error("figure", f"`{written.file}` {wrong}", place, help=help_line)
+        return None
+    path = (Path(problem).parent / written.file).as_posix()
+    return OwnFigure(path, kind, content, written.alt, written.caption, width_of(written.width, faults), place)
+
+
+def _content(root: Path, problem: str, name: Word, faults: Faults) -> bytes | None:
+    """Return the content of a file next to a problem; report an error if the file is missing, too large, or outside of
+    the course."""
+    folder = (root / problem).parent
+    shown = (Path(problem).parent / name).as_posix()
+    try:
+        file = (folder / name).resolve()
+        if not file.is_relative_to(root.resolve()):
+            help_line = "copy it into the folder of the problem"
+            faults.error("figure", f"`{name}` is outside of the course", name.place, help=help_line)
+        elif not file.is_file():
+            help_line = "the path is relative to the folder of the problem"
+            faults.error("figure", f"there is no file `{shown}`", name.place, help=help_line)
+        elif file.stat().st_size > LARGEST:
+            message = f"`{name}` is larger than {LARGEST // 10**6} MB"
+            faults.error("figure", message, name.place, help="each page for a browser contains it: make it smaller")
+        else:
+            return file.read_bytes()
+    except (OSError, ValueError, RuntimeError) as error:  # a name with a zero byte, or a loop of links
+        faults.error("figure", f"`{name}` cannot be read: {error}", name.place)
+    return None
+
+
+def _pixels(png: bytes) -> int:
+    """Return the number of pixels that the header of a PNG file states."""
+    return int.from_bytes(png[16:20], "big") * int.from_bytes(png[20:24], "big")
+
+
+def shapes_of(content: bytes) -> tuple[bytes, str]:
+    """Return an SVG with its shapes only and "", or the reason why it is rejected."""
+    try:
+        text = _DOCTYPE.sub("", content.decode("utf-8-sig"))
+        if "<!DOCTYPE" in text or "<!ENTITY" in text:
+            return b"", "defines entities"
+        tree = ElementTree.fromstring(text)
+    except (UnicodeDecodeError, ElementTree.ParseError, ValueError) as error:
+        return b"", f"is not an SVG file: {error}"
+    if tree.tag != f"{{{_SVG}}}svg":
+        return b"", "is not an SVG file"
+    wrong = _unwanted(tree)
+    if wrong:
+        return b"", wrong
+    ElementTree.register_namespace("", _SVG)
+    ElementTree.register_namespace("xlink", _XLINK)
+    return ElementTree.tostring(tree, encoding="utf-8"), ""
+
+
+def _unwanted(tree: ElementTree.Element) -> str:
+    """Remove the data of editors from an SVG, and return the first other thing that has no place in a drawing."""
+    for element in tree.iter():
+        for child in list(element):
+            space, _, name = child.tag[1:].rpartition("}")
+            if space != _SVG and not space.endswith("/xhtml") or name in _DROPPED:
+                element.remove(child)
+            elif space != _SVG or name not in _SHAPES and not re.fullmatch("fe[A-Z][A-Za-z]+", name):
+                return f"has an element `{name}`"
+        for key, value in list(element.attrib.items()):
+            space, _, name = key[1:].rpartition("}") if key.startswith("{") else ("", "", key)
+            if name == "href" and space in ("", _XLINK):
+                if not _INSIDE.match(value.strip()):
+                    return f"refers to `{value[:60]}`"
+            elif space:
+                del element.attrib[key]
+            elif name.lower().startswith("on"):
+                return f"has a script, `{name}`"
+            elif _refers(value):
+                return f"refers to another file in `{name}`"
+        if element.tag == f"{{{_SVG}}}style" and _refers(element.text or ""):
+            return "refers to another file in a style"
+    return ""
+
+
+def _refers(style: str) -> bool:
+    """Return whether a style loads a file; an escaped character could hide this, so it counts as well."""
+    return bool(_URL.search(style)) or "@import" in style.lower() or "\\" in style
