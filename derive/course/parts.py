@@ -141,7 +141,7 @@ def _form_of_set(node: Tree, name: str, faults: Faults) -> AnswerForm | None:
     return form
 
 
-FORM_OF_SET = Reader(_FORM.schema, _form_of_set)
+FORM_OF_SET = Reader({**_FORM.schema, "minProperties": 1}, _form_of_set)
 
 
 def _forms(node: Tree, name: str, faults: Faults) -> dict[str | None, AnswerForm]:

@@ -93,7 +93,9 @@ VARIANTS: Reader[tuple[Variation, ...]] = Reader(
     {
         "type": "object",
         "minProperties": 1,
-        "additionalProperties": {"anyOf": [{"type": "string"}, {"type": "array", "minItems": 2}]},
+        "additionalProperties": {
+            "anyOf": [{"type": "string", "pattern": f"^{_RANGE.pattern}$"}, {"type": "array", "minItems": 2}]
+        },
     },
     _read,
     tuple,

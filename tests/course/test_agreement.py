@@ -15,7 +15,7 @@ import yaml
 from jsonschema import Draft7Validator
 from jsonschema.exceptions import ValidationError
 
-from derive.course.editors import problem_schema, reference_schema, set_schema
+from derive.course.editors import course_schema, problem_schema, reference_schema, set_schema
 from derive.course.problem import load_problem
 from derive.course.problem_set import SetKeys
 from derive.course.schema import Record, keys_of, read_record
@@ -61,7 +61,7 @@ def refused(text: str, made: Callable[[], str]) -> list[ValidationError]:
 
 
 def schema_of(file: Path) -> Callable[[], str]:
-    return {"set": set_schema, "reference": reference_schema}.get(file.stem, problem_schema)
+    return {"course": course_schema, "set": set_schema, "reference": reference_schema}.get(file.stem, problem_schema)
 
 
 def good_files() -> Iterator[Path]:
