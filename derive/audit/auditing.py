@@ -449,7 +449,7 @@ class _Auditor:
         letters = self.with_other_indices(letters_in(left_node, right_node))
         near = Nearness(
             self.meaning, known, [each for each in letters if letter is None or self.meaning.symbol(each) != letter],
-            self.shown, known is not self.known, None if self.may_be_special(claim) else self.terms_before(claim),
+            self.shown, known is not self.known, self.terms_before(claim) if known is self.known and not self.may_be_special(claim) else None,
         )  # fmt: skip
         if letter is not None and (at_root := root_equation(letter, self.meaning, known)) is not None:
             return near.of_root(right_node, at_root[0], at_root[1])
