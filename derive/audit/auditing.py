@@ -401,6 +401,7 @@ class _Auditor:
             return []
         found: list[Fix] = []
         wanted = self.letters_behind(claim)
+        undecided = claim.verdict is not None and claim.verdict.outcome is Outcome.UNDECIDED
         tried = 0
         for earlier in reversed(self.claims[: claim.number]):
             if scope_of(self.document, earlier.row) != self.scope or tried == MOST_FIXED:
@@ -409,6 +410,8 @@ class _Auditor:
                 continue
             if not self.letters_behind(earlier) & wanted:
                 continue
+            if undecided and earlier.row.block.part != claim.row.block.part:
+                continue  # a later part may be about another case
             tried += 1
             edit = self.near_edit(earlier, self.known_without(earlier, claim))
             found += [Fix(claim, earlier, edit)] if edit is not None else []
@@ -447,9 +450,10 @@ class _Auditor:
         right_node, left_node = readings(claim.right, self.facts)[0][0], readings(left_side, self.facts)[0][0]
         letter = claim.values[0] if isinstance(claim.values[0], Symbol) and not claim.is_step else None
         letters = self.with_other_indices(letters_in(left_node, right_node))
+        terms = self.terms_before(claim) if known is self.known and not self.may_be_special(claim) else None
         near = Nearness(
             self.meaning, known, [each for each in letters if letter is None or self.meaning.symbol(each) != letter],
-            self.shown, known is not self.known, None if self.may_be_special(claim) else self.terms_before(claim),
+            self.shown, known is not self.known, terms,
         )  # fmt: skip
         if letter is not None and (at_root := root_equation(letter, self.meaning, known)) is not None:
             return near.of_root(right_node, at_root[0], at_root[1])

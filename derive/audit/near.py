@@ -21,7 +21,7 @@ from derive.audit.points import Surface
 from derive.audit.slips import Edit, edits_of_side, with_term
 from derive.audit.systems import equations_of, expanded
 from derive.documents.meaning import Meaning, Meaningless
-from derive.documents.syntax import Add, Fun, Letter, Node, Num, Root
+from derive.documents.syntax import Add, Der, Fun, Letter, Node, Num, Root
 
 POINTS = 3
 SMALL, SMALLEST = 1e-7, 1e-6  # a residual relative to the value elsewhere; a value that counts as zero
@@ -190,14 +190,15 @@ def terms_of(side: Node) -> list[Node]:
 
 
 def terms_in(sides: Sequence[Node], shown: Shown) -> list[Node]:
-    """Return the terms of all sums, the sides that are not sums, and the letters, each once."""
+    """Return the terms of all sums, the sides that are not sums, both without derivatives, and the letters."""
     found: dict[str, Node] = {}
     for side in sides:
-        if not isinstance(side, Add | Num):
+        if not isinstance(side, Add | Num) and not any(isinstance(each, Der) for each in side.walk()):
             found.setdefault(shown(side.span), side)
         for each in side.walk():
             for _, term in each.terms if isinstance(each, Add) else ():
-                found.setdefault(shown(term.span), term)
+                if not any(isinstance(inner, Der) for inner in term.walk()):
+                    found.setdefault(shown(term.span), term)
     for side in sides:
         for letter in letters_in(side):
             found.setdefault(shown(letter.span), letter)
