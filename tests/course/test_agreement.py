@@ -71,7 +71,8 @@ def good_files() -> Iterator[Path]:
 
 @pytest.mark.parametrize("file", [*good_files()], ids=lambda file: str(file.relative_to(ROOT)))
 def test_no_schema_refuses_a_file_that_builds(file: Path) -> None:
-    assert [error.message for error in refused(file.read_text(encoding="utf-8"), schema_of(file))] == []
+    text = file.read_text(encoding="utf-8").replace("{title}", '"A course"')  # as `derive init` fills it in
+    assert [error.message for error in refused(text, schema_of(file))] == []
 
 
 def underlined(text: str, made: Callable[[], str]) -> list[set[int]]:
