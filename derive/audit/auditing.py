@@ -344,6 +344,8 @@ class _Auditor:
             return
         if claim.row.block.cues & {Cue.APPROXIMATE, Cue.INCORRECT}:
             return
+        if claim.values[0] in self.meaning.evaluations:
+            return  # the value at one place says nothing about another place
         if verdict.outcome is Outcome.DEFINES and claim.values[0] in self.known.definitions:
             return  # the letter has another value in another part or case
         if any(isinstance(each, MatrixBase) for each in claim.values):
