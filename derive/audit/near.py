@@ -48,7 +48,10 @@ class Nearness:
         equations = equations_of(self.known, self.meaning, letter, sure=True, written=self.written)
         state = ("points", tuple(each.value for each in equations))
         if state not in self.known.kept:
-            self.known.kept[state] = Surface(equations, self.meaning).find(POINTS).points
+            surface = Surface(equations, self.meaning).find(POINTS)
+            # A row that later rows contradict is accused only if all other rows agree with each other.
+            agree = not self.written or len(surface.kept) == len(equations)
+            self.known.kept[state] = surface.points if agree else []
         return [
             Numbers(self.meaning, self.defined(letter), point, fixed)
             for point, fixed in enumerate(self.known.kept[state])
