@@ -19,7 +19,7 @@ from derive.audit.limited import FAULTS
 from derive.audit.numeric import NoNumber, Numbers, at, close
 from derive.audit.points import Surface
 from derive.audit.slips import Edit, edits_of_side, with_term
-from derive.audit.systems import equations_of, expanded
+from derive.audit.systems import OF_RATES, equations_of, expanded
 from derive.documents.meaning import Meaning, Meaningless
 from derive.documents.syntax import Add, Der, Fun, Letter, Node, Num, Root
 
@@ -50,8 +50,8 @@ class Nearness:
         if state not in self.known.kept:
             surface = Surface(equations, self.meaning).find(POINTS)
             # A row that later rows contradict is accused only if all other rows agree with each other.
-            agree = not self.written or len(surface.kept) == len(equations)
-            self.known.kept[state] = surface.points if agree else []
+            refused = [each for each in equations if each not in surface.kept and each.name != OF_RATES]
+            self.known.kept[state] = [] if self.written and refused else surface.points
         return [
             Numbers(self.meaning, self.defined(letter), point, fixed)
             for point, fixed in enumerate(self.known.kept[state])

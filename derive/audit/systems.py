@@ -29,6 +29,9 @@ LARGEST_CONSTRAINT = 60
 HIGHEST_POWER = 6
 
 
+OF_RATES = "the time derivative of an earlier equation"
+
+
 @dataclass(frozen=True)
 class Equation:
     """An expression that vanishes, the claims that it comes from, and the words for it."""
@@ -78,7 +81,7 @@ def _equations_of(known: Known, meaning: Meaning, without: Symbol | None, sure: 
         if sympy.count_ops(each.value) > LARGEST_CONSTRAINT:
             continue
         for rate in rates(each.value, meaning, known):
-            add(rate, each.claims, "the time derivative of an earlier equation")
+            add(rate, each.claims, OF_RATES)
     return found[: 2 * MOST_EQUATIONS]
 
 
