@@ -350,7 +350,14 @@ class _Auditor:
             return  # the letter has another value in another part or case
         if any(isinstance(each, MatrixBase) for each in claim.values):
             return
+        sides = [side for side in (claim.left, claim.right) if side is not None]
+        if any(isinstance(each, Int) for side in sides for each in side.walk()):
+            return  # a letter of an integrand may depend on the variable of integration
+        if not claim.is_step and not claim.row.block.display:
+            return  # an equation in a sentence may hold in the case that the sentence describes
         edit = self.near_edit(claim, self.known)
+        if edit is not None and edit.kind == "index" and not ("_" in edit.was and "_" in edit.meant):
+            return  # r and r_0 are names of one quantity, in general and in a special case
         if edit is None and not claim.is_step and claim.row.block.display and not self.may_be_special(claim):
             near = Nearness(self.meaning, self.known, [], self.shown, terms=[])
             if (lost := near.lost_term(claim.values[0] - claim.values[1])) is not None:

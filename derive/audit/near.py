@@ -118,7 +118,7 @@ class Nearness:
             return None
         wanted = expand(expanded(self.known, difference, sure=True)[0])
         count = len(Add_.make_args(wanted))
-        if count < 2 or not any(map(self.is_rate, difference.free_symbols)):
+        if count < 2 or not any(map(self.known.is_rate, difference.free_symbols)):
             return None  # at rest, the terms with rates are missing
         for each in equations_of(self.known, self.meaning, sure=True, written=self.written):
             terms = Add_.make_args(expand(each.value))
