@@ -171,7 +171,6 @@ class Scalar:
 
 
 def _next_visible(raw: str, at: int, style: str) -> int:
-    """Return the index of the next visible character."""
     gap = _JOINED_LINES if style == '"' else _SPACE
     found = gap.match(raw, at)
     return found.end() if found else at
@@ -394,12 +393,12 @@ class _Reader:
 
 
 def _nothing_is_empty(node: Tree) -> Tree:
-    """Return an empty scalar in place of an unquoted `null` or `~`; any other node is unchanged."""
+    """Return an empty scalar in place of an unquoted `null` or `~`."""
     return replace(node, text="") if isinstance(node, Scalar) and not node.style and node.text in NOTHING else node
 
 
 def _cut_off(before: Tree, key: Scalar, value: Tree) -> Scalar | None:
-    """Return the whole value if a comma inside a bracket has split it; else None."""
+    """Return the whole value if a comma inside a bracket has split it."""
     if not (isinstance(before, Scalar) and before.style == key.style == "" and isinstance(value, Scalar)):
         return None
     source, start = key.source, before.start
