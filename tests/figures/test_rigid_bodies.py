@@ -1,4 +1,4 @@
-"""A body known by its principal moments: the ellipsoid that has them, and vectors in their true directions."""
+"""Tests of bodies with given principal moments: the drawn ellipsoid, and vectors in their true directions."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def test_omega_and_the_angular_momentum_point_where_they_do() -> None:
     one, other = of(found, Arrow)
     ratios = [y / x for x, y in zip(one.value, other.value, strict=True)]
     assert ratios == [A, B, C]
-    assert found.keys == ()  # a direction of letters gives no answer away
+    assert found.keys == ()  # a direction that contains only symbols does not show an answer
 
 
 @pytest.mark.parametrize("moments", [(1, 1, 2), (1, 1, 0), (2, 3, 4)], ids=["flat", "a line", "any"])
