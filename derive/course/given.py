@@ -307,8 +307,9 @@ class NumbersAsLetters:
     def letter(self, scalar: Scalar, name: str, kind: str, of: int = 1) -> Expr | None:
         """Return the value that replaces a number with a unit: zero, an exact angle, a letter, or minus a letter.
 
-        The result is None if the text is an expression.\n\nof   the number of values that belong together, such as 3
-                                                                 for the sides of a box
+        of   the number of values that belong together, such as 3 for the sides of a box
+
+        The result is None if the text is an expression.
         """
         if is_more_than_unit(scalar.text, self.letters.symbols):
             return None

@@ -43,8 +43,7 @@ __all__ = ["draw_after", "draw_modes"]
 ANGLE = Rational(2, 5)  # approximate angle by which an angle is displaced at most, in radians
 MOVED = Rational(1, 6)  # approximate greatest displacement of a length, relative to the least distance in the system
 # Lengths in points, before the drawing is reduced.
-# The length of the shortest arrow, if the displacements have no known ratio or if the longest arrow may be longer; the
-# length of a shorter arrow that is still visible.
+# The usual length of the shortest arrow, and the length of a shorter arrow that is still visible.
 SHORTEST, VISIBLE = 14.0, 8.0
 # The usual length of the longest arrow, and its greatest length, used if another arrow would be too short.
 LONGEST = 42.0, 56.0

@@ -601,11 +601,7 @@ def unknown_keys(problem: Problem, derivation: Derivation, words: Phrases) -> li
     """Return errors for unknown keys of `wording:` and `show:`, and for unknown outcomes."""
     here = {step.key: step for step in derivation.steps}
     in_another_case = {key for step in derivation.steps for key in step.stands_for}
-    known = {
-        *here,
-        *in_another_case,
-        *derivation.unshown,
-    }  # no answer depends on the steps in `unshown`: a part may be left out
+    known = {*here, *in_another_case, *derivation.unshown}  # `unshown` has steps on which no answer depends
     faults = []
     for section, key in [*(("wording", key) for key in problem.wording), *(("show", key) for key in problem.show)]:
         if key not in known:

@@ -55,9 +55,8 @@ def of_latex(formula: str, inline: bool = False) -> Html:
     return Html(converted.replace(APPLIED, unescape(APPLIED)))  # XML does not define the name of this character
 
 
-_DECIMAL_COMMA = re.compile(
-    r'<mn>(\d+)</mn><mo rspace="0">,</mo><mn>(\d+)</mn>'
-)  # the converter writes 1{,}5 in this form
+# The converter writes 1{,}5 in this form.
+_DECIMAL_COMMA = re.compile(r'<mn>(\d+)</mn><mo rspace="0">,</mo><mn>(\d+)</mn>')
 APPLIED = "&ApplyFunction;"
 
 
