@@ -114,7 +114,7 @@ class ChainWriter:
             return ChainLine(None, sign_before(form), form.expr.right, reason, numeric=True, because=form.because)
         if isinstance(form.expr, Relation):
             left, right, word = form.expr.left, form.expr.right, sign_of_relation(step, form.expr.word)
-            if step.about and word != "approx" and not reason:
+            if step.about and word != "approx" and not reason:  # an inequality has no sign for "about"
                 reason = filled(self.words.labels["approximately"], {})
             return ChainLine(left, word, right, reason, numeric=numeric, because=form.because)
         own = step.breaks_off and form.because in ONLY_ABOUT and step.symbol in self._used

@@ -229,7 +229,7 @@ def _without_letter(problem: Problem, drawing: m.Recorded) -> list[Complaint]:
         Complaint("unknown-letter", f"the drawing `{drawing.key}` has no symbol `{name}`", place,
                   help=did_you_mean(name, letters) or "its symbols are " + ", ".join(f"`{x}`" for x in sorted(letters)))
         for name, place in (placement.names.items() if placement else ())
-        if name not in letters and name not in problem.symbols
+        if name not in letters and name not in problem.symbols  # some inputs remove a symbol from a drawing
     ]  # fmt: skip
 
 

@@ -580,7 +580,7 @@ def _illustrated(
         else next(i for i in range(place, steps + 1) if i == steps or _parts_nothing(blocks, i))
         for drawing, place in zip(own, completed, strict=True)
     ]
-    places = list(accumulate(places, max))
+    places = list(accumulate(places, max))  # so that the drawings are in the order of their numbers
     before_values = steps if steps < len(blocks) and _parts_nothing(blocks, steps) else steps - 1
     found: list[Block] = []
     for i, block in enumerate(blocks):

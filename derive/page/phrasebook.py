@@ -97,7 +97,7 @@ def read_phrases(folders: Sequence[Path]) -> PhraseTable:
         for file in sorted(folder.glob("*.yaml")):
             _replace(page, _phrases_of(file), ())
     for name in _SHAPE:
-        page[name]
+        page[name]  # raises an error if the table is missing
     page["reasons"]["general"]
     return page
 
@@ -108,7 +108,7 @@ def _phrases_of(file: Path) -> PhraseTable:
     try:
         loaded = yaml.load(source.text, Loader=yaml.CSafeLoader)
     except (yaml.YAMLError, RecursionError, ValueError) as error:
-        yaml_tree(source)
+        yaml_tree(source)  # raises an error with its line if the YAML is invalid
         lines = str(error).splitlines() or [type(error).__name__]
         raise Rejected(Complaint("yaml", f"the phrases cannot be read: {lines[0]}", Place(shown_as, 1))) from None
     table: PhraseTable = _Checked(source).phrases(loaded, _SHAPE, ())

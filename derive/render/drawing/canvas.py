@@ -146,7 +146,7 @@ def _runs(label: Any, notation: Notation) -> tuple[Span, ...]:
         parts = (span.text.strip("$") for each in label for span in _runs(each, notation))
         return (Span(f"${''.join(parts)}$"),)
     if isinstance(label, str):
-        spaced = label.replace(" ", "\\;")
+        spaced = label.replace(" ", "\\;")  # mathtext ignores plain spaces
         return (Span(rf"$\mathrm{{{spaced}}}$"),)
     return runs(notation.result(label), inline=True)
 

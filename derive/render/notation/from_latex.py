@@ -115,7 +115,7 @@ class _Reader:
                 items[-1] = replace(items[-1], base=f"{items[-1].base}'")
                 continue
             if _is_of_letters(item) and items and isinstance(items[-1], Name):
-                items.append(Operator("start"))  # U(x) is a function
+                items.append(Operator("start"))  # U(x) is a function, so no space follows U
             word = item.base if isinstance(item, Raised) else item
             if isinstance(word, Upright) and word.text[:1].isalpha() and items and _ends_in_number(items[-1]):
                 items.append(THIN_SPACE)  # between a number and its unit

@@ -162,7 +162,7 @@ class Marked:
             rejected("wrong-argument", message, keys.places[""], "change an end of the line, or its label")
 
     def _curve(self, at: MatrixBase, keys: MarkKeys, label: Any, used: tuple[str, ...]) -> Mark:
-        assert keys.against is not None and keys.between
+        assert keys.against is not None and keys.between  # `_mark` rejects a curve without these keys
         letter, _ = read_expression(keys.against.scalar, self._letters.letters)
         if not letter.is_Symbol or not at.has(letter):
             message = f"`at` is the same for all values of `{keys.against}`"
