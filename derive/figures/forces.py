@@ -282,7 +282,7 @@ def _diagram(system: System, alone: BodyAlone, shares: Sequence[Rational], scene
 
 def _stands(scene: Connections, alone: BodyAlone) -> bool:
     """Whether the weight and a normal force of a round body are on one line through its centre. The normal force is
-    then drawn as a push with its tip at the contact."""
+    then drawn as a push with its tip at the contact, because its torque depends on its point of action."""
     of = alone.of
     if not scene.in_a_plane or not scene.system.weights or not isinstance(of, PlacedBody):
         return False

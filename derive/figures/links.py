@@ -107,7 +107,8 @@ def _without(place: Location, q: Symbol) -> Location | None:
 
 
 def _link(system: System, start: Location, end: Location) -> Link | None:
-    """Return the link between two points; None if an angle or time changes its length."""
+    """Return the link between two points, if an angle or time changes its direction but not its length; otherwise
+    None."""
     square = Add(*(c**2 for c in (end - start).components))
     turning = {q for q in moving_in(system, square) if system.coordinates.get(q) != "length"}
     if square == 0 or not turning or _varies(square, turning):

@@ -484,7 +484,7 @@ class _Scene:
         return same(own, at)
 
     def _free_side(self, at: Location) -> int:
-        """Return the side of a vertical dimension line, 1 (right) or -1 (left), where it covers few other marks."""
+        """Return the side of a vertical dimension line, 1 (right) or -1 (left), away from the other masses."""
         others = [place for _, place in self.system.masses if not same(place, at)]
         ways = [self.connections.number((place - at).components[0]) for place in others]
         return 1 if not ways or max(ways) < 0 or min(ways) > -1e-9 and max(ways) < 1e-9 else -1

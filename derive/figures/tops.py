@@ -131,8 +131,8 @@ def stance_values(system: System) -> dict[Symbol, Expr]:
 def sizes_of_top(placed: Any) -> Iterable[Mark]:
     """Yield the dimensions of a symmetric body with Euler angles, and its centre of mass.
 
-    The dimensions are the distances from the fixed point to the ends of the round parts of the body, and the greatest
-    radius of each part.
+    The dimensions are the distances from the fixed point to the ends of the round parts of the body, and the radii of
+    the parts.
     """
     if not follows_nodes(placed):
         return

@@ -84,7 +84,7 @@ def launch_marks(system: System, moment: Moment) -> Iterable[Mark]:
 
 
 def _axes_of_flight(system: System, moment: Moment) -> Iterable[Mark]:
-    """Yield the axes of a flight in a plane that begins on a string, on a rod or on a circle."""
+    """Yield the axes of a flight that begins on a string, a rod or a circle whose centre is the origin."""
     circles = [circle for particle in system.particles for circle in circles_of(system, particle.at)]
     circles += [e.surface for e in system.parts if isinstance(e, Contact) and isinstance(e.surface, Circle)]
     origin = Location((ZERO, ZERO))

@@ -30,7 +30,7 @@ class Numbering(dict[str, Number]):
         self._like = like
 
     def add(self, key: str) -> None:
-        """Assign a number greater than all numbers in use. The page `like` determines this number if possible."""
+        """Assign a number greater than all numbers in use. The numbers of the page `like` are used if possible."""
         last = max(self.values(), default=Number(0))
         self[key] = self._next(key, last)
 

@@ -129,7 +129,8 @@ def _read(formula: Formula, letters: Mapping[str, Declared]) -> Expr:
 def _as_stated(
     given: LimitKeys, case: Quantity, letters: Mapping[str, Declared], known: Mapping[str, Quantity], keys: set[str]
 ) -> list[Quantity]:
-    """Check the result that the file states for a case, and return the steps of this result."""
+    """Check the result that the file states for a case; return an additional step if the result contains symbols of
+    other steps."""
     if given.stated is None:
         return []
     stated, value = _read(given.stated, letters), explicit(case.value)
