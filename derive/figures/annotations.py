@@ -192,7 +192,7 @@ class AxisOfRotation(Mark):
 
 def measured(line: tuple[Spot, Spot], label: Any, away: Spot, gap: float = 3.0, way: Spot | None = None) -> list[Piece]:
     """Return a dimension line with its label. If the line is too short for its arrowheads, two arrows point to its ends
-    from outside, and the label is beyond the arrow at the far end."""
+    from outside."""
     (x, y), (u, v) = line
     if hypot(u - x, v - y) >= SHORTEST:
         return [Stroke(line, "measure", head=True, tail=True), Tag(label, midway(*line), away, gap, way)]

@@ -70,7 +70,7 @@ class DisplacementArrow(Mark):
              mass
     clear    the part of the distance to the arrow that scales with the drawing, a length
     off      the other part of this distance, in points; for an arrow that starts at a mass, the radius of the mass
-    room     the least distance between two masses, which limits all arrows if one is next to its mass; otherwise None
+    room     the least distance between two masses, which limits the arrows; None without a limit
     exact    whether the lengths of all arrows are in the ratio of the displacements
     """
 
@@ -187,8 +187,8 @@ def _together(shapes: Sequence[Quantity]) -> list[tuple[Linear, list[Quantity]]]
 def draw_after(
     key: str, system: System, moment: Moment, after: Sequence[Quantity], named: Sequence[Location] = ()
 ) -> Drawing | None:
-    """Draw a system in a plane a short time after an impact: displaced in the ratio of the rates just after it, with an
-    arrow for the velocity of each mass, and with dashed lines for the rods at the impact.
+    """Draw a system in a plane a short time after an impact: the displacements are in the ratio of the rates just after
+    the impact. An arrow shows the velocity of each mass.
 
     moment   the state at the impact
     after    the rates just after the impact

@@ -6,7 +6,7 @@ greatest moment, with the intermediate axis q and the third axis r, the two equa
 
     (1/I_p - 1/I_q) n_q^2 + (1/I_p - 1/I_r) n_r^2 = 1/I_p - e
 
-for a unit vector n with the sum of n_i^2/I_i equal to e, so that the projection of a curve along p is an ellipse.
+Here n is a unit vector, and e is the sum of n_i^2/I_i. So the projection of a curve along p is an ellipse.
 """
 
 from __future__ import annotations

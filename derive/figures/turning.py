@@ -130,8 +130,7 @@ def _round_the_vertical(system: System, link: Link) -> Iterable[Mark]:
 
 
 def on_the_axis(carried: Location) -> Location:
-    """Return the terms of a position that do not contain the time, for example the centre about which a point rotates
-    with a prescribed motion."""
+    """Return the terms of a position that do not contain the time, such as the centre of a prescribed rotation."""
     return Location(tuple(_terms_without(c, {TIME}) for c in carried.components))
 
 

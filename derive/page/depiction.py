@@ -383,8 +383,8 @@ def _has_equal_moments(problem: Problem, drawing: m.Recorded, placement: Placeme
 
 
 def placed_after(drawing: m.Recorded) -> tuple[str, ...]:
-    """Return the keys of the steps that a drawing shows and, for a normal mode, of the steps of the other modes, so
-    that the drawings of the modes are side by side."""
+    """Return the keys of the steps that a drawing shows. For a normal mode, also return the keys of the other modes, so
+    that their drawings are side by side."""
     siblings = drawing.mode.siblings if isinstance(drawing, m.Drawing) and drawing.mode is not None else ()
     return (*drawing.keys, *siblings)
 

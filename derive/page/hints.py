@@ -1,7 +1,7 @@
 """Graded hints derived from a solution: first what to find and in which order, then the laws, then the next lines.
 
-A line gives the result away if its right side is a result, or if no result must be substituted and no derivative or
-integral must be evaluated. Hints omit this line and the lines after it.
+A line gives the result away if its right side is a result, or if nothing remains to be substituted or evaluated. Hints
+omit this line and the lines after it.
 """
 
 from __future__ import annotations

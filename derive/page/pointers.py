@@ -1,4 +1,4 @@
-"""Steps whose result earlier lines show, such as one of two roots written with ±, or a principal moment in a tensor.
+"""Steps whose results are in earlier lines, such as one of two roots written with ±, or a principal moment in a tensor.
 
 Below the level `full` the sentence of such a step points to the earlier lines, and the step has no lines of its own.
 """

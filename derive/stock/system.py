@@ -621,8 +621,8 @@ STOCK = Stock(SystemKeys, read, SystemAnswers)
 
 
 def _forces_found(steps: Sequence[Any], system: System) -> tuple[dict[Any, Quantity], dict[Any, Quantity]]:
-    """Return the steps that derive constraint forces, and the steps that express these forces without rates, by the
-    symbols of the forces."""
+    """Return, by the symbols of constraint forces, the steps that derive the forces, and the steps that express them
+    without rates."""
     found: dict[Any, Quantity] = {}
     along: dict[Any, Quantity] = {}
     rates, coordinates = {rate(q) for q in system.coordinates}, {*system.coordinates}

@@ -4,7 +4,7 @@ A path has dots at its start and at its end and an arrowhead in the direction of
 path have the same unit, both axes have the same scale.
 
 Several curves in one panel have different lines, and each has its name next to it. If a name has no clear place, all
-names are in a legend in a corner of the panel or, if no corner is free, above the panel.
+names are in a legend.
 
 Numbers and names have the font of the page. A dotted line leads from an extremum to the horizontal axis.
 """
@@ -86,8 +86,8 @@ class Writing:
         return scale * (right - left), scale * (above - below)
 
     def at(self, spot: Spot, text: str, scale: float, share: Spot, colour: str = LINE, upwards: bool = False) -> Shape:
-        """Place a text so that the fractions `share` of its width and height are to the left of a point and below
-        it."""
+        """Place a text at a point; `share` has the fractions of its width and height that are to the left of the point
+        and below it."""
         contour, extent = self.known[text]
         if upwards:
             contour, extent = turned(contour), (-extent[3], extent[0], -extent[1], extent[2])
