@@ -370,7 +370,7 @@ def _given(name: str, kind: Asked, value: tuple[Expr | Number, ...] | Direction,
             exprs.append(entry)
             continue
         if entry.number == 0:
-            # Zero is exact in every unit: a letter would only hide it.
+            # Zero is exact in every unit, so it needs no letter.
             exprs.append(Integer(0))
             continue
         # If the kind is positive, the letter is the absolute value of the number, and the sign is a factor.

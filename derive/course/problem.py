@@ -194,7 +194,7 @@ def problem_and_faults(root: Path, problem_id: str, chosen: Chosen | None = None
         faults.stop()  # givens with a letter of unknown kind cannot be read
     pinned = pinned_by(written.symbols, written.values, written.given, written.places, script, faults)
     pinned = _by_method(pinned, written, script, faults)
-    brought_in = pinned.described.letters if pinned.described else {}  # coordinates have kinds of their own
+    brought_in = pinned.described.letters if pinned.described else {}  # coordinates have their own kinds
     moving = pinned.described.letters if pinned.described else {}
     defined = read_defined(written.define.formulas, pinned.symbols, moving, faults)
     drawings = placements(written.drawings, {**brought_in, **pinned.symbols}, len(written.parts), of_drawings)

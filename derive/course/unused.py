@@ -16,7 +16,7 @@ from derive.course.yaml_tree import Mapping, Scalar, Sequence, Tree, Word
 from derive.errors import Complaint
 
 GRAVITY, ACCELERATION = "gravity", "acceleration"
-# keys under `given`; a coordinate that only these keys mention counts as unused
+# Keys under `given`. A coordinate that only these keys mention counts as unused.
 OF_STATES = ("at", "results", "conserved", "coordinates", "functions")
 NOUNS = {"coordinates": "coordinate", "functions": "function"}  # key under `given` -> what an entry is
 _NAME = re.compile(r"(?<![\w.])[A-Za-z_]\w*", re.ASCII)

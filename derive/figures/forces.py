@@ -48,8 +48,7 @@ from derive.steps.trial_numbers import assumptions_about, trial_points
 __all__ = ["BodyAlone", "draw_alone", "forces_as_named", "forces_in_state", "forces_on_pulley", "forces_on_rope"]
 
 LONG = Rational(4, 5)  # approximate length of the arrow of the greatest force on a rod, relative to the size of the rod
-# The drawn size of a body that is not a rod, in a plane and in space, in points. The radius of a disc in a plane is 0.7
-# times this size.
+# The drawn size of a body that is not a rod, in a plane and in space, in points.
 BODY, BODY_IN_SPACE = 32.0, 20.0
 LEAST = Rational(1, 4)  # length of the shortest arrow, relative to the longest arrow
 # All arrows are enlarged until the shortest arrow at a particle has the length VISIBLE, in units of FORCE points, but
@@ -546,7 +545,7 @@ def _surfaces(touched: Sequence[Contact], of: Any) -> Iterator[Mark]:
         if isinstance(of, PlacedBody):
             yield SurfacePiece(column_of(touch.at), normal, plain, 0.0, FOOT)
         else:
-            is_ground = touch.surface.of is None  # not the top of a plank, which moves
+            is_ground = touch.surface.of is None  # the top of a plank is not ground, because the plank moves
             yield SurfacePiece(column_of(of.at), normal, touch.surface.is_two_sided, is_fixed=is_ground)
 
 

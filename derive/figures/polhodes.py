@@ -115,8 +115,8 @@ def motion_at(moments: Sequence[float], place: Vector) -> Vector:
 
 @dataclass(frozen=True)
 class PolhodesMark(Surface):
-    """A sphere with the curves of constant energy, for a body with these moments. Only the front of the sphere has
-    curves; the separatrix is dashed on its back."""
+    """A sphere with the curves of constant energy, for a body with these moments. The curves are on the front of the
+    sphere; the separatrix is dashed on the back."""
 
     moments: tuple[Any, Any, Any]
     layer: ClassVar[int] = 0

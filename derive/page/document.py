@@ -139,13 +139,11 @@ class _Writer:
         self.converted, self.stated = set[Any](), Stated()
         self.before: Step | None = None  # the last step shown; the words of the next step may depend on it
         self.rest: list[Step] = []  # the steps that the part shows after the current step
-        self.pointed_to: tuple[Step, ...] = ()  # the steps to whose lines the last such sentence refers
+        self.pointed_to: tuple[Step, ...] = ()  # the steps whose lines the last sentence about earlier lines mentions
         self.told_before = ""  # the key of a step that shares the sentence of the step before
         self.framed: set[str] = set()  # steps whose result is framed as an answer
-        self.frames_again = (
-            False  # whether a result of an earlier part is framed again: it is the part's only answer, or
-        )
-        # the part names the answers that are framed
+        # Whether a result of an earlier part is framed again: it is the part's only answer, or the part has `box:`.
+        self.frames_again = False
         self.unplaced: set[str] = set()  # steps that the page has not yet described
         self.symbols = {step.key: step.symbol for step in derivation.steps}
         away, names = self.references.away, page_names(problem, derivation, words)
@@ -291,7 +289,7 @@ class _Writer:
         self.faults += faults
         stem = self.problem.id.rpartition("/")[2]
         away = {chr(ord("a") + i) for i, part in enumerate(self.problem.parts) if not self.level.shows(part.detail)}
-        here = [d for d in found if d.at not in away]  # without the drawings of parts that are not shown
+        here = [d for d in found if d.at not in away]  # drawings of parts that are not shown are left out
         own: list[Illustration] = []
         if figure := self.problem.figure:
             caption = self._told(figure.caption.pieces) if figure.caption else ()
@@ -580,7 +578,7 @@ def _illustrated(
         else next(i for i in range(place, steps + 1) if i == steps or _parts_nothing(blocks, i))
         for drawing, place in zip(own, completed, strict=True)
     ]
-    places = list(accumulate(places, max))  # so that the drawings are in the order of their numbers
+    places = list(accumulate(places, max))  # the drawings stay in the order of their numbers
     before_values = steps if steps < len(blocks) and _parts_nothing(blocks, steps) else steps - 1
     found: list[Block] = []
     for i, block in enumerate(blocks):

@@ -76,7 +76,7 @@ class Formulas:
         moving = {q for step in steps for q, kind in step.coordinates if kind not in FORCES}
         self.varying = {each for q in moving for each in (q, rate(q))}
         results = _results(steps, self.varying)
-        unknown = {step.symbol for step in steps}  # also a tension, which is declared but derived
+        unknown = {step.symbol for step in steps}  # these symbols include tensions, which are declared but derived
         self.results = {
             symbol: values for symbol, values in results.items() if symbol in unknown or symbol not in self.given
         }

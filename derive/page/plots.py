@@ -42,7 +42,8 @@ MOST_MARKED, MOST_IN_TIME = 6, 3  # a curve with more extrema has no marks; the 
 NEAR = 1e-6  # greatest distance of an extremum from the place of a name, divided by the range
 MOST_TOGETHER = 4  # greatest number of curves in one panel; they differ in the style of their lines
 KEPT = 1 / 3  # length of the part of a curve after its range, on which the curve is constant, divided by the range
-CHANGED, SHARES = 1.31, (0.23, 0.59, 0.87)  # to test a dependence: the factor of a number, and the places in the range
+# For a test whether a curve depends on a number: the factor of the number, and the places in the range.
+CHANGED, SHARES = 1.31, (0.23, 0.59, 0.87)
 FLATTEST = 1 / 6  # least size of a readable curve, divided by the size of all curves in the panel
 
 
@@ -186,7 +187,7 @@ def curves_of(problem: Problem, plot: Plot, placement: Placement | None) -> Curv
     # A number for a symbol that does not occur in any curve would be shown although it has no effect.
     cases = [tuple(number for number in case if number.symbol in letters) for _, case in pairs]
     changed = dict.fromkeys(number.symbol for case in cases[1:] for number in case if number not in cases[0])
-    # The caption states the numbers that all curves share. Without a caption, one curve has them above the panel.
+    # The caption states the numbers that all curves share. A single curve without a caption has them above the panel.
     is_told = len(cases) > 1 or bool(placement and placement.caption)
     numbers = [_numbers(problem, plot, placement, (*cases[0], *case), letters) for case in cases]
     used = {letter for letter in numbers[0] if not plot.per or _matters(letter, pairs, numbers, written)}

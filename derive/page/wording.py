@@ -112,7 +112,7 @@ _DECIMAL_POINT = re.compile(r"(?<=[0-9])\.(?=[0-9])")
 
 AND = " and "  # key of a phrase for two steps: outcome of the first, AND, rule of the second
 AFTER = " after "  # key of a phrase: outcome, AFTER, outcome or rule of the step just before
-SAME = "same"  # in place of the outcome after AFTER: the step just before has the same rule, outcome and words
+SAME = "same"  # a word after AFTER: the step just before has the same rule, outcome and words
 
 JOINED = "<<chain>>"  # the phrase of a step without words; its lines follow the lines of the step before
 VALUE = "value_"  # prefix of the roles that give values of symbols

@@ -24,7 +24,7 @@ def test_it_is_thick_across_the_axis_about_which_its_moment_is_small() -> None:
     a, b, c = body.semi_axes
     assert simplify(a - b) == 0
     whole: Expr = 2 * A + C
-    # An ellipsoid has I_x - I_z = (M/5)(c^2 - a^2)/... with one common factor for all pairs.
+    # For an ellipsoid, I_x - I_z is proportional to c^2 - a^2, with the same factor for all pairs of axes.
     assert simplify((c**2 - a**2) / (A - C)) == 2
     assert simplify(a**2 - (C + THICK * whole)) == 0
     assert {str(each) for each in labels(found, Axis)} == {"x", "y", "z"}

@@ -114,7 +114,7 @@ def test_the_coordinates_that_are_zero_at_an_impact_are_shown_by_dashed_bodies(t
     (angle,) = of(found, AngleBetween)
     (rod,) = of(found, ConnectionMark)
     assert angle.label == scalar("theta") and not angle.b.free_symbols & {scalar("theta")}
-    assert Matrix(rod.end)[0].subs(l, 1) > 0.1  # to the right of the rod, in the positive sense of the angle
+    assert Matrix(rod.end)[0].subs(l, 1) > 0.1  # on the right, in the positive sense of the angle
     ball = drawings(tmp_path / "ball", library("cue_ball"))["system"]
     assert len(of(ball, Ghost)) == 1 and {"h", "x"} <= set(map(str, labels(ball, LengthMark)))
     rods = drawings(tmp_path / "rods", library("struck_pair"))["system"]

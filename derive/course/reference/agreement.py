@@ -199,7 +199,7 @@ def _meanings(
     known = {**{m.symbol.name: m.symbol for m in pinned.measured}, **given, **own}
     if any(letter.name not in known and len(found.get(letter.name, ())) != 1 for letter in wanted):
         known = {**_letters_of(behind), **known}
-    # A name with two meanings in earlier steps (such as the inertia tensors of two bodies) is not replaced by either.
+    # A name with two meanings in earlier steps, such as the inertia tensors of two bodies, is not replaced.
     return {
         letter: values[0] if len(values := found.get(letter.name, [])) == 1 else known.get(letter.name, letter)
         for letter in wanted

@@ -552,7 +552,7 @@ def _mathtext(layout: Any, inline: bool = False) -> str:
 
 def _mathtext_of_value(told: str) -> str:
     """Return a value such as `2.205 J` as mathtext: the number, a space, and the unit upright."""
-    number, _, unit = told.replace("\u2212", "{-}").partition(" ")  # in braces, so that no space follows the sign
+    number, _, unit = told.replace("\u2212", "{-}").partition(" ")  # the braces prevent a space after the sign
     return rf"{number}\,{unit_latex(unit)}" if unit else number.replace(DEGREES, _mathtext_of_unit(DEGREES))
 
 

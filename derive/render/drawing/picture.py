@@ -49,7 +49,7 @@ def _fitted(drawing: Drawing, numbers: Numbers, width: float, height: float) -> 
     # Arrows that start at the masses of a mode do not change the scale, so that all modes have almost the same scale.
     kept = (mark for mark in drawing.marks if not isinstance(mark, DisplacementArrow) or mark.side is not None)
     measured = replace(drawing, marks=tuple(kept))
-    for _ in range(TRIES):  # because of parts with a fixed size, the size is not quite proportional to the scale
+    for _ in range(TRIES):  # the size is not quite proportional to the scale, because some parts have a fixed size
         spots = [spot for piece in _pieces(measured, paper) for spot in piece.spots]
         wide, high = (max(s[k] for s in spots) - min(s[k] for s in spots) for k in (0, 1))
         ratio = min(room[0] / max(wide, 1e-9), room[1] / max(high, 1e-9))

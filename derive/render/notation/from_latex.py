@@ -136,7 +136,7 @@ class _Reader:
         token = self.taken()
         if token.startswith("\\text{"):
             word = token[len("\\text{") : -1].strip()
-            return Upright(f"{word} {self.taken()}" if self.next[:1].isdigit() else word)  # not a factor
+            return Upright(f"{word} {self.taken()}" if self.next[:1].isdigit() else word)  # the number is not a factor
         command = token.removeprefix("\\") if token.startswith("\\") else ""
         if token == "{":
             self.at -= 1

@@ -113,7 +113,7 @@ def _environment(templates: Templates, kind: str) -> Environment:
         trim_blocks=True,
         lstrip_blocks=True,
         keep_trailing_newline=True,
-        finalize=printed,  # so that every template escapes the values that it prints
+        finalize=printed,  # every template escapes the values that it prints
     )
     if kind == LATEX:
         made.filters["bookmark"] = bookmark_text

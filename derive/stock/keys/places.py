@@ -197,7 +197,7 @@ class Places:
         self.turns = turns
         self.letters = letters
         self.bodies = {str(name) for name in bodies}
-        self.contacts: dict[str, list[Deferred[PointOfBody]]] = {}  # for each body, the points where it touches
+        self.contacts: dict[str, list[Deferred[PointOfBody]]] = {}  # for each body, its points of contact
         self.on_the_way: list[str] = []
         self.first: tuple[int, str] | None = None  # number of components of the first place, and its name
 
