@@ -37,7 +37,7 @@ def limits_left_out(problem: Problem, derivation: Derivation) -> list[Complaint]
 
 def sort_of_cases(problem: Problem, derivation: Derivation) -> str:
     """Return the label of the cases: in a limiting case a symbol goes to a limit, in a special case it has a value.
-    One case alone has a label in the singular."""
+    A single case has a label in the singular."""
     shown = [given for keys, given in zip(derivation.closing, problem.limits, strict=True) if keys]
     special = [bool(given.where) for given in shown if not given.step]
     alone = len(shown) == 1

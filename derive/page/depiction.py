@@ -540,7 +540,7 @@ def _in_small_numbers(ratios: Sequence[Expr]) -> list[str]:
 
 
 def _told_once(marks: Sequence[m.Mark]) -> list[m.Mark]:
-    """Return the marks without repetitions."""
+    """Return the marks without repetitions, for the alternative text."""
     found: dict[Any, m.Mark] = {}
     for mark in marks:
         told = mark.in_words()

@@ -69,7 +69,7 @@ def _after(said: tuple[Inline, ...], blocks: list[Block]) -> list[Block]:
 
 
 def _shown(drawn: Sequence[m.Recorded], figures: Sequence[Illustration], words: Phrases) -> tuple[Inline, ...]:
-    """Return a sentence about what one plot, or what some normal modes, show; empty for other figures."""
+    """Return a sentence about the content of a plot or of normal modes; empty for other figures."""
     first, named = drawn[0], _named(figures, words)
     if all(isinstance(each, m.Drawing) and each.mode is not None for each in drawn):
         return filled(words.drawings["shows_modes"], named)

@@ -243,7 +243,7 @@ class Values(Grids):
         self.at(node, "latex", f"`{self.written(node)}` is not expected here")
 
     def unit_of(self, node: Node, after_number: bool) -> _Unit | None:
-        r"""Return the unit that a node is, `\mathrm{m/s^2}` or `\text{ kg}`; None if the node is not a unit.
+        r"""Return a node as a unit, `\mathrm{m/s^2}` or `\text{ kg}`; None if the node is not a unit.
 
         Units are read only in prose.
         """
