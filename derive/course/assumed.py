@@ -85,7 +85,7 @@ def narrowed(ranges: Mapping[Symbol, Range], assumed: Sequence[Assumed]) -> dict
 
 def _bound(relation: Relation) -> tuple[Symbol, Expr, bool, bool] | None:
     """Return a letter, its numerical bound, whether this is an upper bound, and whether the letter may equal the bound;
-    None for any other relation."""
+    None if the relation is not of this form."""
     (left, right), less = relation.sides, relation.operator[0] == "<"
     closed = relation.operator.endswith("=")
     if isinstance(left, Symbol) and right.is_number:
@@ -105,8 +105,8 @@ def _cut(known: Range, number: Expr, above: bool, closed: bool) -> Range:
 def order_of(
     assumed: Sequence[Assumed], ranges: Mapping[Symbol, Range], wrong: Callable[[Assumed], None] = lambda each: None
 ) -> Order:
-    """Combine the relations into one order. A relation that contradicts the ranges or the earlier relations is left
-    out, and `wrong` is called with it."""
+    """Combine the relations into one order. `wrong` is called with each relation that contradicts the ranges or the
+    earlier relations; this relation is left out."""
     order = Order()
     with within(ranges):
         for each in assumed:

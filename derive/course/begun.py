@@ -1,7 +1,7 @@
 """The files of a new problem, copied from a pattern or from an existing problem.
 
-No work of the author is lost: no existing file is overwritten, except that the file of a set gains an entry in its list
-of problems.
+No work of the author is lost: existing files are not overwritten. The file of a set gains an entry in its list of
+problems.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ def begun(
 ) -> dict[str, str]:
     """Return the texts of the files of a new problem, and of the file of its set, by their paths from the root.
 
-    Raises `Misused` if the name is not allowed or taken, or if there is no such pattern or problem `like`.
+    Raise `Misused` if the name is taken or not allowed, or if the pattern or problem `like` does not exist.
 
     template      returns the file of a template; the folder `new` has the patterns
     schemas       the folder of the schemas for editors
@@ -72,8 +72,7 @@ def _pattern(template: Callable[[str], Path], like: str) -> tuple[str, str]:
 
 
 def _copied(root: Path, like: str) -> tuple[str, str]:
-    """Return the text of a problem's file and the text of its script, if it has one. References to other problems
-    become plain words."""
+    """Return the text of a problem's file and of its script. References to other problems become plain words."""
     file = root / path_of(root, like)
     text = re.sub(r"\A# yaml-language-server:.*\n", "", _read(file))
     heading = problem_set(root, like.partition("/")[0])

@@ -28,7 +28,7 @@ FILES = {
 def begun_course(folder: Path, title: str, template: Callable[[str], Path]) -> dict[str, str]:
     """Return the texts of the files of a new course, by their paths in its folder.
 
-    Raises `Misused` if the folder is a course already, or has one of these files.
+    Raise `Misused` if the folder is a course already, or has one of these files.
 
     title     the name of the course
     template  returns the file of a template

@@ -81,8 +81,7 @@ def check_name(word: Word, faults: Faults) -> None:
 
 
 def range_of_sort(name: str, sort: SortOfLetter, faults: Faults) -> Range | None:
-    """Return the range that a declaration states, if any: the range after the kind, or the positive numbers for
-    `positive`."""
+    """Return the range that a declaration states, if any."""
     with faults:
         if sort.ends:
             return read_range(name, sort.ends, sort)

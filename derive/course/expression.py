@@ -177,7 +177,6 @@ class _Parser(Arithmetic):
         return self.tokens[self.at]
 
     def taken(self, *texts: str) -> str | None:
-        """Step past one of these operators and return it, if it is at the current position."""
         if self.token.text not in texts:
             return None
         self.at += 1

@@ -62,7 +62,7 @@ class Measured:
 class Given:
     """One key of `given:`: the argument for `solve()`, and the numbers of the letters in this argument.
 
-    `word` is the name of a direction. `written` is the original form of an angle that is used exactly, such as 45 deg.
+    `word` is the name of a direction. `written` is the text of an exact value, such as 45 deg.
     """
 
     name: str
@@ -207,7 +207,7 @@ def _scalar(node: Tree, wanted: Wanted, where: Place | None = None) -> Scalar:
 
 
 def _value(scalar: Scalar, wanted: Wanted, symbols: Mapping[str, Declared]) -> Expr | Number:
-    """Read a scalar as an expression or as a number with its unit; check its kind and its sign."""
+    """Read a scalar as an expression or as a number with its unit."""
     if comma := re.fullmatch(r"\s*(\d+),(\d+)(.*)", scalar.text):
         point = f"{comma[1]}.{comma[2]}{comma[3]}"
         wanted.refuse("decimal-comma", f"`{scalar.text}` has a comma in it", scalar.place, f"write `{point}`")
@@ -307,8 +307,9 @@ class NumbersAsLetters:
     def letter(self, scalar: Scalar, name: str, kind: str, of: int = 1) -> Expr | None:
         """Return the value that replaces a number with a unit: zero, an exact angle, a letter, or minus a letter.
 
-        The result is None if the text is an expression. `of` is the number of values that belong together, such as 3
-        for the sides of a box.
+        of   the number of values that belong together, such as 3 for the sides of a box
+
+        The result is None if the text is an expression.
         """
         if is_more_than_unit(scalar.text, self.letters.symbols):
             return None
@@ -330,7 +331,7 @@ def _asked_of_kind(kind: str, count: int) -> Asked:
 
 
 class _LettersForNumbers:
-    """Finds letters for numbers: declared letters that are unused, or else new ones."""
+    """Finds letters for numbers."""
 
     def __init__(self, symbols: Mapping[str, Declared], used: set[str]):
         self.symbols = dict(symbols)
@@ -369,7 +370,7 @@ def _given(name: str, kind: Asked, value: tuple[Expr | Number, ...] | Direction,
             exprs.append(entry)
             continue
         if entry.number == 0:
-            # Zero is exact in every unit: a letter would only hide it.
+            # Zero is exact in every unit, so it needs no letter.
             exprs.append(Integer(0))
             continue
         # If the kind is positive, the letter is the absolute value of the number, and the sign is a factor.

@@ -93,8 +93,7 @@ def read_figure(
 
 
 def _content(root: Path, problem: str, name: Word, faults: Faults) -> bytes | None:
-    """Return the content of a file next to a problem; report an error if the file is missing, too large, or outside of
-    the course."""
+    """Return the content of a file next to a problem; None after an error."""
     folder = (root / problem).parent
     shown = (Path(problem).parent / name).as_posix()
     try:
@@ -140,7 +139,7 @@ def shapes_of(content: bytes) -> tuple[bytes, str]:
 
 
 def _unwanted(tree: ElementTree.Element) -> str:
-    """Remove the data of editors from an SVG, and return the first other thing that has no place in a drawing."""
+    """Remove the data of editors from an SVG, and return the first other thing that is not allowed."""
     for element in tree.iter():
         for child in list(element):
             space, _, name = child.tag[1:].rpartition("}")
@@ -165,5 +164,6 @@ def _unwanted(tree: ElementTree.Element) -> str:
 
 
 def _refers(style: str) -> bool:
-    """Return whether a style loads a file; an escaped character could hide this, so it counts as well."""
+    """Return whether a style may load a file. A backslash counts too, because an escaped character could hide the
+    file."""
     return bool(_URL.search(style)) or "@import" in style.lower() or "\\" in style

@@ -47,8 +47,7 @@ def importable(script: Path, modules: Collection[Path]) -> Iterator[None]:
 
 
 def _imported(file: Path) -> set[str]:
-    """Return the names of the top-level modules and packages that a file imports. An error of syntax is reported when
-    the file is imported."""
+    """Return the names of the top-level modules and packages that a file imports."""
     try:
         nodes = [*ast.walk(ast.parse(file.read_bytes()))]
     except (OSError, SyntaxError, ValueError, RecursionError, MemoryError):

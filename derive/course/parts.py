@@ -145,7 +145,7 @@ FORM_OF_SET = Reader({**_FORM.schema, "minProperties": 1}, _form_of_set)
 
 
 def _forms(node: Tree, name: str, faults: Faults) -> dict[str | None, AnswerForm]:
-    """Return the form of each answer by its key; one form for all answers has the key `None`."""
+    """Return the form of each answer by its key. A form for all answers has the key `None`."""
     if not isinstance(node, Mapping):
         wrong_type(faults, f"`{name}`", _FORM_IS, node)
         return {}
@@ -237,7 +237,7 @@ _LISTED = list_of(Reader(_PART.schema, _part), "a list of parts")
 
 
 def _parts(node: Tree, name: str, faults: Faults) -> tuple[Question, ...] | None:
-    """Return the parts; reject a part after which a part of less detail follows, so that omitted parts are last."""
+    """Return the parts; reject a part after which a part of less detail follows."""
     parts = _LISTED.read(node, name, faults)
     for part, following in pairwise(parts or ()):
         if not following.detail.shows(part.detail):
@@ -252,8 +252,7 @@ PARTS = Reader(_LISTED.schema, _parts, _LISTED.absent)
 def points_in_all(
     stated: Fraction | None, place: Place | None, parts: List[Question], faults: Faults
 ) -> Fraction | None:
-    """Return the points of a problem: the stated points, or else the sum over its parts; None if no points are
-    stated."""
+    """Return the points of a problem: the stated points, or the sum over its parts; None if no points are stated."""
     counted = [part.points for part in parts if part.points is not None]
     total = sum(counted, Fraction(0))
     if stated is None or not parts:

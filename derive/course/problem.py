@@ -194,7 +194,7 @@ def problem_and_faults(root: Path, problem_id: str, chosen: Chosen | None = None
         faults.stop()  # givens with a letter of unknown kind cannot be read
     pinned = pinned_by(written.symbols, written.values, written.given, written.places, script, faults)
     pinned = _by_method(pinned, written, script, faults)
-    brought_in = pinned.described.letters if pinned.described else {}  # coordinates have kinds of their own
+    brought_in = pinned.described.letters if pinned.described else {}  # coordinates have their own kinds
     moving = pinned.described.letters if pinned.described else {}
     defined = read_defined(written.define.formulas, pinned.symbols, moving, faults)
     drawings = placements(written.drawings, {**brought_in, **pinned.symbols}, len(written.parts), of_drawings)
@@ -279,7 +279,6 @@ def _check_cases(parts: tuple[Question, ...], drawings: tuple[Placement, ...], f
 
 
 def _check_plots(drawings: tuple[Placement, ...], script: Script | StockScript | None, faults: Faults) -> None:
-    """Check that the keys of each plot fit together."""
     for drawing in drawings:
         _check_panels(drawing, faults)
         _check_marks_of_body(drawing, script, faults)
@@ -346,7 +345,7 @@ def _check_panels(drawing: Placement, faults: Faults) -> None:
 
 
 def _check_portrait(drawing: Placement, faults: Faults) -> None:
-    """Check that a phase portrait has the keys that it needs, and no others."""
+    """Check the keys of a phase portrait."""
     extra = drawing.against or (drawing.range.ends[0] if drawing.range else None)
     if drawing.panels:
         message = f"`panels` has no effect on the phase portrait `{drawing.key}`: each case has its own panel"
@@ -407,7 +406,6 @@ def _letters_of(problem: Problem) -> set[str]:
 
 
 def _assume_range(declared: Declared) -> None:
-    """Assume the range that is declared for a letter."""
     if declared.lies is None:
         return
     least, greatest = declared.lies.least, declared.lies.greatest
@@ -419,8 +417,7 @@ def _assume_range(declared: Declared) -> None:
 
 
 def _script(root: Path, path: str, name: Word | None, faults: Faults) -> tuple[str, Script | StockScript | None]:
-    """Return the path and the script, which may be one of the engine's, with the path "". After an error, the script is
-    None."""
+    """Return the path and the script. A script of the engine has the path "". After an error, the script is None."""
     if name is None:
         return "", None
     if name in stock_names():
@@ -493,7 +490,6 @@ def pinned_by(
 
 
 def _names_under(given: Mapping | None, key: str) -> set[str]:
-    """Return the names that a description declares under a key, such as its coordinates."""
     declared = given.get(key) if given else None
     return {name.text for name, _ in declared.pairs} if isinstance(declared, Mapping) else set()
 
@@ -503,7 +499,7 @@ OF_ONE_VALUE = ("undeclared-symbol", "wrong-kind", "wrong-type", "not-positive",
 
 
 def _are_superfluous_keys(faults: Faults, given: Mapping) -> bool:
-    """Whether the only errors are superfluous keys of entries, so that errors in the other keys can be reported too."""
+    """Whether the only errors are superfluous keys of entries."""
     at_top = {name.place for name, _ in given.pairs}
     return all(
         each.code == "unknown-key" and (each.help or "").startswith(THE_KEYS_ARE) and each.place not in at_top
@@ -512,7 +508,7 @@ def _are_superfluous_keys(faults: Faults, given: Mapping) -> bool:
 
 
 def _errors_of_values(reading: Callable[[Faults], object]) -> Faults:
-    """Return the errors of a reading that concern one value only."""
+    """Return the errors of a reading that concern single values."""
     found = Faults()
     with found:
         reading(found)

@@ -208,7 +208,6 @@ def path_of(root: Path, problem_id: str) -> str:
 
 
 def _meant(problem_id: str, known: list[str]) -> str:
-    """Return a help line with the most similar id, if there is one."""
     by_name = {full.partition("/")[2]: full for full in reversed(known)}
     close = nearest(problem_id, known) or by_name.get(nearest(problem_id.rpartition("/")[2], by_name) or "")
     return f"did you mean `{close}`?" if close else "`derive list` shows the problems"
@@ -317,7 +316,7 @@ def _logo(root: Path, path: Word, faults: Faults) -> bytes | None:
 
 
 def _course(root: Path, faults: Faults) -> CourseKeys:
-    """Return what `course.yaml` says; without this file, nothing."""
+    """Return the contents of `course.yaml`."""
     if not (root / COURSE).is_file():
         return CourseKeys({}, {})
     return read_record(CourseKeys, mapping_in(root, COURSE, "a course"), "a course", faults)

@@ -151,7 +151,7 @@ def read_prose(node: Tree, what: str, faults: Faults) -> Prose | None:
 
 
 def _check_formula(formula: TexFormula, style: str, faults: Faults) -> None:
-    """Report an error that is visible without parsing the formula."""
+    """Report errors that are visible without parsing the formula."""
     inner = formula.scalar
     if inner.empty:
         faults.error("formula-in-prose", "there is no formula between these dollar signs", inner.place, help=_DOLLAR)
@@ -204,7 +204,7 @@ def latex_in(prose: Prose) -> Complaint | None:
 
 
 def _blanked(match: re.Match[str]) -> str:
-    """Replace a formula or a dollar sign by blanks, and a mention by letters, because `<<x>>^2` contains LaTeX."""
+    """Replace formulas and dollar signs by blanks, and a mention by letters, because `<<x>>^2` contains LaTeX."""
     return (" " if match["formula"] or match["dollar"] else "x") * len(match[0])
 
 

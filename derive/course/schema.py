@@ -163,7 +163,7 @@ def as_written(schema: dict[str, Any], wanted: str) -> Reader[Tree]:
 
 
 def _misfit(node: Tree, schema: dict[str, Any]) -> Tree | None:
-    """Return the first node that is empty or has a wrong shape (list, mapping or text); None if there is none."""
+    """Return the first node that is empty or has a wrong shape (list, mapping or text)."""
     odd = [_misfit_in_one(node, each) for each in schema.get("anyOf", [schema])]
     return None if None in odd else next((within for within in odd if within is not node), node)
 

@@ -54,7 +54,7 @@ class Script:
 
 
 class _NoCache(SourceFileLoader):
-    """A loader without bytecode: a script is compiled from its present text, and no file is written in its folder."""
+    """A loader without bytecode, so that a script is compiled from its present text."""
 
     def path_stats(self, path: Any) -> Mapping[str, Any]:
         raise OSError
@@ -90,7 +90,7 @@ def run(script: Script, values: Mapping[str, Any]) -> object:
 
 
 def _placed(error: DeriveError, file: Path, source: Source) -> DeriveError:
-    """Add a place to an error of a verb: the line of the script with the call."""
+    """Add the line of the script with the call to an error of a verb."""
     place = _innermost(error, file, source)
     if place is None:
         return error
@@ -200,7 +200,6 @@ def _message(error: BaseException) -> str:
 
 
 def _meant(error: BaseException) -> str | None:
-    """Return a help line with the name that the author probably meant."""
     if isinstance(error, ImportError):
         wanted = re.search(r"cannot import name '(\w+)'", str(error))
         return did_you_mean(wanted[1], dir(sys.modules.get(error.name or ""))) if wanted else None

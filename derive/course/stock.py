@@ -178,10 +178,7 @@ class InLetters:
     def value(
         self, node: Tree, name: str, kind: str, of: int = 1, or_zero: bool = False, in_time: bool = False
     ) -> Expr:
-        """Read a constant expression of a kind; with `in_time`, it may be a function of the time.
-
-        If quantities of this kind are positive, an expression that is known not to be positive is rejected.
-        """
+        """Read a constant expression of a kind; with `in_time`, it may be a function of the time."""
         found = self.constant(node, name, kind, of, in_time)
         if (
             found.is_nonpositive

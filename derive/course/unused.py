@@ -16,7 +16,7 @@ from derive.course.yaml_tree import Mapping, Scalar, Sequence, Tree, Word
 from derive.errors import Complaint
 
 GRAVITY, ACCELERATION = "gravity", "acceleration"
-# keys under `given`; a coordinate that only these keys mention counts as unused
+# Keys under `given`. A coordinate that only these keys mention counts as unused.
 OF_STATES = ("at", "results", "conserved", "coordinates", "functions")
 NOUNS = {"coordinates": "coordinate", "functions": "function"}  # key under `given` -> what an entry is
 _NAME = re.compile(r"(?<![\w.])[A-Za-z_]\w*", re.ASCII)
@@ -31,8 +31,8 @@ def unused_in(
     described: Described | None,
 ) -> tuple[Complaint, ...]:
     """Return warnings about entries that have no effect."""
-    behind = {each.symbol.name for each in measured} - {*written.values}  # letters that replace numbers
-    exact = {given.kind.each for given in givens if given.written is not None}  # kinds with exact numbers
+    behind = {each.symbol.name for each in measured} - {*written.values}  # the letters that replace numbers
+    exact = {given.kind.each for given in givens if given.written is not None}  # the kinds with exact numbers
     found = [*_letters(written, behind, exact)]
     found += [*_drawings(written), *_points(written)]
     if described is not None:
@@ -61,8 +61,8 @@ def needed_for(asked: Collection[str], made: Table[Word, Collection[Word]]) -> s
 
 
 def _letters(written: ProblemKeys, behind: Collection[str], exact: Collection[str]) -> Iterator[Complaint]:
-    """Warn of declared letters that nothing uses. A letter whose kind is in `exact` causes no warning, because an exact
-    number of this kind, such as 45 deg, may be in its place."""
+    """Warn of declared letters that nothing uses. There is no warning for a letter whose kind is in `exact`, because an
+    exact number such as 45 deg may be in its place."""
     compared = {name for limit in written.limits for node in _of_limit(limit) for name in _NAME.findall(node)}
     drawn = {name for each in written.drawings.values() for name in _drawn(each)}
     used = {*_names(written.given), *_names(written.reference), *compared, *drawn, *behind, TIME.name}

@@ -132,7 +132,6 @@ _TEXTS = {"type": "object", "additionalProperties": _WORDS}
 
 
 def _plotted(node: Tree, name: str, faults: Faults) -> tuple[Formula, ...] | None:
-    """Read the answer that a plot shows, or the two answers or formulas of a path."""
     items = node.items if isinstance(node, Sequence) else (node,)
     shown = tuple(item for item in items if isinstance(item, Scalar) and not item.empty)
     if len(shown) == len(items) == (2 if isinstance(node, Sequence) else 1):
@@ -391,7 +390,7 @@ def _limit(node: Tree, name: str, faults: Faults) -> LimitKeys | None:
     if found is None:
         return None
     if any(way in found.values_at and getattr(found, way) is None for way in ("letter", "step", "of")):
-        return None  # the wrong shape has been reported
+        return None  # an error has been reported
     ways = [way for way in ("letter", "where", "step") if getattr(found, way)]
     if len(ways) != 1 or (found.of is None) != (ways == ["step"]):
         message = "a limit needs `of` with `letter`, or `of` with `where`, or only `step`"

@@ -171,7 +171,6 @@ class Scalar:
 
 
 def _next_visible(raw: str, at: int, style: str) -> int:
-    """Return the index of the next visible character."""
     gap = _JOINED_LINES if style == '"' else _SPACE
     found = gap.match(raw, at)
     return found.end() if found else at
@@ -293,7 +292,7 @@ def yaml_tree(source: Source) -> Tree:
         faults.error("control-character", f"the character U+{ord(odd[0]):04X} is not text", source.place(odd.start()))
     tabs = list(_TAB_INDENT.finditer(source.text))
     if tabs:
-        # One error for the file, because an editor that writes tabs writes them on every line.
+        # A file has one error for all its tabs, because an editor that writes tabs writes them on every line.
         place = source.place(tabs[0].start() + tabs[0][0].index("\t"))
         notes = (f"{len(tabs)} lines are indented by tabs",) if tabs[1:] else ()
         faults.error("tab", "a tab indents this line", place, notes=notes, help="indent with spaces")
@@ -321,7 +320,7 @@ class _Reader:
                     root = _nothing_is_empty(self.node(event, 1))
         except yaml.MarkedYAMLError as error:
             complaint = _syntax_complaint(error, self.source)
-            # An alias or a tag that was refused may leave the rest of its line unreadable.
+            # A rejected alias or tag may leave the rest of its line unreadable.
             if complaint.place is None or complaint.place.line not in self.odd_lines:
                 self.faults.add(complaint)
         if root is None or (isinstance(root, Scalar) and root.left_empty):
@@ -394,12 +393,12 @@ class _Reader:
 
 
 def _nothing_is_empty(node: Tree) -> Tree:
-    """Return an empty scalar in place of an unquoted `null` or `~`; any other node is unchanged."""
+    """Return an empty scalar in place of an unquoted `null` or `~`."""
     return replace(node, text="") if isinstance(node, Scalar) and not node.style and node.text in NOTHING else node
 
 
 def _cut_off(before: Tree, key: Scalar, value: Tree) -> Scalar | None:
-    """Return the whole value if a comma inside a bracket has split it; else None."""
+    """Return the whole value if a comma inside a bracket has split it."""
     if not (isinstance(before, Scalar) and before.style == key.style == "" and isinstance(value, Scalar)):
         return None
     source, start = key.source, before.start

@@ -49,8 +49,6 @@ STAND, CLEARANCE = 16.0, 8.0  # least height of a support, and least height of a
 
 @dataclass(frozen=True)
 class _Between(Mark):
-    """A mark from one point to another."""
-
     start: Position
     end: Position
 
@@ -61,8 +59,6 @@ class _Between(Mark):
 
 @dataclass(frozen=True)
 class _Single(Mark):
-    """A mark at one point."""
-
     at: Position
 
     @property
@@ -110,7 +106,6 @@ class Axis(_Between):
         return [*(self._strokes(paper, start, end) if self.discs else [Stroke(spots, "axis", head=True)]), name]
 
     def _strokes(self, paper: Paper, start: Vector, end: Vector) -> list[Stroke]:
-        """Return the strokes of an axis that passes through discs."""
         way, eye = plus(end, start, -1.0), paper.stance.eye
         places = [plus(start, way, i / PIECES) for i in range(PIECES + 1)]
         hidden = [False] * PIECES
@@ -172,8 +167,7 @@ class AxisOfRotation(Mark):
         return [line, *_circling(ring, plus(NOUGHT, along, sense), RING * paper.reach, self.label, paper)]
 
     def _start(self, paper: Paper, near: Vector, along: Vector) -> Vector:
-        """Return the start of the line: a little before the body, but at its end `near` if the piece between them is
-        behind the body, where it would seem to leave the body through a front edge."""
+        """Return the start of the line, so that the line does not seem to leave the body through a front edge."""
         start = plus(near, along, -PAST * paper.reach)
         (x, y), (u, v) = paper.spots(near, start)
         is_behind = dot(along, paper.stance.eye) > 0 and is_within(
@@ -182,8 +176,7 @@ class AxisOfRotation(Mark):
         return near if is_behind else start
 
     def _to_clear(self, paper: Paper, ring: Vector, along: Vector, radius: float) -> float:
-        """Return how far the rotation arrow must move along the axis to be outside the outline of the bodies; 0 if none
-        of the tried shifts is enough."""
+        """Return how far the rotation arrow moves along the axis, so that it is outside the outline of the bodies."""
         outline = hull(paper.spots(*paper.fixed))
         tried = [PAST * paper.reach * step / 4 for step in range(9)]
         for off in tried:
@@ -199,7 +192,7 @@ class AxisOfRotation(Mark):
 
 def measured(line: tuple[Spot, Spot], label: Any, away: Spot, gap: float = 3.0, way: Spot | None = None) -> list[Piece]:
     """Return a dimension line with its label. If the line is too short for its arrowheads, two arrows point to its ends
-    from outside, and the label is beyond the arrow at the far end."""
+    from outside."""
     (x, y), (u, v) = line
     if hypot(u - x, v - y) >= SHORTEST:
         return [Stroke(line, "measure", head=True, tail=True), Tag(label, midway(*line), away, gap, way)]
@@ -253,8 +246,7 @@ class LengthMark(_Between):
 
 
 def _square_to(line: Spot, away: Spot) -> Spot:
-    """Return the unit vector perpendicular to a line on the paper, on the side of `away`; if `away` is along the line,
-    the upper or the left side."""
+    """Return the unit vector perpendicular to a line on the paper, on the side of `away`."""
     share = away[0] * line[0] + away[1] * line[1]
     x, y = away[0] - share * line[0], away[1] - share * line[1]
     size = hypot(x, y)
@@ -437,7 +429,6 @@ class Weight(Arrow):
 
 
 def _labelled_beside(arrow: list[Piece]) -> list[Piece]:
-    """Move the label of an arrow to a place next to its shaft."""
     line = next((piece for piece in arrow if isinstance(piece, Stroke)), None)
     if line is None:
         return arrow
@@ -524,8 +515,7 @@ class Turn(Mark):
 def _circling(
     centre: Vector, along: Vector, radius: float, label: Any, paper: Paper, middle: Vector | None = None
 ) -> list[Piece]:
-    """Return most of a circle, open on the side away from the viewer or from `middle`, with an arrowhead at its
-    right-handed end."""
+    """Return most of a circle, with an arrowhead at its right-handed end."""
     u, v = across(along)
     towards = paper.stance.eye if middle is None else middle
     front = max(range(360), key=lambda degree: dot(_round(u, v, degree), towards))
@@ -602,8 +592,7 @@ def _vanishes(vector: Any) -> bool:
 
 
 def _whole_direction(vector: Any) -> MatrixBase | None:
-    """Return the direction of a vector as numbers, if all symbols of the vector are in a common factor of known sign.
-    The result is None for any other vector and for the zero vector."""
+    """Return the direction of a vector as numbers; None if the direction is unknown."""
     if _vanishes(vector):
         return None
     factor, rest = factored_matrix(explicit(vector))

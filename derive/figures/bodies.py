@@ -89,8 +89,7 @@ def seen_outline(body: Body, about: str | None = None, named: bool = True) -> li
 
 
 def _reach(body: Body, point: Point, along: Position) -> Position:
-    """Return where an axis leaves a flat body with a curved edge, or a round body whose centre is on this axis, such as
-    a ball with a cavity or the ball at the end of a rod; the origin if it leaves no such body."""
+    """Return the place at which an axis leaves a body, or the origin."""
     match body.boundary:
         case Rim() as rim:
             ends = [point.seen(place) for place in rim.places(EDGE)]
@@ -115,8 +114,7 @@ def _seen_of(part: Any, point: Point) -> Callable[[Position], Position]:
 def _ends_of_round(
     boundary: Round, seen: Callable[[Position], Position], turn: Position, along: Position
 ) -> list[Position]:
-    """Return the points of a round body with the least and the greatest coordinate along an axis that is parallel or
-    perpendicular to the axis of the body; an empty list for any other axis."""
+    """Return the two ends of a round body along an axis that is parallel or perpendicular to the axis of the body."""
     own = turn.T * along
     if own[2] != 0:
         return [seen(z * Z) for z in boundary.ends] if abs(own[2]) == 1 else []
@@ -125,8 +123,7 @@ def _ends_of_round(
 
 
 def _end_on(marks: Sequence[Mark], along: Position) -> Position:
-    """Return the start of the visible part of an axis. If a thin rod goes from the origin along the positive axis, this
-    is the far end of the rod; otherwise it is the origin."""
+    """Return the start of the visible part of an axis: the far end of a thin rod along the axis, or the origin."""
     for mark in marks:
         if isinstance(mark, ThinRod) and ORIGIN in (mark.start, mark.end):
             _, end = sorted((mark.start, mark.end), key=lambda place: place != ORIGIN)
@@ -143,8 +140,7 @@ def axes_at(body: Body, about: str) -> list[Mark]:
 
 
 def is_in_plane(body: Body) -> bool:
-    """Return whether a body has several parts and is flat perpendicular to its z axis; such a body is shown in its
-    plane."""
+    """Return whether a body of several parts is drawn in its plane."""
     return hasattr(body, "parts") and body.flat_across == "z"
 
 
@@ -169,7 +165,6 @@ class Pose:
 
 
 def _pose(point: Point) -> Pose:
-    """Return the pose of a body in a drawing with the origin and the axes of this point."""
     return Pose(point.seen, point.axes.T * Z)
 
 
@@ -239,10 +234,7 @@ def widest_of(boundary: Round) -> tuple[Expr, Expr]:
 
 
 def _of_parts(parts: Sequence[Any], whole: Point, named: bool, in_plane: bool) -> list[Mark]:
-    """Return the marks of all parts; an empty list if a part, or a removed part, cannot be drawn.
-
-    A mark is left out if its label is already the label of a mark of an earlier part.
-    """
+    """Return the marks of all parts; an empty list if a part, or a removed part, cannot be drawn."""
     marks: list[Mark] = []
     for part in parts:
         body, held = part.body, part.body.point(part.of).position
@@ -264,8 +256,7 @@ def _of_parts(parts: Sequence[Any], whole: Point, named: bool, in_plane: bool) -
 
 
 def _hollow(body: Body, point: Point, aside: Position, named: bool, in_plane: bool) -> list[Mark]:
-    """Return the marks of a removed part: a closed round cavity or, in a drawing in the plane of the part, a disc or a
-    part with straight edges. For any other part the list is empty."""
+    """Return the marks of a removed part, if it can be drawn."""
     boundary, pose = body.boundary, _pose(point)
     if isinstance(boundary, Faces) and in_plane:
         return [Hole(mark) for mark in in_space(boundary, pose, words_of(body)) if isinstance(mark, Surface)]
@@ -280,8 +271,7 @@ def _hollow(body: Body, point: Point, aside: Position, named: bool, in_plane: bo
 
 
 def _sizes(body: Body, boundary: Boundary | None, point: Point, aside: Position) -> list[Mark]:
-    """Return lines that show the sizes of a body in any orientation. The list is empty unless the body is a rod, a flat
-    body with a curved edge, or a round body, which may be hollow."""
+    """Return lines that show the sizes of a body in any orientation."""
     match boundary:
         case Round():
             return _round_sizes(body, boundary, point, aside)
@@ -298,7 +288,6 @@ def _sizes(body: Body, boundary: Boundary | None, point: Point, aside: Position)
 
 
 def _round_sizes(body: Body, boundary: Round, point: Point, aside: Position) -> list[Mark]:
-    """Return the lines for the greatest radius and for the length, if these are measures of the body."""
     along, origin = point.axes.T * Z, point.seen(ORIGIN)
     low, high = boundary.ends
     wide, radius = widest_of(boundary)
@@ -312,8 +301,7 @@ def _round_sizes(body: Body, boundary: Round, point: Point, aside: Position) -> 
 
 
 def _edge_lengths(boundary: Faces, point: Point) -> list[Mark]:
-    """Return one dimension line for each edge length of a flat body, and two for the equal edges of an isosceles
-    triangle, which are not parallel."""
+    """Return dimension lines for the edge lengths of a flat body."""
     corners = tuple(map(point.seen, boundary.corners))
     middle = sum(corners, ORIGIN) / len(corners)
     is_isosceles = len(corners) == 3 and any(len(edges) == 2 for _, edges in boundary.edges)
@@ -339,8 +327,6 @@ def body_axes(boundary: Faces, point: Point) -> list[Mark]:
 
 
 def _measures(body: Body, boundary: Round, point: Point) -> list[Mark]:
-    """Return the axes from the point, and the lines for the greatest radius and for the height, if these are measures
-    of the body."""
     profile = [(point.seen(column(0, 0, z))[2], radius) for z, radius in _profile(boundary)]
     (low, below), (high, above) = sorted((profile[0], profile[-1]), key=lambda end: not end[0].is_nonpositive)
     wide, radius = max([(low, below), (high, above), *profile], key=lambda ring: numeric(ring[1]))
@@ -360,10 +346,7 @@ def _measures(body: Body, boundary: Round, point: Point) -> list[Mark]:
 
 
 def _with_slice(marks: Sequence[Mark], boundary: Round, point: Point) -> list[Mark]:
-    """Add a slice at the height z from the point, with its radius, and a dimension line for z.
-
-    Existing dimension lines move outwards.
-    """
+    """Add a slice at the height z from the point, with its radius and a dimension line for z."""
     z = scalar("z")
     lower, upper = boundary.ends
     at = lower + CUT * (upper - lower)
@@ -392,7 +375,7 @@ def _is_told(length: Expr, body: Body) -> bool:
 
 
 def _ellipsoid(boundary: Ellipsoidal, point: Point, named: bool) -> list[Mark]:
-    """Return the ellipsoid; if `named`, with dashed and labelled semi-axes, and with axes beyond their ends."""
+    """Return the ellipsoid; if `named`, with labelled semi-axes and with axes beyond their ends."""
     centre, semi_axes = point.seen(ORIGIN), boundary.semi_axes
     marks: list[Mark] = [EllipsoidMark(centre, semi_axes, name=Ellipsoid.id, measures=(("semi_axes", semi_axes),))]
     for size, along, name in zip(semi_axes, UNIT, AXES, strict=True) if named else ():
@@ -402,8 +385,8 @@ def _ellipsoid(boundary: Ellipsoidal, point: Point, named: bool) -> list[Mark]:
 
 
 def torus_section(body: Body) -> list[Mark]:
-    """Return the section of a torus by the plane of y and z, with its axes and both radii, and a point of one
-    cross-section with its coordinates: the distance from the middle, and the angle from the y axis."""
+    """Return the section of a torus by the plane of y and z, with its axes and both radii. One point of the section is
+    marked with its polar coordinates."""
     boundary = body.boundary
     assert isinstance(boundary, Toroidal)
     (distance, *_), (angle, *_), *_ = body.map()[1]
@@ -425,7 +408,6 @@ def torus_section(body: Body) -> list[Mark]:
 
 
 def _torus(boundary: Toroidal, words: dict[str, Any], point: Point, named: bool) -> list[Mark]:
-    """Return the torus; if `named`, with lines for both radii along y, and with its axes."""
     centre, radius, section = point.seen(ORIGIN), boundary.radius, boundary.section
     marks: list[Mark] = [TorusMark(centre, radius, section, **words)]
     if not named:

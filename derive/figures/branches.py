@@ -44,8 +44,7 @@ Function: TypeAlias = Callable[[float], float]
 
 @dataclass(frozen=True)
 class BranchLine:
-    """A part of a branch on which the equilibrium is stable, or on which it is unstable; `of` is the index of its
-    equilibrium."""
+    """A part of a branch on which the stability does not change; `of` is the index of the equilibrium."""
 
     of: int
     is_stable: bool
@@ -108,7 +107,6 @@ def bifurcations_of(
 
 
 def _state(branch: Branch, parameter: Symbol, numbers: Mapping[Any, Expr]) -> Callable[[float], State]:
-    """Return the function that returns the state of an equilibrium for a value of the parameter."""
     exists, stable = (_truth(each, parameter, numbers) for each in (branch.exists, branch.stable))
     return lambda x: stable(x) if exists(x) else None
 
@@ -138,7 +136,6 @@ def _real(expr: Expr, parameter: Symbol) -> Function:
 def _borders(
     condition: Relation, parameter: Symbol, ends: tuple[float, float], numbers: Mapping[Any, Expr]
 ) -> Iterator[float]:
-    """Yield the values of the parameter at which the truth of a condition changes."""
     residual = _real(condition.residual.xreplace(dict(numbers)), parameter)
     grid = [ends[0] + (ends[1] - ends[0]) * i / GRID for i in range(GRID + 1)]
     signed = [(x, value > 0) for x in grid if isfinite(value := residual(x)) and value]
@@ -148,7 +145,6 @@ def _borders(
 
 
 def _has_sign(value: Function, is_positive: bool, x: float) -> bool:
-    """Whether the sign of a value is positive, or negative if `is_positive` is false."""
     return (value(x) > 0) == is_positive
 
 
@@ -161,7 +157,6 @@ def _halved(is_left: Callable[[float], bool], low: float, high: float) -> float:
 
 
 def _apart(borders: Sequence[float], width: float) -> list[float]:
-    """Return the borders, in order, without those that repeat another one."""
     found: list[float] = []
     for x in borders:
         if not found or x - found[-1] > CLOSE * width:
@@ -173,7 +168,7 @@ def _apart(borders: Sequence[float], width: float) -> list[float]:
 
 
 def _lines(i: int, place: Function, spans: Sequence[tuple[float, float, tuple[State, ...]]]) -> Iterator[BranchLine]:
-    """Yield the lines of one equilibrium; the points are close to each other at both ends, where a branch is steep."""
+    """Yield the lines of one equilibrium."""
     begun: tuple[float, bool] | None = None
     for k, (start, end, states) in enumerate(spans):
         state = states[i]
@@ -190,7 +185,7 @@ def _lines(i: int, place: Function, spans: Sequence[tuple[float, float, tuple[St
 
 
 def _extent(diagram: Diagram, lines: Sequence[BranchLine]) -> tuple[float, float]:
-    """Return the smallest and the greatest value on all lines; two different values, even if all are equal."""
+    """Return the ends of an axis with room for all lines."""
     values = [y for line in lines for _, y in line.points]
     if not values:
         raise Rejected(Complaint("drawing", "no equilibrium exists within the range of the diagram"))
@@ -204,7 +199,6 @@ def _extent(diagram: Diagram, lines: Sequence[BranchLine]) -> tuple[float, float
 
 
 def _clipped(line: BranchLine, low: float, high: float) -> Iterator[BranchLine]:
-    """Yield the parts of a line between the ends of the vertical axis."""
     part: list[tuple[float, float]] = []
     for k, (x, y) in enumerate(line.points):
         is_inside = low <= y <= high
@@ -219,7 +213,6 @@ def _clipped(line: BranchLine, low: float, high: float) -> Iterator[BranchLine]:
 
 
 def _crossing(one: tuple[float, float], other: tuple[float, float], low: float, high: float) -> tuple[float, float]:
-    """Return the point between two points, one of them outside the axis, at which the line leaves the axis."""
     edge = high if max(one[1], other[1]) > high else low
     share = (edge - one[1]) / (other[1] - one[1])
     return one[0] + share * (other[0] - one[0]), edge
@@ -231,7 +224,6 @@ def _change(
     places: Sequence[Function],
     axis: tuple[float, float],
 ) -> Change | None:
-    """Return what changes between two intervals of the parameter; None if nothing changes within the axis."""
     at, room = left[1], CLOSE * (axis[1] - axis[0])
     changed = [place(at) for place, one, other in zip(places, left[2], right[2], strict=True) if one != other]
     found: list[float] = []
@@ -245,8 +237,7 @@ def _change(
 
 
 def _searched(diagram: Diagram, low: float, high: float, is_whole: bool) -> tuple[float, float]:
-    """Return the values of the coordinate between which the second route counts zeros: a little more than the vertical
-    axis, much more if the axis should show all equilibria, and not more than the range of the coordinate."""
+    """Return the values of the coordinate between which the second route counts zeros."""
     size = high - low
     below, above = (part + is_whole for part in WIDENED)
     least, greatest = (float(end) if end is not None else None for end in diagram.within)
@@ -308,7 +299,6 @@ def _wrong(message: str) -> Unverified:
 
 
 def _grid(searched: tuple[float, float], is_periodic: bool) -> list[float]:
-    """Return the values of the coordinate at which the slope is evaluated: one turn, or between two values."""
     start, size = searched[0], searched[1] - searched[0]
     if is_periodic:
         start, size = -pi + OFFSET * 2 * pi, 2 * pi
@@ -316,9 +306,7 @@ def _grid(searched: tuple[float, float], is_periodic: bool) -> list[float]:
 
 
 def _within(known: Sequence[tuple[float, bool]], grid: Sequence[float], is_periodic: bool) -> list[tuple[float, bool]]:
-    """Return the equilibria within the grid; an angle is moved into the grid by full turns, and equal angles are
-    returned once.
-    """
+    """Return the equilibria within the grid; an angle is moved into the grid by full turns."""
     if not is_periodic:
         return [(y, state) for y, state in known if grid[0] < y < grid[-1]]
     found: list[tuple[float, bool]] = []
@@ -330,7 +318,6 @@ def _within(known: Sequence[tuple[float, bool]], grid: Sequence[float], is_perio
 
 
 def _zeros(slope: Callable[[Any], Any], grid: Sequence[float]) -> Iterator[float]:
-    """Yield the places at which the slope vanishes and changes its sign."""
     import numpy as np
 
     with np.errstate(all="ignore"):
@@ -345,7 +332,7 @@ def _zeros(slope: Callable[[Any], Any], grid: Sequence[float]) -> Iterator[float
 
 
 def _is_minimum(height: Callable[[Any, Any], Any], x: float, y: float, size: float) -> bool:
-    """Whether the energy is greater on both sides of a place. No formula is differentiated."""
+    """Whether the energy is greater on both sides of a place."""
     with mp.workdps(DIGITS):
         step = mp.mpf(size) * mp.mpf(10) ** -NEAR
         here = height(mp.mpf(x), mp.mpf(y))

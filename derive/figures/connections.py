@@ -90,7 +90,7 @@ def connections_of(system: System, sort: type[Sort]) -> list[Sort]:
 class Connections:
     """The connections of a system, the numbers that replace their symbols in the drawing, and their marks.
 
-    in_a_plane   whether the system moves in a plane; in space, only some planes are drawn: see `is_drawn`
+    in_a_plane   whether the system moves in a plane
     start        the values of coordinates at the start of a motion, if the drawing also shows the start
     """
 
@@ -142,9 +142,7 @@ class Connections:
         return {**drawn_at(self.system.coordinates), **{letter: value.subs(chosen) for letter, value in found.items()}}
 
     def _free_value(self, q: Symbol, before: int) -> Expr | None:
-        """Return a value for the coordinate q, which is a length. The value is a fraction of a length that remains in
-        the positions if all coordinates are zero. The fraction is smaller if q is a displacement from a position of
-        rest, so that the parts do not change places. The result is None if there is no suitable length."""
+        """Return a readable value for the coordinate q, which is a length; None if no suitable length is known."""
         zero = dict.fromkeys((*self.system.coordinates, TIME), ZERO)
         components = [c for place in self.system.places for c in place.components]
         rests = [min(c.xreplace(zero).free_symbols, key=str, default=None) for c in components if q in c.free_symbols]
@@ -183,8 +181,7 @@ class Connections:
         return found
 
     def _amplitudes(self) -> dict[Symbol, Expr]:
-        """Values of the amplitudes of oscillating supports: a fraction of the length of the string or rod at the
-        support."""
+        """Values of the amplitudes of oscillating supports."""
         found = {}
         for line in self.lines:
             length = self._kept_length(line)
@@ -239,7 +236,7 @@ class Connections:
             if share != 0 and not moving_in(self.system, share):
                 value, whole = tidied(q - residual / share), constraint.right
                 if q.is_positive and not value.is_positive and whole.is_Symbol and whole != self.size:
-                    return {whole: tidied(explicit(constraint.left).subs(known))}  # so that the coordinate is positive
+                    return {whole: tidied(explicit(constraint.left).subs(known))}
                 return {q: value}
         return {}
 
@@ -254,7 +251,6 @@ class Connections:
 
     @property
     def _span(self) -> Expr:
-        """The greatest distance between two places on strings and rods."""
         places = [place for line in self.lines for place in line.places]
         return max((distance_of(a, b) for a, b in combinations(places, 2) if not same(a, b)), key=self.number)
 
@@ -269,8 +265,7 @@ class Connections:
 
     @property
     def is_possible(self) -> bool:
-        """Whether, at the drawn values, each body that touches a curve is on the curve. The coordinates of such a body
-        cannot always be computed from the curve."""
+        """Whether each body that touches a curve is drawn on the curve."""
         return all(abs(self.number(each.gap)) < EXACT for each in self.contacts if isinstance(each.surface, Curve))
 
     def number(self, value: Expr) -> float:
@@ -330,8 +325,7 @@ class Connections:
         return self.in_a_plane or is_level and is_fixed(self.system, surface.place)
 
     def _table(self, plane: Plane) -> Iterable[Mark]:
-        """Yield the marks of a horizontal plane in space: a round table, the axis about which the table rotates, and
-        the marks of the bodies on the table. Yield nothing if the plane is not drawn."""
+        """Yield the marks of a horizontal plane in space, and of the bodies on it."""
         if not self.is_drawn(plane):
             return
         through = column_of(plane.through)
@@ -345,8 +339,6 @@ class Connections:
                 yield from self._on_table(touch, plane)
 
     def _on_table(self, touch: Contact, plane: Plane) -> Iterable[Mark]:
-        """Yield the axes of the coordinates of a body that moves on a table, the line from its centre to the contact,
-        and its Euler angles."""
         arm = distance_of(touch.of.centre, touch.at)
         for k, q in enumerate(touch.of.centre.components):
             if q in self.system.coordinates:
@@ -359,9 +351,6 @@ class Connections:
         yield from euler_angles(self.system, touch.of, Rational(5, 4) * arm)
 
     def _table_radius(self, plane: Plane) -> Expr:
-        """The radius of a table. If only particles touch the table, or if the contacts keep their distances from its
-        middle, the radius is a little greater than the greatest of these distances. Otherwise it is a multiple of
-        `ball_size`."""
         touches = [each for each in self.contacts if each.surface == plane]
         ways = [distance_of(plane.through, each.at) for each in touches]
         if any(moving_in(self.system, way) for way in ways) and any(hasattr(each.of, "hub") for each in touches):
@@ -375,12 +364,10 @@ class Connections:
         return max(arms, key=numeric, default=ONE)
 
     def _carries(self, of: Any) -> bool:
-        """Whether `of` carries a surface of a contact. A particle that does so is a wedge or a plank with its own
-        floor."""
+        """Whether `of` carries a surface of a contact, as a wedge or a plank does."""
         return of is not None and any(each.surface.of == of for each in self.contacts)
 
     def _plane(self, plane: Plane, low: Location, high: Location, contacts: Sequence[Contact]) -> Iterable[Mark]:
-        """Yield the hatched line of a fixed plane; a rail has no hatches, and a belt has an arrow instead."""
         if plane.is_two_sided:
             yield Edge(column_of(low), column_of(high), "edge")
         elif isinstance(plane.moves, Location):
@@ -395,9 +382,8 @@ class Connections:
             yield GroundMark(column_of(low), column_of(high), column_of(-plane.unit_normal))
 
     def carries_only_blocks(self, plane: Surface) -> bool:
-        """Whether the surface is a level plane that only particles touch and that no body carries. Each of these
-        particles is drawn as a block with its centre at the particle. So springs and strings are at half the height of
-        the block."""
+        """Whether the surface is a level plane under particles that are drawn as blocks. The centre of each block is at
+        its particle, so springs and strings are at half the height of the block."""
         on_it = [each.of for each in self.contacts if each.surface == plane]
         return (
             isinstance(plane, Plane)
@@ -407,8 +393,7 @@ class Connections:
         )
 
     def _floor(self, plane: Plane, contacts: Sequence[Contact]) -> Mark:
-        """Return the floor under blocks. If a spring or a string ends at a fixed place at the height of the floor, such
-        as a wall or a pulley, the floor also ends at this place."""
+        """Return the floor under blocks."""
         height = plane.through.components[1]
         ends = [place for each in self.system.between for place in (each.start, each.end)]
         ends += [place for line in self.lines for place in line.places]
@@ -422,7 +407,6 @@ class Connections:
         return FloorMark(tuple(column_of(p) for p in (*blocks, *walls, *starts[:-1])), off, margins)
 
     def _landing(self, plane: Surface) -> Iterable[Mark]:
-        """Yield the plane on which a flight ends, below or beside the circle or the string from which it begins."""
         if not isinstance(plane, Plane):
             return
         along = Location((plane.unit_normal.components[1], -plane.unit_normal.components[0]))
@@ -475,7 +459,6 @@ class Connections:
         return list(dict.fromkeys(each.surface for each in self.contacts if isinstance(each.surface, Plane)))
 
     def _slope(self, plane: Plane, low: Location, high: Location) -> Iterable[Mark]:
-        """Yield the angle of an inclined plane, at its lower end."""
         x, y = (high - low).components
         if abs(self.number(x)) <= SMALL or abs(self.number(y)) <= SMALL:
             return
@@ -510,15 +493,13 @@ class Connections:
             yield FloorMark(tuple(column_of(corner) for corner in lowest))
 
     def _floor_under(self, particle: Particle) -> Expr | None:
-        """The height of the plane on which a particle stands, if no body carries this plane; None if there is no such
-        plane."""
+        """The height of the plane on which a particle stands; None if there is no such plane."""
         for each in self.contacts:
             if each.of == particle and isinstance(each.surface, Plane) and each.surface.of is None:
                 return each.surface.through.components[1]
         return None
 
     def _curve(self, curve: Curve, contacts: Sequence[Contact]) -> Mark:
-        """Return the drawn part of a curve: to both sides of its origin, a little farther than the bodies on it."""
         ways = [(each.at - curve.through).components[0] for each in contacts]
         far = PAST * max((way if self.number(way) > 0 else -way for way in ways), key=self.number)
         place = column_of(curve.through + Location((curve.letter, curve.formula)))
@@ -566,7 +547,6 @@ class Connections:
             yield from self._end(line, place, other)
 
     def _string(self, line: Line) -> Iterable[Mark]:
-        """Yield a string with its pulleys of negligible radius, if there are any."""
         columns = tuple(column_of(place) for place in line.places)
         small = self._span * WHEEL if self.in_a_plane and len(columns) > 2 else ZERO
         radii = (ZERO, *(e.radius if isinstance(e, Pulley) else small for e in line.through[1:-1]), ZERO)
@@ -593,21 +573,18 @@ class Connections:
                 yield TiedEndMark(string, k == 1)
 
     def _hanger(self, line: Line, at: Location) -> Expr:
-        """Return the distance from a fixed small pulley to the ceiling: the height of an end of the string that is
-        fixed above the pulley, or by default a part of `_span`."""
+        """Return the drawn distance from a fixed small pulley to the ceiling."""
         fixed = [line.places[k] for k in (0, -1) if is_fixed(self.system, line.places[k])]
         above = [tidied((place - at).components[1]) for place in fixed]
         return next((height for height in above if self.number(height) > SMALL), HANGER * self._span)
 
     def _small_pulleys(self, line: Line) -> tuple[int, ...]:
-        """Return the indices of the pulleys of negligible radius, for a system in a plane."""
         if line.is_rod or line.rope is not None or not self.in_a_plane or self._is_corner(line):
             return ()
         last = len(line.through) - 1
         return tuple(k for k, each in enumerate(line.through) if 0 < k < last and not isinstance(each, Pulley))
 
     def _loose_ends(self, line: Line) -> Iterator[tuple[Location, Location]]:
-        """Yield the ends of a line that have no support yet, each with the place next to it."""
         for k, beside in ((0, 1), (-1, -2)):
             if not (self._small_pulleys(line) and is_fixed(self.system, line.places[k])):
                 yield line.places[k], line.places[beside]
@@ -625,9 +602,8 @@ class Connections:
         return any(same(plane.through, hole) and hole.components[-1] == 0 for plane in tables for hole in holes)
 
     def _lifts(self, line: Line) -> tuple[float, float]:
-        """The shifts of the two parts of a string away from the surfaces below. On a slope, or on any other
-        surface for which `carries_only_blocks` is false, the base of a block is at the position of its particle. The
-        part that leads to such a block is shifted by half the height of the block. Any other part is not shifted."""
+        """The shifts of the two parts of a string away from the surfaces below. A string to a block on a slope is then
+        at half the height of the block."""
         stands = [
             any(same(touch.at, place) and not self.carries_only_blocks(touch.surface) for touch in self.contacts)
             for place in (line.places[0], line.places[-1])
@@ -635,21 +611,18 @@ class Connections:
         return (BLOCK[1] / 2 if stands[0] else 0.0, BLOCK[1] / 2 if stands[1] else 0.0)
 
     def _kept_length(self, line: Line) -> Expr | None:
-        """The length of a string or rod, if this length is constant and is a symbol or a multiple of a symbol;
-        otherwise None."""
+        """The length of a string or rod if this length is constant and has a symbol; otherwise None."""
         constraint = next((c for c in self.system.constraints if c.forces and c.forces == line.forces), None)
         length = constraint.left if constraint is not None else distance_of(line.places[0], line.places[-1])
         return length if length.as_coeff_Mul()[1].is_Symbol and not moving_in(self.system, length) else None
 
     def _link_along(self, line: Line) -> Link:
-        """The link along a straight string or rod; the link starts at the end whose position contains fewer
-        coordinates."""
+        """The link along a straight string or rod."""
         start, end = line.places
         moving = [moving_in(self.system, *place.components) for place in (start, end)]
         return line_between(end, start) if len(moving[1]) < len(moving[0]) else line_between(start, end)
 
     def _pulley(self, at: Location, radius: Expr) -> Iterable[Mark]:
-        """Yield a pulley. If the pulley is fixed and is not a particle, also yield its hanger and the ceiling."""
         particle = next((one for one in self.system.particles if same(one.at, at)), None)
         label = radius if radius.is_Symbol else None
         yield WheelMark(column_of(at), radius, label=particle.mass if particle else label)
@@ -677,7 +650,6 @@ class Connections:
         return Location((tidied(x / size), tidied(y / size)))
 
     def _end(self, line: Line, place: Location, other: Location) -> Iterable[Mark]:
-        """Yield the support of an end of a string or rod, if the end is fixed or has a prescribed motion."""
         holds = any(same(place, at) for _, at in self.system.masses) or any(
             same(place, each.at) for each in connections_of(self.system, Pulley)
         )
@@ -699,8 +671,7 @@ class Connections:
             yield FixedEnd(column_of(place), column_of(other - place))
 
     def _turns(self) -> bool:
-        """Whether the system is in space and an angle in its positions depends on time, as in a prescribed rotation.
-        Such a system is drawn without a ceiling."""
+        """Whether an angle in the positions of a system in space depends on time, as in a prescribed rotation."""
         angles = {f.args[0] for p in self.system.places for c in p.components for f in c.atoms(sin, cos)}
         return self.rows == 3 and any(angle.has(TIME) for angle in angles)
 
@@ -711,8 +682,7 @@ class Connections:
         return [FixedEnd(column_of(pin.at), downwards(self.rows) if still else column_of(pin.at) * 0, True)]
 
     def _wire(self, wire: Wire) -> Iterable[Mark]:
-        """Yield the curve of a wire: the path of its particle as the coordinate of the particle varies, within the
-        range of this coordinate if the range is finite."""
+        """Yield the curve of a wire: the path of its particle as the coordinate of the particle varies."""
         at = wire.of.at
         (q,) = moving_in(self.system, *at.components) - {TIME}
         start = Location(tuple(c.xreplace({q: ZERO}) for c in at.components))
@@ -725,8 +695,6 @@ class Connections:
         yield WayMark(column_of(at), q, low, high, "wire")
 
     def _motor(self, motor: Motor) -> Iterable[Mark]:
-        """Yield the arrow of the torque about the axis of the body that the motor turns, on the side away from the
-        body."""
         for placed in self.system.bodies if self.in_a_plane else ():
             sense = diff(placed.turned, motor.angle) if motor.angle.is_Symbol else ZERO
             if sense in (1, -1) and is_fixed(self.system, placed.at):
@@ -780,8 +748,7 @@ class Connections:
         return next((piece for piece in pieces if distance_of(*piece) == length), None)
 
     def holds(self, particle: Particle) -> bool:
-        """Whether the drawing shows what holds the particle: a contact, if the system moves in a plane, or the end of a
-        string or rod."""
+        """Whether the drawing shows what holds the particle, such as a surface or a string."""
         touched = any(each.of == particle for each in self.contacts) and self.in_a_plane
         return touched or any(same(particle.at, line.places[k]) for line in self.lines for k in (0, -1))
 
@@ -798,8 +765,7 @@ class Connections:
 
 
 def distance_of(start: Location, end: Location) -> Expr:
-    """Return the distance between two places. If they differ only in one component, by an expression of unknown sign,
-    the result contains the absolute value of this expression."""
+    """Return the distance between two places."""
     return sqrt(tidied(Add(*(c**2 for c in (end - start).components))))
 
 

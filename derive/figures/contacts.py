@@ -79,8 +79,7 @@ def _on_a_plane(system: System, rolling: Rolling, contact: Location) -> Iterable
 
 
 def _cylinder(system: System, link: Link, rolling: Rolling) -> Iterable[Mark]:
-    """Yield the marks of a cylinder seen along its axis: the circle, its centre, the contact, and the angle of the line
-    from the centre to the contact. If a body rolls inside, the line is drawn only to the centre of the body."""
+    """Yield the marks of a cylinder seen along its axis, of the contact, and of the angle of the contact."""
     centre, contact = column_of(link.start), column_of(link.end)
     outside = _is_outside(system, link, rolling)
     yield Circle(centre, ACROSS, link.length, outside, name="fixed_cylinder")
@@ -95,15 +94,12 @@ def _cylinder(system: System, link: Link, rolling: Rolling) -> Iterable[Mark]:
 
 
 def _between_axes(system: System, link: Link, rolling: Rolling) -> Expr | None:
-    """Return the distance between the axes of the cylinder and of the body, if it is constant and not zero."""
     way = [c.subs(system.known) for c in (rolling.body.centre - link.start).components]
     length = sqrt(tidied(Add(*(c**2 for c in way))))
     return None if length == 0 or moving_in(system, length) else length
 
 
 def _is_outside(system: System, link: Link, rolling: Rolling) -> bool:
-    """Whether, at zero coordinates, the centre of the body is farther from the axis of the cylinder than the contact
-    is."""
     middle = rolling.body.centre - link.start
     beyond = Add(*(c**2 for c in middle.components)) - link.length**2
     at_zero = dict.fromkeys(system.coordinates, ZERO)

@@ -98,8 +98,7 @@ def zeros(expr: Expr, variable: Symbol, lower: float, upper: float) -> tuple[flo
 
 
 def meetings(one: Expr, other: Expr, variable: Symbol, lower: float, upper: float) -> tuple[float, ...]:
-    """Return the places inside the range at which two curves meet, also at its ends, but not where both start from
-    zero."""
+    """Return the places in the range at which two curves meet. A common start at zero does not count."""
     found = zeros(one - other, variable, lower, upper)
     f, g = (lambdify([variable], each, "math") for each in (one, other))
     start, size = float(f(lower)), max(abs(float(each(upper))) for each in (f, g))
@@ -108,7 +107,6 @@ def meetings(one: Expr, other: Expr, variable: Symbol, lower: float, upper: floa
 
 
 def _narrowed(slope: Callable[[float], Any], low: float, high: float) -> float:
-    """Find the place at which a function, such as the slope, changes sign, by bisection."""
     below = slope(low) < 0
     for _ in range(80):
         middle = (low + high) / 2
@@ -131,8 +129,6 @@ def _is_pole(f: Callable[[float], Any], at: float, xs: Sequence[float]) -> bool:
 
 
 def _confirm(f: Callable[[float], Any], at: float, step: float, kind: str) -> None:
-    """Check that the curve is higher one step to either side of a minimum, or lower one step to either side of a
-    maximum."""
     rises = [f(at + side * step) - f(at) for side in (-1, 1)]
     if not all(rise > 0 if kind == MINIMUM else rise < 0 for rise in rises):
         raise Unverified(Complaint("unverified", f"at {at:g} the curve has no {kind}, but its slope changes sign"))

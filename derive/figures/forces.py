@@ -48,14 +48,13 @@ from derive.steps.trial_numbers import assumptions_about, trial_points
 __all__ = ["BodyAlone", "draw_alone", "forces_as_named", "forces_in_state", "forces_on_pulley", "forces_on_rope"]
 
 LONG = Rational(4, 5)  # approximate length of the arrow of the greatest force on a rod, relative to the size of the rod
-# The drawn size of a body that is not a rod, in a plane and in space, in points. The radius of a disc in a plane is 0.7
-# times this size.
+# The drawn size of a body that is not a rod, in a plane and in space, in points.
 BODY, BODY_IN_SPACE = 32.0, 20.0
 LEAST = Rational(1, 4)  # length of the shortest arrow, relative to the longest arrow
 # All arrows are enlarged until the shortest arrow at a particle has the length VISIBLE, in units of FORCE points, but
 # at most by the factor LONGER.
 VISIBLE, LONGER = Rational(1, 2), Integer(2)
-ON_A_LINE = Rational(3, 5)  # the scale of all arrows if the forces on each particle are on one line, so simple
+ON_A_LINE = Rational(3, 5)  # the scale of all arrows if the forces on each particle are on one line
 OFF = Rational(1, 30)  # distance between a rod and the arrow of a force along it, relative to the length of the rod
 APART = 5.0  # the distance between the arrows of two forces on the same line, in points
 ALONG = 1.8  # distance between a surface and the arrow of a force along it, on the side of the body, in points
@@ -65,7 +64,7 @@ STANDING, SHORT, SHORTEST = 47.0, Rational(12, 25), Rational(7, 20)
 ROPE = 110.0  # the drawn length of a whole rope, whose pieces are drawn alone, in points
 FOOT = 30.0  # half the length of the piece of a surface under a body, in points
 SLIGHT, NEAR = 1e-6, 0.3  # a negligible distance, and a small gap between arrowheads, relative to the arrow's length
-ANGLE = Rational(63, 100)  # the value of an angle that has no given value, in radians, about as in other drawings
+ANGLE = Rational(63, 100)  # the value of an angle that has no given value, in radians
 NORMALS = ("N", "F_n", "n")  # possible symbols of a normal force that does not appear in the equations
 
 
@@ -92,10 +91,7 @@ def forces_in_state(key: str, system: System, of: Any, found: Mapping[Symbol, Qu
     found   symbol of a constraint force -> the step that derives the force
 
     The lengths of the arrows are to scale for the system at rest, but small forces are drawn larger. If the value of a
-    force is negative, its arrow is reversed. The result is None in space, or if no connection acts on the body. It is
-    also None if `found` lacks a constraint force, or if other forces act that the diagram would not show. Finally, it
-    is None if the direction of a force is unknown, or if a body that touches a curve is not on the curve in the drawn
-    state.
+    force is negative, its arrow is reversed. The result is None in space, or if the diagram would be incomplete.
     """
     acting = _acting(system, of)
     letters = {letter for force in acting for letter in _multipliers(system, force)}
@@ -120,8 +116,7 @@ def forces_as_named(
     leads_to  the keys of the laws of this body; the drawing is placed before these laws
     found     as for `forces_in_state`; the lengths of the arrows have no meaning in space, or if `found` lacks a force
 
-    The result is None if no connection acts on the body, or if other forces act that the diagram would not show. It is
-    also None if a body that touches a curve is not on the curve in the drawn state.
+    The result is None if the diagram would be incomplete.
     """
     scene, acting = Connections(system), _acting(system, of)
     if not acting or not _shows_all(system, of, acting, {}) or not scene.is_possible:
@@ -134,8 +129,8 @@ def forces_as_named(
 def forces_on_pulley(
     key: str, system: System, of: Pulley, leads_to: Sequence[str], found: Mapping[Symbol, Quantity]
 ) -> BodyAlone | None:
-    """Return a massless pulley that hangs on a string, with the pulls of all its strings; None in space, for a fixed
-    pulley, or if a string has no symbol for its tension."""
+    """Return a massless pulley that hangs on a string, with the pulls of all its strings; None if there is no such
+    diagram."""
     lines = [each for each in connections_of(system, Line) if any(same(of.at, at) for at in each.places)]
     if len(of.at.components) != 2 or is_fixed(system, of.at) or not lines or any(each.drawn is None for each in lines):
         return None
@@ -144,8 +139,7 @@ def forces_on_pulley(
 
 
 def _drawn_pulls(system: System, of: Any) -> list[PointForce]:
-    """Return the pulls of strings whose tension has a symbol only in force diagrams. The numbers of the drawing decide
-    about signs that the description leaves open."""
+    """Return the pulls of strings whose tension has a symbol only in force diagrams."""
     scene, found = Connections(system), []
     for line in connections_of(system, Line):
         for at, other in line.drawn_on(of):
@@ -205,7 +199,6 @@ def _normal_of(of: _RopePiece, normal: Location, system: System, others: Sequenc
 
 
 def _pull(pull: PointForce, found: Mapping[Symbol, Quantity]) -> _Drawn:
-    """Return the pull of a string with its value, if a step derives it."""
     steps = [found[letter] for letter in pull.size.free_symbols if letter in found]
     value = explicit(steps[0].value) if steps else None
     keys = tuple(step.key for step in steps)
@@ -217,7 +210,7 @@ def draw_alone(system: System, bodies: Sequence[BodyAlone]) -> list[Drawing]:
     for the same trial numbers."""
     scene = Connections(system)
     shares = [[_share(size) for size in own] for own in _sizes([each.forces for each in bodies], scene)]
-    # If a force on a particle is small, all forces are drawn longer, so that the particle does not cover it.
+    # All forces are drawn longer if a force on a particle is so small that the particle would cover its arrow.
     on_particles = [own for each, own in zip(bodies, shares, strict=True) if not isinstance(each.of, PlacedBody)]
     least = min((share for own in on_particles for share in own), default=1)
     at_least = ON_A_LINE if all(_is_on_a_line(each) for each in bodies) else Integer(1)
@@ -232,8 +225,7 @@ def draw_alone(system: System, bodies: Sequence[BodyAlone]) -> list[Drawing]:
 
 
 def _positive(system: System, alone: BodyAlone) -> Iterator[Mark]:
-    """Yield the positive direction of the coordinate of a particle whose forces are on one line, and the positive sense
-    of the angle of a round body, in a plane."""
+    """Yield the positive direction of a coordinate, or the positive sense of an angle."""
     of = alone.of
     if _is_on_a_line(alone):
         moving = [q for q in system.coordinates if any(derivative(c, q) != 0 for c in of.at.components)]
@@ -248,7 +240,6 @@ def _positive(system: System, alone: BodyAlone) -> Iterator[Mark]:
 
 
 def _is_on_a_line(alone: BodyAlone) -> bool:
-    """Whether a particle in a plane has forces along one line only."""
     if not isinstance(alone.of, Particle) or any(len(each.way) != 2 for each in alone.forces):
         return False
     ways = [each.way for each in alone.forces]
@@ -289,9 +280,8 @@ def _diagram(system: System, alone: BodyAlone, shares: Sequence[Rational], scene
 
 
 def _stands(scene: Connections, alone: BodyAlone) -> bool:
-    """Whether the weight and a normal force of a round body in a plane are on one line through its centre. Then the
-    normal force is drawn as a push from below, with its tip at the contact, because every force must start or end
-    exactly at its point of action: its torque depends on this point."""
+    """Whether the weight and a normal force of a round body are on one line through its centre. The normal force is
+    then drawn as a push with its tip at the contact, because its torque depends on its point of action."""
     of = alone.of
     if not scene.in_a_plane or not scene.system.weights or not isinstance(of, PlacedBody):
         return False
@@ -303,7 +293,6 @@ def _stands(scene: Connections, alone: BodyAlone) -> bool:
 
 
 def _is_below(drawn: _Drawn, of: PlacedBody, scene: Connections) -> bool:
-    """Whether a force pushes a body vertically at a place exactly below its centre of mass."""
     aside, above = _offset(drawn, of, scene)
     x, y, _ = _vector(scene, *drawn.way)
     return drawn.pushes and aside < SLIGHT and above < 0 and abs(x) < SLIGHT and y > 0
@@ -318,8 +307,8 @@ def _offset(drawn: _Drawn, of: PlacedBody, scene: Connections) -> tuple[float, f
 
 
 def _acting(system: System, of: Any) -> list[PointForce]:
-    """Return the forces of connections on a body. If there are such forces, and the coordinates alone keep the body on
-    one fixed plane, the normal force of this plane is added, although no equation contains its symbol."""
+    """Return the forces of connections on a body. The normal force of a plane is added if no equation contains its
+    symbol."""
     named = [force for each in connections_of(system, Connection) for force in each.on(of)]
     named += _drawn_pulls(system, of)
     return [*named, *_unnamed_normals(system, of)] if named else []
@@ -333,16 +322,19 @@ def _unnamed_normals(system: System, of: Any) -> list[PointForce]:
 
 
 def _letter_of_normal(system: System) -> Symbol:
-    """Return a symbol for a normal force that no equation contains."""
     used = {*given_letters(), *(each.force.name for each in system.constraints)}
     return scalar(next((name for name in NORMALS if name not in used), NORMALS[0]))
 
 
 @dataclass(frozen=True)
 class _Drawn:
-    """A force in a diagram. `value` is its value along `way` in the system at rest, or None if it is unknown; `pushes`
-    is true for the force of a surface, which cannot pull; `ends_there` is true if the tip of the arrow is at `at`;
-    `aside` is a shift of the arrow to its left, in points, for a string that leaves the rim of a small pulley."""
+    """A force in a diagram.
+
+    value       the value along `way` in the system at rest; None if it is unknown
+    pushes      whether it is the force of a surface, which cannot pull
+    ends_there  whether the tip of the arrow is at `at`
+    aside       the shift of the arrow to its left, in points
+    """
 
     at: Location
     way: Any
@@ -362,7 +354,6 @@ class _Drawn:
         return ForceArrow(place, self.way, size, False, self.ends_there, aside=aside, label=self.label, keys=self.keys)
 
     def line(self, length: float, scene: Connections) -> tuple[Vector, Vector]:
-        """Return the start and the end of the arrow."""
         start, along = (_vector(scene, *column) for column in (self.at.components, self.way))
         return start, plus(start, unit(along), length)
 
@@ -373,7 +364,6 @@ def _vector(scene: Connections, *components: Expr) -> Vector:
 
 
 def _there(value: Expr | None, scene: Connections) -> Expr:
-    """Return a value in the drawn state."""
     values = {q: scene.values[q] for q in scene.system.coordinates if q in scene.values}
     return tidied(as_expr(value).subs(values).subs(values))
 
@@ -394,11 +384,7 @@ def _sizes(diagrams: Sequence[Sequence[_Drawn]], scene: Connections) -> list[lis
 
 
 def _magnitudes(drawn: Sequence[_Drawn], scene: Connections) -> list[float] | None:
-    """Return the magnitudes of the forces for trial numbers that satisfy the assumptions and for which no surface
-    pulls; None without such numbers.
-
-    A symbol has the same number in all forces.
-    """
+    """Return the magnitudes of the forces for trial numbers that satisfy the assumptions; None without such numbers."""
     values = [explicit(with_numbers(as_expr(each.value).subs(scene.values).subs(scene.values))) for each in drawn]
     letters = sorted(set().union(*(value.free_symbols for value in values)), key=str)
     angles = {s for value in values for f in value.atoms(sin, cos) for s in f.free_symbols}
@@ -413,8 +399,7 @@ def _magnitudes(drawn: Sequence[_Drawn], scene: Connections) -> list[float] | No
 
 
 def _share(size: float) -> Rational:
-    """Return the length of an arrow relative to the longest arrow: at least `LEAST`, so that small forces stay
-    visible."""
+    """Return the length of an arrow relative to the longest arrow. Small forces stay visible."""
     return max(Rational(round(60 * size), 60), LEAST)
 
 
@@ -427,8 +412,7 @@ def _reach(of: Any, drawn: Sequence[_Drawn], scene: Connections) -> float:
 
 
 def _set_apart(lines: Sequence[tuple[Vector, Vector]]) -> list[float]:
-    """Return the shift of each arrow to its left, in points. An arrow is shifted only if it covers an earlier arrow;
-    the shift is away from the other arrows."""
+    """Return the shift of each arrow to its left, in points, so that no arrow covers another."""
     found = []
     for i, (start, end) in enumerate(lines):
         along = unit(plus(end, start, -1.0))
@@ -440,7 +424,6 @@ def _set_apart(lines: Sequence[tuple[Vector, Vector]]) -> list[float]:
 
 
 def _overlap(start: Vector, end: Vector, other_start: Vector, other_end: Vector) -> bool:
-    """Whether two arrows on one line overlap, or their heads almost meet."""
     way = plus(end, start, -1.0)
     long, along = size_of(way), unit(way)
     ways = [plus(place, start, -1.0) for place in (other_start, other_end)]
@@ -455,8 +438,6 @@ def _angles(system: System, of: Any, drawn: Sequence[tuple[_Drawn, float]]) -> I
     """Yield the angle of a rod, and the angles by which forces are inclined, in a plane.
 
     drawn   pairs of a force and the length of its arrow
-
-    Each angle is shown once, if possible at the force of a surface.
     """
     if len(system.places[0].components) != 2:
         return
@@ -489,13 +470,8 @@ def _has_others(system: System) -> bool:
 
 
 def _moves_by(system: System, of: Any, acting: Sequence[PointForce], found: Mapping[Symbol, Quantity]) -> bool:
-    """Whether the forces account for the motion of the centre of mass.
-
-    The axes along which the centre can move are considered first. The possible displacements of the centre and the
-    normal forces of planes must together span all directions of these axes. Along any other axis, a normal force of a
-    plane must act, or the forces must balance. If this is not so, an unknown reaction also acts, such as the force of
-    the ice on a plank. The force of an axle is the only reaction that is allowed in addition.
-    """
+    """Whether the drawn forces account for the motion of the centre of mass. If not, an unknown reaction also acts,
+    such as the force of the ice on a plank."""
     centre, mass = (of.centre, of.body.mass) if isinstance(of, PlacedBody) else (of.at, of.mass)
     moving = list(system.coordinates)
     free = [k for k, c in enumerate(centre.components) if coordinates_in(c)]
@@ -518,15 +494,12 @@ def _moves_by(system: System, of: Any, acting: Sequence[PointForce], found: Mapp
 
 
 def _multipliers(system: System, force: PointForce) -> list[Symbol]:
-    """The symbols of constraint forces, and of tensions in diagrams only, in a force."""
     letters = force.size.free_symbols | {s for c in force.direction for s in c.free_symbols}
     drawn = [each.drawn for each in connections_of(system, Line) if each.drawn is not None]
     return [letter for letter in (*(each.force for each in system.constraints), *drawn) if letter in letters]
 
 
 def _outline(of: Any, is_pulley: bool = False) -> Iterator[Mark]:
-    """Yield the outline of a body, or the disc of a particle. `is_pulley` is true for a particle that is a small
-    pulley."""
     if isinstance(of, PlacedBody):
         for mark in placed_outline(with_its_shape(of)):
             plain = replace(mark, label=None)
@@ -543,8 +516,8 @@ def _outline(of: Any, is_pulley: bool = False) -> Iterator[Mark]:
 
 
 def _over_pulley(system: System, of: Any) -> tuple[PointForce, PointForce] | None:
-    """Return the pulls of the two pieces of the string that runs over a particle, which is then a small pulley; None
-    without such a string. The rim of a pulley is drawn only in a plane."""
+    """Return the pulls of the two pieces of a string that runs over a particle, which is then a small pulley; None
+    without such a string."""
     if isinstance(of, PlacedBody | Pulley | _RopePiece) or len(of.at.components) != 2:
         return None
     lines = [each for each in connections_of(system, Line) if any(same(of.at, at) for at in each.places[1:-1])]
@@ -553,35 +526,31 @@ def _over_pulley(system: System, of: Any) -> tuple[PointForce, PointForce] | Non
 
 
 def _asides(pulls: tuple[PointForce, PointForce]) -> tuple[float, float]:
-    """Return the shifts to their left of the pulls of the two pieces of a string at a small pulley, in points, so that
-    each arrow starts at the rim. Both pieces are on the outer side of the bend; where the string returns along itself,
-    one piece is on each side of the pulley."""
+    """Return the shifts of the two pulls at a small pulley to their left, in points, so that each arrow starts at the
+    rim."""
     (x, y), (u, v) = (force.direction for force in pulls)
     side = -1.0 if numeric(x * v - y * u) > SLIGHT else 1.0
     return side * WHEEL, -side * WHEEL
 
 
 def _touched(scene: Connections, of: Any) -> list[Contact]:
-    """Return the contacts of a body with surfaces, in a plane."""
     return [each for each in scene.contacts if each.of == of] if scene.in_a_plane else []
 
 
 def _surfaces(touched: Sequence[Contact], of: Any) -> Iterator[Mark]:
-    """Yield a piece of each surface that a body touches, so that the direction of the normal force is visible. The
-    surface is below the disc of a particle, but at the point of contact of a body."""
+    """Yield a piece of each surface that a body touches, so that the direction of the normal force is visible."""
     for touch in touched:
         plain = touch.surface.is_two_sided or isinstance(touch.surface.moves, Location)  # a rail or a belt
         normal = column_of(touch.normal)
         if isinstance(of, PlacedBody):
             yield SurfacePiece(column_of(touch.at), normal, plain, 0.0, FOOT)
         else:
-            is_ground = touch.surface.of is None  # not the top of a plank, which moves
+            is_ground = touch.surface.of is None  # the top of a plank is not ground, because the plank moves
             yield SurfacePiece(column_of(of.at), normal, touch.surface.is_two_sided, is_fixed=is_ground)
 
 
 def _off_surface(drawn: _Drawn, touched: Sequence[Contact], scene: Connections) -> float:
-    """Return the shift of an arrow to its left, in points. An arrow along a surface is shifted to the side of the body,
-    so that it does not cover the line of the surface."""
+    """Return the shift of an arrow to its left, in points, so that it does not cover the line of a surface."""
     x, y, _ = _vector(scene, *drawn.way)
     for touch in touched:
         normal, gap = (_vector(scene, *place.components) for place in (touch.normal, drawn.at - touch.at))
@@ -602,7 +571,6 @@ def _mass(of: Any) -> Any:
 
 
 def _forces(system: System, of: Any, acting: Sequence[PointForce], found: Mapping[Symbol, Quantity]) -> list[_Drawn]:
-    """Return the forces with their values in the system at rest, if these are known."""
     still = {rate(q): Integer(0) for q in system.coordinates}
     values = {s: explicit(step.value).subs(still) for s, step in found.items() if isinstance(step.value, Expr)}
     surfaces = {each.force for each in system.constraints if each.enforcer == "surface"}
@@ -632,8 +600,7 @@ def _forces(system: System, of: Any, acting: Sequence[PointForce], found: Mappin
 
 
 def _is_on_axle(system: System, of: Any, acting: Sequence[PointForce]) -> bool:
-    """Whether only vertical strings or rods act on a body with a fixed centre in a plane. Then the body is on an axle,
-    like a pulley, and the force of the axle is vertical."""
+    """Whether a body is on an axle, like a pulley, so that the force of the axle is vertical."""
     if not isinstance(of, PlacedBody) or not of.is_plane or not is_fixed(system, of.centre):
         return False
     if any(force.direction[0] != 0 for force in acting):
@@ -652,11 +619,8 @@ def _axle_force(of: PlacedBody, others: Sequence[_Drawn]) -> list[_Drawn]:
 
 
 def _balance(normal: _Drawn, others: Sequence[_Drawn]) -> Expr | None:
-    """Return the normal force of a plane along which a body moves: it balances the components of the other forces along
-    the normal.
-
-    The result is None if the value of another force is unknown.
-    """
+    """Return the normal force of a plane along which a body moves, from the balance of forces; None if another force is
+    unknown."""
     if any(each.value is None for each in others):
         return None
     return tidied(-Add(*(as_expr(each.value) * (each.way.T * normal.way)[0] for each in others)))

@@ -91,8 +91,7 @@ def link_to(system: System, index: int, named: Sequence[Location] = ()) -> Link 
 
 
 def _rank(system: System, start: Location, known: list[Location]) -> tuple[int, str]:
-    """Return the rank of a possible start: 0 if it is known, 1 if it is fixed, 2 if it moves but its position contains
-    no angle, otherwise 3. The text of the position decides between starts of the same rank."""
+    """Return the rank of a possible start; known and fixed points come first."""
     order = 0 if any(same(start, each) for each in known) else 1 if is_fixed(system, start) else 2
     if order == 2 and any(system.coordinates.get(q) == "angle" for q in moving_in(system, *start.components)):
         order = 3
@@ -108,8 +107,8 @@ def _without(place: Location, q: Symbol) -> Location | None:
 
 
 def _link(system: System, start: Location, end: Location) -> Link | None:
-    """Return the link between two points. The result is None if an angle or time changes its length, or if the vector
-    between the points contains neither."""
+    """Return the link between two points, if an angle or time changes its direction but not its length; otherwise
+    None."""
     square = Add(*(c**2 for c in (end - start).components))
     turning = {q for q in moving_in(system, square) if system.coordinates.get(q) != "length"}
     if square == 0 or not turning or _varies(square, turning):
@@ -123,7 +122,7 @@ def _link(system: System, start: Location, end: Location) -> Link | None:
 
 
 def _varies(value: Expr, turning: set[Symbol]) -> bool:
-    """Return whether the value differs in two numerical samples; a value that does not differ may still vary."""
+    """Return whether the value differs in two numerical samples."""
     others = sorted(value.free_symbols - turning, key=str)
     fixed = {letter: Float(1.31 + 0.17 * i) for i, letter in enumerate(others)}
     # The samples also have different differences of angles, because a distance may depend only on these.

@@ -43,8 +43,7 @@ __all__ = ["draw_after", "draw_modes"]
 ANGLE = Rational(2, 5)  # approximate angle by which an angle is displaced at most, in radians
 MOVED = Rational(1, 6)  # approximate greatest displacement of a length, relative to the least distance in the system
 # Lengths in points, before the drawing is reduced.
-# The length of the shortest arrow, if the displacements have no known ratio or if the longest arrow may be longer; the
-# length of a shorter arrow that is still visible.
+# The usual length of the shortest arrow, and the length of a shorter arrow that is still visible.
 SHORTEST, VISIBLE = 14.0, 8.0
 # The usual length of the longest arrow, and its greatest length, used if another arrow would be too short.
 LONGEST = 42.0, 56.0
@@ -71,9 +70,8 @@ class DisplacementArrow(Mark):
              mass
     clear    the part of the distance to the arrow that scales with the drawing, a length
     off      the other part of this distance, in points; for an arrow that starts at a mass, the radius of the mass
-    room     the least distance between two masses, which limits all arrows if one is next to its mass; otherwise None
-    exact    whether the lengths of all arrows are in the ratio of the displacements, and a very small displacement has
-             no arrow; otherwise a short arrow is longer
+    room     the least distance between two masses, which limits the arrows; None without a limit
+    exact    whether the lengths of all arrows are in the ratio of the displacements
     """
 
     at: Position
@@ -148,9 +146,8 @@ def draw_modes(
     named   positions of further parts, as for `sketch`
     like    the name of the sketch of the system; the numbers of this sketch are also used here
 
-    The name of a drawing is the key of the shape. A system that a sketch cannot show, or that a prescribed motion
-    drives, has no such drawings. A mode is left out if the direction of a displacement depends on unknown numbers. If
-    all modes that are left are free motions, no mode is drawn.
+    The name of a drawing is the key of the shape. The list is empty if a sketch cannot show the system. A mode is left
+    out if the direction of a displacement depends on unknown numbers.
     """
     shapes = [each for each in steps if each.step.rule == MODE_SHAPE.name]
     if not shapes or len(system.places[0].components) != 2:
@@ -177,7 +174,6 @@ def draw_modes(
 
 
 def _together(shapes: Sequence[Quantity]) -> list[tuple[Linear, list[Quantity]]]:
-    """Return each `Linear` fact with the shapes of its modes."""
     found: list[tuple[Linear, list[Quantity]]] = []
     for shape in shapes:
         linear = next(fact for each in shape.parents if (fact := each.fact(Linear)) is not None)
@@ -191,8 +187,8 @@ def _together(shapes: Sequence[Quantity]) -> list[tuple[Linear, list[Quantity]]]
 def draw_after(
     key: str, system: System, moment: Moment, after: Sequence[Quantity], named: Sequence[Location] = ()
 ) -> Drawing | None:
-    """Draw a system in a plane a short time after an impact: displaced in the ratio of the rates just after it, with an
-    arrow for the velocity of each mass, and with dashed lines for the rods at the impact.
+    """Draw a system in a plane a short time after an impact: the displacements are in the ratio of the rates just after
+    the impact. An arrow shows the velocity of each mass.
 
     moment   the state at the impact
     after    the rates just after the impact
@@ -265,7 +261,6 @@ class _Displaced:
         return [(each, mass) for each, mass in pairs if any(each)]
 
     def _is_number(self, column: MatrixBase) -> bool:
-        """Whether trial numbers give real components."""
         try:
             return all(isfinite(self.number(c)) for c in column)
         except TypeError:  # a complex number
@@ -286,12 +281,10 @@ class _Displaced:
     # --- the drawing ---
 
     def _things_and_values(self) -> tuple[list[Mark], dict[Symbol, Any]]:
-        """Return the marks of the displaced system, and the numbers that replace symbols."""
         return [self._as_in_sketch(mark) for mark in self.things], {**self.values, **self._state()}
 
     def _as_in_sketch(self, mark: Mark) -> Mark:
-        """Return the mark; a wall at the end of a spring has its direction at equilibrium, and a wire is as long as in
-        the sketch."""
+        """Return the mark; a wall or a wire is drawn as in the sketch."""
         if isinstance(mark, FixedEnd):
             return replace(mark, away=self._at_rest(mark.away))
         if isinstance(mark, WayMark):
@@ -300,7 +293,6 @@ class _Displaced:
         return mark
 
     def _state(self) -> dict[Symbol, Expr]:
-        """Return the values of the coordinates in the drawing."""
         least = self._least(self.system.places)
         usual = {
             q: ANGLE if self.system.coordinates[q] == "angle" else MOVED * (least or Integer(1)) for q in self.rest
@@ -309,7 +301,6 @@ class _Displaced:
         return {q: self.rest[q] + self.amplitudes[q] / size for q in self.rest}
 
     def _least(self, places: Sequence[Location]) -> Expr | None:
-        """Return the least distance between two different places at equilibrium."""
         columns = [self._at_rest(column_of(place)) for place in places]
         ways = [b - a for a, b in combinations(columns, 2)]
         sizes = {way: hypot(*(self.number(c) for c in way)) for way in ways}
@@ -349,8 +340,7 @@ class _Displaced:
 
     def _beside(self, displacement: MatrixBase, at: Location) -> tuple[Position, Any, float]:
         """Return the side of the mass on which its arrow is drawn, and the distance from the mass, as a length and in
-        points. The side is None if the arrow starts at the mass: at a mass at rest, or at a mass that is not a block
-        and has no line along the arrow."""
+        points. The side is None if the arrow starts at the mass."""
         x, y = (self.number(c) for c in displacement)
         size = hypot(x, y)
         if not size:
@@ -413,7 +403,6 @@ class _Displaced:
         return tuple(sorted(set[Symbol]().union(*(ratio.free_symbols for ratio in ratios)), key=str))
 
     def _has_small(self) -> bool:
-        """Whether a displacement is too small for an arrow."""
         sizes = [hypot(*(self.number(c) for c in each)) for each, _ in self._moving]
         return bool(sizes) and min(sizes) / max(sizes) < VISIBLE / LONGEST[1]
 

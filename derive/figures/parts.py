@@ -233,7 +233,7 @@ class HeavyRopeMark(RopeMark):
 
 
 def _rounded(a: Spot, b: Spot, c: Spot, radius: float) -> list[Spot]:
-    """Return an arc that touches both lines of the corner b from inside; the corner itself if it is almost straight."""
+    """Return an arc that touches both lines of the corner b from inside."""
     one, other = direction(b, a), direction(b, c)
     cosine = max(-1.0, min(1.0, one[0] * other[0] + one[1] * other[1]))
     half = acos(cosine) / 2
@@ -248,8 +248,7 @@ def _rounded(a: Spot, b: Spot, c: Spot, radius: float) -> list[Spot]:
 
 
 def _beyond(corner: Spot, end: Spot, off: float, side: float) -> Spot:
-    """Return the end of a wall of a tube: along the line from its corner to an end of the rope, and beside this line.
-    A positive `off` is on the outer side of the bend."""
+    """Return the end of a wall of a tube. A positive `off` is on the outer side of the bend."""
     x, y = direction(corner, end)
     far = min(ALONG_TUBE, 0.6 * hypot(end[0] - corner[0], end[1] - corner[1]))
     return corner[0] + far * x - side * off * y, corner[1] + far * y + side * off * x
@@ -392,7 +391,6 @@ class BlockMark(_Piecewise):
         return wide, high
 
     def _framed(self, paper: Paper, wide: float, high: float) -> tuple[Spot, tuple[Spot, ...]]:
-        """Return the centre, and the corners counterclockwise from the lower left to the upper left."""
         at, ahead = paper.numbers.vector(self.at), paper.numbers.vector(self.along)
         spot = paper.spot(at)
         e = first = direction(spot, paper.spot(plus(at, ahead)))
@@ -403,7 +401,6 @@ class BlockMark(_Piecewise):
         return spot, tuple((spot[0] + e[0] * a - e[1] * b, spot[1] + e[1] * a + e[0] * b) for a, b in half)
 
     def _named(self, middle: Spot, corners: tuple[Spot, ...]) -> Tag:
-        """Return the label: on the block if it is a short name, otherwise above the block."""
         if not isinstance(self.label, Symbol) or len(self.label.name.replace("_", "")) > SHORT:
             return Tag(self.label, middle, (0.0, 1.0), self.usual[1] / 2 + 3.0)
         (x, y), (u, v), (p, q), _ = corners

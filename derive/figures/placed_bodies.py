@@ -33,8 +33,8 @@ from derive.mechanics.model.system import System
 from derive.steps.step import is_zero
 
 ACROSS = column(0, 0, 1)
-# For a top of unknown shape, the height and radius of its cone and the end of its stem; then the length of a shaft. All
-# are relative to the distance of the centre of mass from the fixed point.
+# For a top of unknown shape: the height and radius of its cone, the end of its stem, and the length of a shaft,
+# relative to the distance of the centre of mass from the fixed point.
 TOP, WIDE, STEM, SHAFT = Rational(4, 3), Rational(3, 5), Rational(8, 5), Rational(3, 4)
 STEPS = 24  # number of steps along the side of a round body
 
@@ -121,10 +121,7 @@ def _centre_in_rim(system: System, placed: Any) -> Iterable[Mark]:
 
 
 def _line_of_centre(placed: Any, size: Expr, outline: list[Mark]) -> Link:
-    """Return the line from `placed.at` to the centre of mass of a body.
-
-    If this point is the centre of a disc, the line continues to the rim.
-    """
+    """Return the line from `placed.at` to the centre of mass; on a disc, the line continues to the rim."""
     way = placed.centre - placed.at
     for mark in outline:
         if isinstance(mark, WheelMark) and same(Location(tuple(mark.centre)), placed.at):
@@ -133,7 +130,6 @@ def _line_of_centre(placed: Any, size: Expr, outline: list[Mark]) -> Link:
 
 
 def _rolls(system: System, placed: Any) -> bool:
-    """Return whether a rolling condition applies to the body, so that it lies on a surface."""
     return any((r := each.fact(Rolling)) is not None and r.body.body is placed.body for each in system.conditions)
 
 
@@ -152,11 +148,7 @@ def pivot_of(system: System, placed: Any) -> Link | None:
 
 
 def _pivoted(system: System, link: Link, outline: list[Mark]) -> Iterable[Mark]:
-    """Yield the marks of a body that rotates about a fixed point, the pivot.
-
-    The joint may be at the rim of a disc or at the end of a rod. If both ends of a rod are at the same distance from
-    the pivot, the ends slide on a circle. For any other rod, the distance of its centre from the pivot is shown.
-    """
+    """Yield the marks of a body that rotates about a fixed point."""
     for mark in outline:
         if isinstance(mark, WheelMark) and is_zero(mark.radius - link.length):
             yield FixedEnd(column_of(link.start), downwards(2), True)
@@ -185,8 +177,7 @@ def _kept(system: System, value: Expr) -> Expr:
 
 
 def _axis_to(centre: Location, placed: Any) -> Iterable[Mark]:
-    """Yield, for a body of unknown shape, the line from its fixed point to its centre of mass. A symmetric body with
-    Euler angles is drawn as a top: a cone with a stem, and with the given centre of mass."""
+    """Yield the marks of a body of unknown shape: the line to its centre of mass, or a top."""
     size = sqrt(tidied(Add(*(c**2 for c in (centre - placed.at).components))))
     if _is_top(placed):
         start, way = column_of(placed.at), column_of(centre - placed.at)
@@ -200,17 +191,14 @@ def _axis_to(centre: Location, placed: Any) -> Iterable[Mark]:
 
 
 def _is_top(placed: Any) -> bool:
-    """Whether a body of unknown shape is drawn as a top. It must have Euler angles and given moments, and its centre of
-    mass must be on its z axis, above the fixed point."""
+    """Whether a body of unknown shape is drawn as a top."""
     on_axis = placed.body.middle.position - placed.point.position
     is_upright = on_axis[0] == on_axis[1] == 0 and numeric(on_axis[2]) > 0
     return follows_nodes(placed) and getattr(placed.body, "moments", None) is not None and is_upright
 
 
 def _holder(system: System, placed: Any) -> Iterable[Mark]:
-    """Yield a joint in a plane. In space, yield a hinge if the motion of the body is prescribed; the hinge is at the
-    end of a shaft if the first rotation is about the vertical. For any other motion in space, yield a support below an
-    upright body, or a ceiling above a hanging body."""
+    """Yield the joint, the hinge, the support or the ceiling that holds a body."""
     at = column_of(placed.at)
     way = (placed.centre - placed.at).components
     if len(way) == 2:
@@ -235,8 +223,7 @@ def with_its_shape(placed: Any) -> Any:
 
 
 def _far_end(placed: Any) -> Location:
-    """Return the place on the z axis of a body at which its rotations are drawn: the farthest end in the positive
-    direction, or the end of the stem of a top. If no end beyond the fixed point is known, return the centre of mass."""
+    """Return the place on the z axis of a body at which its rotations are drawn."""
     parts = getattr(placed.body, "parts", ()) or (placed.body,)
     ends = [part_end for part in parts for part_end in _ends_on_axis(part)]
     held = placed.point.position
@@ -250,8 +237,7 @@ def _far_end(placed: Any) -> Location:
 
 
 def _ends_on_axis(part: Any) -> list[Expr]:
-    """Return the ends of a round part, as z in the axes of the whole body; ends that are not on the z axis are left
-    out."""
+    """Return the ends of a round part on the z axis of the whole body."""
     body = getattr(part, "body", part)
     if not isinstance(getattr(body, "boundary", None), Round):
         return []
@@ -261,8 +247,8 @@ def _ends_on_axis(part: Any) -> list[Expr]:
 
 
 def _of_parts(placed: Any) -> list[Mark]:
-    """Return the marks of the parts of a body; an empty list if a removed part cannot be drawn. Other parts that cannot
-    be drawn are left out. In space a rod is drawn in pieces, so that bodies on the rod hide the pieces behind them."""
+    """Return the marks of the parts of a body. In space a rod is drawn in pieces, so that bodies on the rod hide the
+    pieces behind them."""
     marks: list[Mark] = []
     for part in placed.body.parts:
         if part.sign < 0:
@@ -285,8 +271,7 @@ def _of_parts(placed: Any) -> list[Mark]:
 
 
 def _cut_out(outline: list[Mark], is_plane: bool) -> list[Mark]:
-    """In a plane, return the holes of a removed part. In space, return only closed cavities, because no other removed
-    part can be drawn."""
+    """Return the holes of a removed part, as far as they can be drawn."""
     surfaces = [mark for mark in outline if isinstance(mark, SilhouetteMark | WheelMark)]
     if is_plane:
         return [Hole(mark) for mark in surfaces]
@@ -305,7 +290,7 @@ def _towards(mark: Mark, centre: Location) -> Mark:
 
 
 def _placed_part(placed: Any, part: Any) -> Any:
-    """Return a part of a body as a placed body; None in a plane if the part is rotated relative to the whole body."""
+    """Return a part of a body as a placed body; None if it cannot be drawn."""
     own = ImmutableDenseMatrix(part.position - placed.point.position)
     at = placed.at + placed.seen_in_space(own)
     point = part.body.point(part.of)
@@ -360,8 +345,8 @@ def own_angle(system: System, placed: Any, outline: list[Mark]) -> Iterable[Mark
 
 
 def _rolled_angle(system: System, placed: Any) -> tuple[Expr, int] | None:
-    """Return the coordinate that is the rotation angle of a body, and its sense, if a rolling condition has replaced
-    this coordinate by another one; otherwise None."""
+    """Return the coordinate that is the rotation angle of a rolling body, and its sense; None if there is no such
+    coordinate."""
     for q, value in system.known.items():
         if system.coordinates.get(q) in ("angle", None) and moving_in(system, value):
             for sense in (1, -1):
@@ -442,14 +427,12 @@ def _in_plane(boundary: Boundary | None, at: Callable[[Position], Position], acr
 
 
 def _wheel(boundary: Round, at: Callable[[Position], Position], words: dict[str, Any]) -> WheelMark:
-    """Return the mark of a round body seen along its axis."""
     centre, (_, radius) = at(ORIGIN), widest_of(boundary)
     return WheelMark(centre, radius, at(X) - centre, is_ring=boundary.is_curve, label=radius, **words)
 
 
 def _sides(boundary: Faces, corners: tuple[Position, ...]) -> Iterable[Mark]:
-    """Yield one dimension line for each edge length that is a symbol or a multiple of a symbol, if the body has at most
-    four corners."""
+    """Yield a dimension line for each edge length with a symbol, if the body has few corners."""
     for length, edges in boundary.edges if len(corners) <= 4 else ():
         if length.as_coeff_Mul()[1].is_Symbol:
             start, end = (corners[i] for i in edges[-1])

@@ -6,7 +6,7 @@ greatest moment, with the intermediate axis q and the third axis r, the two equa
 
     (1/I_p - 1/I_q) n_q^2 + (1/I_p - 1/I_r) n_r^2 = 1/I_p - e
 
-for a unit vector n with the sum of n_i^2/I_i equal to e, so that the projection of a curve along p is an ellipse.
+Here n is a unit vector, and e is the sum of n_i^2/I_i. So the projection of a curve along p is an ellipse.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ def ratios_of(moments: Sequence[Expr]) -> tuple[Expr, ...]:
 
 
 def example_values(moments: Sequence[Expr]) -> dict[Any, Expr]:
-    """Return numbers for the letters on which the ratios of the moments depend, in the order of the moments."""
+    """Return numbers for the symbols on which the ratios of the moments depend."""
     letters = set().union(*(ratio.free_symbols for ratio in ratios_of(moments)))
     order = dict.fromkeys(s for moment in moments for s in sorted(moment.free_symbols, key=str) if s in letters)
     return {letter: Integer(FIRST + i) for i, letter in enumerate(order)}
@@ -99,7 +99,6 @@ def separatrix(moments: Sequence[float], order: tuple[int, int, int]) -> list[li
 
 
 def _excess(moments: Sequence[float], i: int, j: int) -> float:
-    """Return 1/I_i - 1/I_j."""
     return 1 / moments[i] - 1 / moments[j]
 
 
@@ -116,8 +115,8 @@ def motion_at(moments: Sequence[float], place: Vector) -> Vector:
 
 @dataclass(frozen=True)
 class PolhodesMark(Surface):
-    """A sphere with the curves of constant energy, for a body with these moments. Only the front of the sphere has
-    curves; the separatrix is dashed on its back."""
+    """A sphere with the curves of constant energy, for a body with these moments. The curves are on the front of the
+    sphere; the separatrix is dashed on the back."""
 
     moments: tuple[Any, Any, Any]
     layer: ClassVar[int] = 0
@@ -149,11 +148,9 @@ class PolhodesMark(Surface):
     def _drawn(
         self, curve: Sequence[Vector], moments: Sequence[float], paper: Paper, middle: int | None = None
     ) -> list[Piece]:
-        """Return the visible parts of a curve, each with an arrowhead in the direction of the motion if it is not
-        close to the outline.
+        """Return the visible parts of a curve, with arrowheads in the direction of the motion.
 
-        middle   the index of the intermediate axis, for the separatrix: close to this axis the motion is slow, and the
-                 separatrix has no arrowhead
+        middle   the index of the intermediate axis, for the separatrix
         """
         pen = "level" if middle is None else "separatrix"
         pieces: list[Piece] = []
@@ -169,13 +166,11 @@ class PolhodesMark(Surface):
 
 
 def _plainly(run: Sequence[Vector], away: Sequence[float], eye: Vector, i: int) -> float:
-    """Return how plainly an arrowhead at a point of a curve is visible."""
     return dot(run[i], eye) * away[i]
 
 
 def _runs(curve: Sequence[Vector], eye: Vector, side: float) -> list[list[Vector]]:
-    """Return the parts of a curve on the unit sphere on the side of the viewer, or for `side` -1 on the other side. A
-    closed curve is cut where it is not drawn."""
+    """Return the parts of a curve on the unit sphere on the side of the viewer, or for `side` -1 on the other side."""
     flags = [side * dot(unit(place), eye) > 0 for place in curve]
     places = list(curve)
     if places[0] == places[-1] and flags[0] and not all(flags):

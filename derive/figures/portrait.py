@@ -34,8 +34,8 @@ class LevelLine:
 
 @dataclass(frozen=True)
 class Portrait:
-    """A phase portrait: the range of its vertical axis; the values, each with `True` if its curves are thick and
-    `False` otherwise; the curves of all values; and the centres, which are the points of stable rest."""
+    """A phase portrait: the range of its vertical axis, its values, its curves, and its centres, which are points of
+    stable equilibrium."""
 
     low: float
     high: float
@@ -95,7 +95,6 @@ def _is_at_infinity(value: float, expr: Expr, plane: tuple[Symbol, Symbol], wide
 def _centres(
     expr: Expr, plane: tuple[Symbol, Symbol], grid: Sequence[Any], heights: Any
 ) -> Iterator[tuple[float, float]]:
-    """Yield the points inside the box at which the function has a minimum or a maximum."""
     inner, last = heights[1:-1, 1:-1], STEPS - 1
     around = [heights[1 + i : 1 + i + last, 1 + k : 1 + k + last] for i in (-1, 0, 1) for k in (-1, 0, 1) if i or k]
     is_extreme = np.all([inner < each for each in around], axis=0) | np.all([inner > each for each in around], axis=0)
@@ -107,7 +106,6 @@ def _centres(
 
 
 def _on(expr: Expr, plane: tuple[Symbol, Symbol], across: Any, up: Any) -> Any:
-    """Return the values of the expression at these points."""
     with np.errstate(all="ignore"):
         found = lambdify(plane, expr, "numpy")(across, up) + 0.0 * across
     if not (np.isrealobj(found) and np.all(np.isfinite(found))):
@@ -140,11 +138,7 @@ def _along(
     is_thick: bool,
     of: int,
 ) -> Iterator[LevelLine]:
-    """Yield the line in the order of the motion, with the places of its arrowheads.
-
-    A line on which the coordinate first increases and then decreases, or the reverse, has two, unless it is closed. A
-    line of fewer than three points, or of equal points, is left out.
-    """
+    """Yield the line in the order of the motion, with the places of its arrowheads."""
     flow = _on(rate[0], plane, *points.T), _on(rate[1], plane, *points.T)
     size = np.ptp(points, axis=0)
     if len(points) < 3 or not np.any(size):
@@ -163,8 +157,7 @@ def _along(
 
 
 def _head(across: Any, rate: Any, inner: tuple[float, float]) -> int:
-    """Return the index of the arrowhead: where the coordinate changes fastest, among the points that are not in a
-    margin. If all points of the curve are in the margins, the arrowhead is in the middle of the curve."""
+    """Return the index of the arrowhead: where the coordinate changes fastest, if possible outside the margins."""
     away = (across > inner[0]) & (across < inner[1])
     if not np.any(away):
         return len(across) // 2

@@ -60,8 +60,8 @@ class PulleyRopeMark(RopeMark):
 
 
 def _sense(spots: Sequence[Spot], k: int) -> float:
-    """Return the sense in which a string turns round a pulley at which the string reverses its direction: 1 to the
-    left, -1 to the right. The piece that leads to the pulley is on the side from which the string comes."""
+    """Return the sense in which a string turns round a pulley at which it reverses its direction: 1 to the left, -1 to
+    the right."""
     along = direction(spots[k - 1], spots[k])
     offs = [_off(spot, spots[k], along) for spot in reversed(spots[: k - 1])]
     before = next((off for off in offs if abs(off) > 1e-6), -1.0)
@@ -69,7 +69,6 @@ def _sense(spots: Sequence[Spot], k: int) -> float:
 
 
 def _shifted(piece: tuple[Spot, Spot], far: float, along: Spot) -> tuple[Spot, Spot]:
-    """Shift both ends of a piece to the right of a direction, or to the left if `far` is negative."""
     (x, y), (u, v) = piece
     by = far * along[1], -far * along[0]
     return (x + by[0], y + by[1]), (u + by[0], v + by[1])
@@ -87,7 +86,6 @@ def _crossing(one: tuple[Spot, Spot], other: tuple[Spot, Spot]) -> Spot:
 
 
 def _off(spot: Spot, at: Spot, along: Spot) -> float:
-    """Return the distance of a spot to the left of the line through `at` in the direction `along`."""
     return along[0] * (spot[1] - at[1]) - along[1] * (spot[0] - at[0])
 
 
@@ -98,8 +96,7 @@ def _returns(a: Spot, b: Spot, c: Spot) -> bool:
 
 
 def _inside(a: Spot, b: Spot, c: Spot, radius: float) -> Spot:
-    """Return the centre of a circle that touches both lines of the corner b from inside. If the lines are one straight
-    line, the circle is below this line."""
+    """Return the centre of a circle that touches both lines of the corner b from inside."""
     (x, y), (u, v) = direction(b, a), direction(b, c)
     far = hypot(x + u, y + v)
     if far < 1e-3:

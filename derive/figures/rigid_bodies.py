@@ -39,10 +39,7 @@ def principal_outline(moments: Sequence[Any], *vectors: Quantity) -> list[Mark]:
 
 def semi_axes(moments: Sequence[Expr]) -> tuple[Expr, Expr, Expr]:
     """Return the semi-axes, up to a factor, of a uniform ellipsoid with approximately these moments; its I_x is
-    (M/5)(b^2 + c^2).
-
-    The semi-axes are greater than those of the exact ellipsoid, so that a flat or thin body has a thickness.
-    """
+    (M/5)(b^2 + c^2)."""
     whole = Add(*moments)
     a, b, c = (sqrt(whole - 2 * moment + THICK * whole) for moment in moments)
     return a, b, c

@@ -66,7 +66,7 @@ def sketch(
 ) -> Drawing | None:
     """Return a drawing of a system from its description; the drawing is recorded for the problem.
 
-    The result is None if the drawing would not show the whole system and no further marks are given.
+    The result is None if the drawing would not show the whole system.
 
     key       the name of the drawing, for `drawings:` in the problem
     system    particles, bodies, springs, connections, forces and weights
@@ -124,11 +124,7 @@ class _Scene:
 
     @property
     def is_whole(self) -> bool:
-        """Whether the drawing shows the whole system, and shows more than separate particles and bodies.
-
-        A constraint that is given as a formula cannot be shown; the caption of the drawing states it. An energy that
-        is given as a formula must be linear in the coordinates if there is a body or more than one particle.
-        """
+        """Whether the drawing shows the whole system, and more than separate particles and bodies."""
         return (
             self.connections.is_possible
             and self._bodies_are_seen()
@@ -138,7 +134,6 @@ class _Scene:
         )
 
     def _bodies_are_seen(self) -> bool:
-        """Whether each body has an outline or, in space, a line from `placed.at` to its centre of mass."""
         return all(
             placed_outline(with_its_shape(placed)) or self.rows == 3 and not same(placed.at, placed.centre)
             for placed in self.system.bodies
@@ -165,10 +160,7 @@ class _Scene:
         )
 
     def _shows_something(self) -> bool:
-        """Whether the drawing shows more than particles and bodies with their angles and positions.
-
-        A constraint that the caption states also counts, and so does the pivot of a body in a plane. Links and springs
-        count if there are no bodies. A body with an outline in space counts if nothing acts on it."""
+        """Whether the drawing shows more than particles and bodies with their angles and positions."""
         outlines = [mark for placed in self.system.bodies for mark in placed_outline(with_its_shape(placed))]
         if any(not isinstance(mark, ALONE) and mark not in outlines for mark in self.marks):
             return True
@@ -195,8 +187,8 @@ class _Scene:
         return {**found, **self._carried_round()}
 
     def _carried_round(self) -> Mapping[Symbol, Any]:
-        """Return the time at which a system is drawn if it has the prescribed rotation of `_rate_round`; an empty
-        mapping for any other system."""
+        """Return the time at which a system with a prescribed rotation is drawn; an empty mapping for any other
+        system."""
         if (rate := self._rate_round()) is None:
             return {}
         level = len(self.system.coordinates) > 1 and not moving_in(
@@ -206,8 +198,7 @@ class _Scene:
         return {TIME: angle / rate}
 
     def _rate_round(self) -> Expr | None:
-        """Return the rate of the prescribed rotation in space, if there is exactly one and its rate is constant;
-        otherwise None."""
+        """Return the constant rate of the prescribed rotation in space, if there is one; otherwise None."""
         components = [c for place in self.system.places for c in place.components]
         angles = {f.args[0] for c in components for f in c.atoms(sin, cos)}
         rates = [diff(angle, TIME) for angle in angles if angle.has(TIME)]
@@ -220,8 +211,8 @@ class _Scene:
         found = [*self._all(), *(launch_marks(self.system, self.start) if self.start else ())]
         if not any(isinstance(mark, AxisOfRotation) for mark in found):
             found += self._axis_of_table()
-        # the drawing of an impact omits angles and distances that are zero at the impact, and distances that change
-        # just before it
+        # The drawing of an impact omits angles and distances that are zero at the impact, and distances that change
+        # just before it.
         if self.impact is not None:
             found = [mark for mark in found if not is_of_the_moment(mark, self.impact)]
             found += impact_marks(self.system, self.impact)
@@ -234,8 +225,7 @@ class _Scene:
         return _Scene(self.system, self.named).marks
 
     def _between_supports(self, marks: Iterable[Mark]) -> Iterable[Mark]:
-        """Yield dimension lines for the distances of supports at the same height in a plane, on the side away from the
-        masses, if such a distance is a symbol or a multiple of a symbol."""
+        """Yield dimension lines for the distances of supports at the same height, on the side away from the masses."""
         if self.rows != 2:
             return
         number = self.connections.number
@@ -277,12 +267,9 @@ class _Scene:
             yield from self._applied()
 
     def _rolling(self) -> Iterable[Mark]:
-        """Yield the surfaces on which bodies roll, from the rolling conditions. Yield nothing for motion in a plane if
-        the description has a contact of a body with a surface."""
         return () if self._touching_bodies() else contact_marks(self.system)
 
     def _axis_of_table(self) -> list[Mark]:
-        """Return the vertical axis of the prescribed rotation of `_rate_round`; an empty list if there is none."""
         if (rate := self._rate_round()) is None:
             return []
         return [AxisOfRotation(ImmutableDenseMatrix([0, 0, 0]), ImmutableDenseMatrix([0, 0, 1]), rate, label=rate)]
@@ -318,8 +305,8 @@ class _Scene:
             yield from self._cartesian(particle.at) if len(plain) == self.rows else self._ways(particle.at)
 
     def _along_wire(self, link: Link, marks: Iterable[Mark]) -> Iterable[Mark]:
-        """Yield the marks of the link to a bead on a wire. The path of the bead is left out, because the wire shows it.
-        A dimension line shows the distance along a straight wire, on the side away from the angle of the wire."""
+        """Yield the marks of the link to a bead on a wire. The path of the bead is left out, because the wire shows
+        it."""
         moving = moving_in(self.system, *link.way.components) - {TIME}
         is_straight = not link.is_constant and not any(diff(c, q, 2) for c in link.way.components for q in moving)
         turned = angle_of_link(self.system, link)
@@ -331,7 +318,6 @@ class _Scene:
                 yield mark
 
     def _is_held(self, particle: Particle, link: Link | None) -> bool:
-        """Whether a connection holds the particle, or is drawn along the link that leads to the particle."""
         return self.connections.holds(particle) or link is not None and self.connections.runs_along(link)
 
     def _is_drawn(self, particle: Particle, link: Link) -> bool:
@@ -339,13 +325,7 @@ class _Scene:
         return self._is_held(particle, link) if link.is_constant else self.connections.runs_along(link)
 
     def _round(self, link: Link) -> Iterable[Mark]:
-        """Yield the curves on which the particle at the end of a link moves.
-
-        If the link starts at the origin, or on the vertical axis at a height that is a coordinate, yield the circle of
-        the particle for each angle. If the height is a coordinate, also yield the axis with this coordinate as its
-        label. For any other start, yield the marks of `_ways`. Yield nothing for a link of constant length or with a
-        prescribed rotation about a fixed point.
-        """
+        """Yield the curves on which the particle at the end of a link moves."""
         *across, height = link.start.components
         if (
             link.is_constant
@@ -376,9 +356,7 @@ class _Scene:
             yield from (ConnectionMark(foot, column_of(Location(end))) for end in ((x, ZERO, ZERO), (ZERO, y, ZERO)))
 
     def _ways(self, at: Location) -> Iterable[Mark]:
-        """Yield the curves of a point along its coordinates, except straight lines and wires; no curve if the position
-        contains as many coordinates as it has components. In space, if the position contains only one coordinate, and
-        this coordinate is a component, yield dashed lines for this component."""
+        """Yield the curves of a point along its coordinates, except straight lines and wires."""
         moving = [q for q in self.system.coordinates if q in moving_in(self.system, *at.components)]
         for q in moving if len(moving) < self.rows else ():
             ends = (-pi, pi) if self.system.coordinates[q] == "angle" else (-FAR * q, FAR * q)
@@ -391,8 +369,6 @@ class _Scene:
             yield ConnectionMark(column_of(rest), column_of(beside))
 
     def _two_bodies(self) -> Iterable[Mark]:
-        """For two particles in a plane, yield the components of their relative position, and the axes for the position
-        of their centre of mass. Yield nothing unless all these components are coordinates of the system."""
         if self.rows != 2 or len(self.system.particles) != 2 or self.system.bodies:
             return
         one, other = self.system.particles
@@ -416,8 +392,6 @@ class _Scene:
     # --- displacements ---
 
     def _displacements(self) -> Iterable[Mark]:
-        """Yield dimension lines for coordinates that no other mark shows: displacements of masses along fixed lines,
-        and lengths of pieces of ropes."""
         shown: set[Symbol] = set()
         for q, kind in self.system.coordinates.items():
             found = self._displaced(q) if kind == "length" and not self._is_shown(q) else None
@@ -427,10 +401,8 @@ class _Scene:
                 yield from self._with_natural_length(self._dimension(q, start, at, len(shown)), start)
 
     def _with_natural_length(self, mark: Mark, start: Location) -> Iterable[Mark]:
-        """Yield a dimension line that begins at `start`. If the line shows the extension of the only spring, also yield
-        the natural length in line with it, both up to the end of the spring at the face of a block, and leave room for
-        the label of the spring. If the line shows the length of the only spring, also yield the natural length on the
-        other side of the spring."""
+        """Yield a dimension line that begins at `start`. If the line shows the extension or the length of the only
+        spring, also yield the natural length."""
         springs = [each for each in self.system.between if is_spring(each)]
         ends = [end for each in springs for end in (each.start, each.end) if not self._moves(end)]
         length = natural_length(self.system, springs[0]) if len(springs) == len(ends) == 1 else None
@@ -463,9 +435,7 @@ class _Scene:
     def _displaced(self, q: Symbol) -> tuple[Location, Location] | None:
         """Return the two ends of the dimension line of a length q; None if q cannot be shown in this way.
 
-        If a piece of a rope has the length q, the ends are those of the piece. Otherwise q must be the distance that a
-        mass, or the point at which a body is held, has moved along a fixed line; the ends are its positions at q = 0
-        and at the drawn value of q. If there are several, the result is for the position with the fewest coordinates.
+        The ends are those of a piece of a rope, or the positions of a mass at q = 0 and at the drawn value of q.
         """
         found = []
         if (piece := self.connections.rope_piece(q)) is not None:
@@ -514,8 +484,7 @@ class _Scene:
         return same(own, at)
 
     def _free_side(self, at: Location) -> int:
-        """Return the side of a vertical dimension line, 1 (right) or -1 (left). It is on the right if all other masses
-        are to the left, or if none is to the left or right; otherwise it is on the left."""
+        """Return the side of a vertical dimension line, 1 (right) or -1 (left), away from the other masses."""
         others = [place for _, place in self.system.masses if not same(place, at)]
         ways = [self.connections.number((place - at).components[0]) for place in others]
         return 1 if not ways or max(ways) < 0 or min(ways) > -1e-9 and max(ways) < 1e-9 else -1
@@ -551,7 +520,7 @@ class _Scene:
             shown.append(field)
 
     def _applied(self) -> Iterable[Mark]:
-        """Yield the arrows of given forces and drags at a place. Arrows at the same place are side by side."""
+        """Yield the arrows of given forces and drags. Arrows at the same place are side by side."""
         forces = [(each, drawn) for each in self.system.given_forces if (drawn := self._drawn_force(each)) is not None]
         drags = [(each, drawn) for each in self.system.dampers if (drawn := self._drawn_drag(each)) is not None]
         for each, (way, size) in [*forces, *drags]:
@@ -563,8 +532,7 @@ class _Scene:
             yield AppliedForce(column_of(place), way, 1, False, is_drag, aside, label=size, clear=clear)
 
     def _drawn_drag(self, each: Damper) -> tuple[ImmutableDenseMatrix, Expr] | None:
-        """Return the direction and the magnitude of the arrow of a drag, for the positive direction of a displacement
-        along a fixed line in a plane; None for any other drag. The arrow ends at the side to which the place moves."""
+        """Return the direction and the magnitude of the arrow of a drag; None if the drag is not drawn."""
         if isinstance(each, DragAlong) or self.rows != 2 or len(each.at) != self.rows:
             return None
         moving = moving_in(self.system, *each.place)
@@ -577,9 +545,8 @@ class _Scene:
     def _drawn_force(self, each: GivenForce) -> tuple[ImmutableDenseMatrix, Expr] | None:
         """Return the direction and the magnitude of the arrow of a given force; None if the force is not drawn.
 
-        Friction is left out, and so are forces whose magnitude contains a root or a coordinate, because then the sign
-        of the label could be wrong in the drawn state. A force that varies with the time is drawn at t = 0 or, if it
-        vanishes then, just after t = 0.
+        Forces whose magnitude contains a root or a coordinate are left out, because the sign of the label could be
+        wrong in the drawn state.
         """
         if len(each.at) != self.rows or self._is_friction(each):
             return None
@@ -637,8 +604,7 @@ class _Scene:
         return max((BLOCK[0] / 2 for mark in blocks if isinstance(mark, BlockMark)), default=0.0)
 
     def _between(self, each: Central) -> Iterable[Mark]:
-        """Yield a spring with its supports. For any other central force, yield its fixed source with the orbit about
-        this source, and the line between its ends, unless a link is drawn along this line."""
+        """Yield a spring with its supports, or the marks of another central force."""
         a, b = column_of(each.start), column_of(each.end)
         elastic = is_spring(each)
         if elastic:
@@ -661,8 +627,7 @@ class _Scene:
             yield ConnectionMark(a, b)
 
     def _is_nail(self, way: ImmutableDenseMatrix) -> bool:
-        """Whether a spring is held by a nail in a horizontal plane: its length is zero if all coordinates are zero, and
-        its other end moves round the nail."""
+        """Whether a spring is held by a nail in a horizontal plane, so that its other end moves round the nail."""
         moving = self.system.coordinates
         is_round = len([c for c in way if moving_in(self.system, c) - {TIME}]) > 1
         return not self.system.weights and is_round and not any(c.xreplace(dict.fromkeys(moving, ZERO)) for c in way)
@@ -690,8 +655,7 @@ def _along_axis(way: Sequence[Expr]) -> ImmutableDenseMatrix:
 
 
 def _magnitude(components: Sequence[Expr]) -> Expr | None:
-    """Return the magnitude of a force, or for a force along an axis its component without a minus sign; None if the
-    magnitude contains a root."""
+    """Return the magnitude of a force; None if the magnitude contains a root."""
     (first, *others) = [c for c in components if c != 0] or [ZERO]
     if not others:
         return -first if first.could_extract_minus_sign() else first

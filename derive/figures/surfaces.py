@@ -146,10 +146,7 @@ class TorusMark(Surface):
         return found
 
     def _hole(self, paper: Paper, edge: Sequence[Vector]) -> list[Spot]:
-        """Return the points of the inner edge that bound the visible opening; an empty list if there is no opening.
-
-        These points are horizontally between the ends of the rear half of the inner edge.
-        """
+        """Return the points of the inner edge that bound the visible opening; an empty list if there is no opening."""
         centre, eye = paper.numbers.vector(self.centre), paper.stance.eye
         behind = [paper.spot(place) for place in edge if dot(plus(place, centre, -1.0), eye) < 0]
         ends = [x for x, _ in behind]

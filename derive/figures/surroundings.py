@@ -105,7 +105,6 @@ class FloorMark(Surface):
 
 
 def _across(start: Spot, end: Spot, side: Spot) -> Spot:
-    """Return the unit normal of a line, on the side to which the vector `side` points."""
     along = direction(start, end)
     normal = -along[1], along[0]
     return normal if normal[0] * side[0] + normal[1] * side[1] >= 0 else (along[1], -along[0])
@@ -118,8 +117,7 @@ class FixedEnd(Surface):
     away    the direction away from the wall; if it is zero, no wall is drawn
     joint   whether the point is a pivot
     held    a vector to the part that hangs from a ceiling at this point. If the part is drawn above the point, no
-            ceiling is drawn, because it would be in the way: a pivot is then drawn above hatched ground, and the end of
-            a string as a bare peg, because the string moves round the point
+            ceiling is drawn, because it would be in the way
     """
 
     at: Position
@@ -145,7 +143,6 @@ class FixedEnd(Surface):
         return [*hatched(start, end, (-away[0], -away[1])), *joint, Tag(self.label, spot, (-away[1], away[0]), 5.0)]
 
     def _is_below(self, paper: Paper, away: Spot) -> bool:
-        """Whether the part at this point is drawn on the side of the wall."""
         if self.held is None:
             return False
         x, y = paper.spot(paper.numbers.vector(self.held))
@@ -157,8 +154,7 @@ class FixedEnd(Surface):
 
 @dataclass(frozen=True)
 class MovingEnd(Surface):
-    """A support with a prescribed motion, with an arrow beside it: a pivot on a slider, which is on a rail; a pivot
-    on a ceiling that rises or sinks; or a plate at the end of a spring or a string.
+    """A support with a prescribed motion, with an arrow beside it.
 
     along   the direction of the motion, or one of its two directions
     side    the side of the arrow
@@ -450,7 +446,7 @@ class FieldMark(Mark):
     """The arrow of a uniform field next to all other marks.
 
     before   the number of field arrows above it
-    rises    whether a field has a vertical component, so that the arrows start below the room for an arrow upwards
+    rises    whether a field has a vertical component, so that the arrows need room above their start
     """
 
     along: Position

@@ -39,9 +39,7 @@ CENTRE = "C"
 def turns_about_axes(system: System, placed: Any, end: Location) -> Iterable[Mark]:
     """Yield rotation arrows for the precession about the vertical and for the spin about the axis of a body.
 
-    If there is a spin, also yield the axis of the body and, if `follows_nodes` is true, the other axes that follow all
-    rotations except the spin. Yield nothing unless the first rotation is about the vertical and at least two rotations
-    change with time.
+    If there is a spin, also yield axes of the body. Yield nothing unless the first rotation is about the vertical.
 
     end   the end of the axis of the body
     """
@@ -71,8 +69,7 @@ def turns_about_axes(system: System, placed: Any, end: Location) -> Iterable[Mar
 
 def euler_angles(system: System, placed: Any, size: Expr) -> Iterable[Mark]:
     """Yield the Euler angles of a body at its centre: rotation arrows about the vertical and about the axis of the
-    body, and the angle between these two axes. Yield nothing unless the rotations are Euler angles and all of them
-    vary.
+    body, and the angle between these two axes. Yield nothing unless the rotations are Euler angles.
 
     size   the length of the axis of the body
     """
@@ -115,8 +112,7 @@ def seen_upright(mark: Mark) -> Mark:
 def stance_values(system: System) -> dict[Symbol, Expr]:
     """Return the precession angles at which inclined bodies are drawn.
 
-    If the line of nodes is a principal axis of the body, and the system has no condition such as rolling, the line of
-    nodes points to the viewer. Otherwise the axis of the body leans to the right.
+    The line of nodes points to the viewer, or the axis of the body leans to the right.
     """
     found: dict[Symbol, Expr] = {}
     for placed in system.bodies:
@@ -135,8 +131,8 @@ def stance_values(system: System) -> dict[Symbol, Expr]:
 def sizes_of_top(placed: Any) -> Iterable[Mark]:
     """Yield the dimensions of a symmetric body with Euler angles, and its centre of mass.
 
-    The dimensions are the distances from the fixed point to the ends of the round parts of the body, and the greatest
-    radius of each part. A radius is left out if it is not one of the named lengths of its part.
+    The dimensions are the distances from the fixed point to the ends of the round parts of the body, and the radii of
+    the parts.
     """
     if not follows_nodes(placed):
         return
@@ -157,7 +153,6 @@ def sizes_of_top(placed: Any) -> Iterable[Mark]:
 
 
 def _discs(placed: Any) -> Iterable[tuple[Position, Expr, Position]]:
-    """Yield the centre, the radius and the normal vector of each flat part of a body with Euler angles."""
     if not follows_nodes(placed):
         return
     _, _, along = following_axes(placed)
@@ -171,8 +166,8 @@ def _is_round(body: Any) -> bool:
 
 
 def _parts(placed: Any) -> list[tuple[Any, Expr]]:
-    """Return the parts of a body that are round about its axis, without holes. With each part, return the height of the
-    origin of its axes above the fixed point, along the axis."""
+    """Return the parts of a body that are round about its axis, each with the height of its origin above the fixed
+    point."""
     held = placed.point.position[2]
     if _is_round(placed.body):
         return [(placed.body, -held)]
@@ -203,6 +198,6 @@ def _radius(body: Any, foot: Position, along: Position, aside: Position) -> Sequ
 
 
 def _lengths(body: Any, low: Expr) -> list[Expr]:
-    """Return the distances along the axis from the fixed point to both ends of a part; only one for a flat part."""
+    """Return the distances along the axis from the fixed point to the ends of a part."""
     lower, upper = body.boundary.ends
     return [tidied(as_expr(low) + end) for end in dict.fromkeys((lower, upper))]

@@ -24,13 +24,7 @@ PAST_SUPPORT = 26.0  # the distance of a dimension line from a moving support, i
 
 
 def link_marks(system: System, link: Link) -> Iterable[Mark]:
-    """Yield the dashed line from a point to a particle, and the angle of this line. Also yield the point, unless a
-    spring or a central force ends at the point. If one angle moves the particle at a constant distance, also yield its
-    circle.
-
-    Along a spring, a dimension line shows the distance instead of the dashed line and the point. If the components of
-    the link are coordinates, their axes are drawn instead.
-    """
+    """Yield the line from a point to a particle, with the angle or the length of this line."""
     start, end = column_of(link.start), column_of(link.end)
     yield from angle_marks(system, link)
     moving = moving_in(system, *link.way.components)
@@ -55,12 +49,11 @@ def downwards(rows: int) -> ImmutableDenseMatrix:
 
 
 def angle_marks(system: System, link: Link) -> Iterable[Mark]:
-    """Yield the angle between a link and a fixed direction; in space, also yield the angle of the link's horizontal
-    projection."""
+    """Yield the angle between a link and a fixed direction; in space, also the angle of the horizontal projection."""
     turned = angle_of_link(system, link)
     if turned is not None:
         angle, zero = turned
-        # if only the time changes an angle in space, an axis with the rate as its label is drawn in place of the angle
+        # If only the time changes an angle in space, an axis with its rate as a label is drawn in place of the angle.
         if len(link.way.components) == 2 or moving_in(system, angle) != {TIME}:
             yield AngleBetween(column_of(link.start), column_of(zero), column_of(link.way), True, label=angle)
     if len(link.way.components) == 3:
@@ -68,8 +61,7 @@ def angle_marks(system: System, link: Link) -> Iterable[Mark]:
 
 
 def _components(system: System, link: Link) -> list[Mark]:
-    """Return the axes along which the components of a link are measured, if at least two components are coordinates;
-    otherwise an empty list."""
+    """Return the axes along which the components of a link are measured, if the components are coordinates."""
     lengths = [q for q in moving_in(system, link.length) if system.coordinates.get(q) == "length"]
     ways = {q: ImmutableDenseMatrix([diff(c, q) for c in link.way.components]) for q in lengths}
     if len(ways) < 2 or any(moving_in(system, *way) - {TIME} for way in ways.values()):
@@ -94,8 +86,7 @@ def natural_length(system: System, spring: Central) -> Expr | None:
 
 
 def moving_end(system: System, support: Location, joint: bool) -> Iterator[Mark]:
-    """Yield a support with a prescribed motion along a straight line in a plane, and its displacement if the line is
-    horizontal or vertical. Yield nothing for any other support."""
+    """Yield a support with a prescribed motion along a straight line in a plane, and its displacement."""
     if len(support.components) != 2 or moving_in(system, *support.components) != {TIME}:
         return
     rest = on_the_axis(support)
@@ -114,15 +105,13 @@ def moving_end(system: System, support: Location, joint: bool) -> Iterator[Mark]
 
 
 def _sense(value: Expr) -> int:
-    """Return 1 if a function of the time increases for positive times, -1 if it decreases, and 0 if neither is
-    known."""
+    """Return 1 if a function of the time increases, -1 if it decreases, and 0 if neither is known."""
     rate = tidied(diff(value, TIME)).xreplace({TIME: Symbol("t", positive=True)})
     return 1 if rate.is_positive else -1 if rate.is_negative else 0
 
 
 def _round_the_vertical(system: System, link: Link) -> Iterable[Mark]:
-    """Yield the angle of the horizontal projection of a link, with its lines, or the axis of its rotation if the rate
-    is prescribed."""
+    """Yield the angle of the horizontal projection of a link, or the axis of its rotation if the rate is prescribed."""
     x, y, _ = link.way.components
     angles = sorted({f.args[0] for c in (x, y) for f in c.atoms(sin, cos)}, key=str)
     start, level = column_of(link.start), ImmutableDenseMatrix([x, y, 0])
@@ -141,8 +130,7 @@ def _round_the_vertical(system: System, link: Link) -> Iterable[Mark]:
 
 
 def on_the_axis(carried: Location) -> Location:
-    """Return the terms of a position that do not contain the time, for example the centre about which a point rotates
-    with a prescribed motion."""
+    """Return the terms of a position that do not contain the time, such as the centre of a prescribed rotation."""
     return Location(tuple(_terms_without(c, {TIME}) for c in carried.components))
 
 

@@ -62,8 +62,6 @@ class Moment:
 def launch_marks(system: System, moment: Moment) -> Iterable[Mark]:
     """Yield the initial velocity of each particle in a plane, at its initial position, and its launch angle if this
     angle is a symbol.
-
-    If the components of the position are not coordinates with known initial values and rates, see `_guided`.
     """
     for particle in system.particles:
         components = particle.at.components
@@ -86,10 +84,7 @@ def launch_marks(system: System, moment: Moment) -> Iterable[Mark]:
 
 
 def _axes_of_flight(system: System, moment: Moment) -> Iterable[Mark]:
-    """Yield the axes of a flight in a plane that begins on a string, on a rod or on a circle.
-
-    They start at the end of the string or at the centre of the circle, if this place is the origin.
-    """
+    """Yield the axes of a flight that begins on a string, a rod or a circle whose centre is the origin."""
     circles = [circle for particle in system.particles for circle in circles_of(system, particle.at)]
     circles += [e.surface for e in system.parts if isinstance(e, Contact) and isinstance(e.surface, Circle)]
     origin = Location((ZERO, ZERO))
@@ -103,11 +98,8 @@ def _axes_of_flight(system: System, moment: Moment) -> Iterable[Mark]:
 
 
 def _guided(system: System, moment: Moment, of: Any) -> Iterable[Mark]:
-    """Yield the initial velocity of a particle or a round body that a string, a rod or a surface guides, at its initial
-    position, with a dashed or hollow outline at this position, because the rest of the drawing shows a later state.
-
-    Yield nothing for a block, whose spring or surroundings would be covered, or if the velocity has no symbol.
-    """
+    """Yield the initial velocity of a particle or a round body that a string, a rod or a surface guides. A dashed or
+    hollow outline shows the initial position, because the rest of the drawing shows a later state."""
     at = getattr(of, "centre", None) or of.at
     guiding = [each for each in system.parts if isinstance(each, Line | Contact) and each.on(of)]
     if len(at.components) != 2 or not guiding or _slides_straight(of, guiding):
@@ -131,7 +123,6 @@ def _guided(system: System, moment: Moment, of: Any) -> Iterable[Mark]:
 
 
 def _slides_straight(of: Any, guiding: Sequence[Any]) -> bool:
-    """Whether a particle moves along a plane, so that it is drawn as a block."""
     return not hasattr(of, "centre") and any(isinstance(getattr(e, "surface", None), Plane) for e in guiding)
 
 
@@ -187,7 +178,7 @@ def _arrow(at: Location, velocity: Location, long: Expr) -> Mark:
 
 
 def _size(vector: Location) -> Expr:
-    """Return the magnitude of a vector; for a vector along an axis, its component without a minus sign."""
+    """Return the magnitude of a vector."""
     components = [c for c in vector.components if c != 0]
     if len(components) == 1:
         (only,) = components
@@ -196,8 +187,7 @@ def _size(vector: Location) -> Expr:
 
 
 def _height(system: System, moment: Moment, at: Location) -> Iterable[Mark]:
-    """Yield the height of the point of impact above the origin, if the height is a symbol and the system is one body in
-    a plane."""
+    """Yield the height of the point of impact above the origin, if the height has a symbol."""
     if len(at.components) != 2 or len(system.bodies) != 1:
         return
     there = Location(tuple(tidied(c.xreplace(dict(moment.at))) for c in at.components))
@@ -210,8 +200,7 @@ def _height(system: System, moment: Moment, at: Location) -> Iterable[Mark]:
 
 
 def _from_the_joint(system: System, places: Sequence[Location], at: Location, hinged: bool = False) -> Iterable[Mark]:
-    """Yield the point of impact and, in a plane, its distance from the fixed point of a body, or with `hinged` from a
-    hinge between two bodies. Yield nothing if the point is the position of a particle or a centre of mass."""
+    """Yield the point of impact and its distance from the fixed point of a body, or with `hinged` from a hinge."""
     if any(same(at, place) for place in places):
         return
     for placed, far in _met(system, at, hinged):
@@ -224,8 +213,8 @@ def _from_the_joint(system: System, places: Sequence[Location], at: Location, hi
 
 
 def _met(system: System, at: Location, hinged: bool = False) -> Iterable[tuple[Any, Symbol]]:
-    """Yield pairs of a body and a symbol. The body has a fixed point, or with `hinged` a hinge to another body, and the
-    symbol is the constant distance from this point to the point of impact."""
+    """Yield each body with a fixed point, and the symbol of the distance from this point to the point of impact. With
+    `hinged`, the point is a hinge."""
     for placed in system.bodies:
         far = sqrt(tidied(Add(*(c**2 for c in (at - placed.at).components))))
         is_joint = is_fixed(system, placed.at) or hinged and isinstance(placed.at, PointOfBody)
@@ -273,17 +262,16 @@ def _at(mark: Mark, values: Values) -> Mark:
 
 
 def is_of_the_moment(mark: Mark, moment: Moment) -> bool:
-    """Return whether a mark does not belong in the drawing of an impact. This is so for an angle or a dimension line
-    whose label is a coordinate that is zero at the impact. It is also so for a dimension line whose label is a
-    coordinate with a rate just before the impact."""
+    """Return whether a mark does not belong in the drawing of an impact, such as an angle that is zero at the
+    impact."""
     if isinstance(mark, DistanceMark | LengthMark):
         return mark.label in moment.rates or moment.at.get(mark.label) == 0
     return isinstance(mark, AngleBetween) and moment.at.get(mark.label) == 0
 
 
 def moment_drawn(system: System, moment: Moment) -> dict[Symbol, Expr]:
-    """Return the values of coordinates and lengths for the drawing of an impact. They are the values at the impact, but
-    a part that has a displacement with a nonzero rate is drawn at an earlier place."""
+    """Return the values of coordinates and lengths for the drawing of an impact. A part that moves is drawn at an
+    earlier place."""
     found = {q: moment.at.get(q, ZERO) for q in system.coordinates if q in moment.at}
     for placed, letter in (each for at in moment.meeting for each in _met(system, at)):
         length = getattr(placed.body, "length", None)

@@ -12,8 +12,7 @@ from derive.steps.step import Step, is_zero
 
 
 def shortened(steps: Sequence[Step]) -> Callable[[Step, Any], Any]:
-    """Return a function of a step and an expression. It replaces each square root that an earlier step has named by the
-    symbol of that step."""
+    """Return a function of a step and an expression that replaces named square roots by their symbols."""
     letters: list[tuple[Any, Any]] = []
     known: dict[str, list[tuple[Any, Any]]] = {}
     for step in steps:
@@ -24,7 +23,6 @@ def shortened(steps: Sequence[Step]) -> Callable[[Step, Any], Any]:
 
 
 def _written(value: Any, letters: Sequence[tuple[Any, Any]]) -> Any:
-    """Replace each named square root by its symbol, even if the formula under the root is written in another form."""
     if not letters or not hasattr(value, "atoms"):
         return value
     found = {}

@@ -16,8 +16,7 @@ ANGLE = unit_of_kind("angle")  # bounds of angles, such as pi/2, are written wit
 
 
 def between_bounds(assumed: Iterable[Relation]) -> list[Relation]:
-    """Join the two numerical bounds of a symbol. If the bounds imply that a sine or cosine is not zero, omit this
-    condition."""
+    """Join the two numerical bounds of a symbol."""
     conditions = list(assumed)
     below = {
         r.left: r for r in conditions if r.operator in MIRRORED and isinstance(r.left, Symbol) and r.right.is_number
@@ -46,8 +45,7 @@ def says_the_same(condition: Relation, other: Relation) -> bool:
 
 
 def with_units(condition: Any, units: Mapping[Symbol, str]) -> Any:
-    """Return a condition in which each rational bound of a symbol, except zero, has the unit of this symbol:
-    -1 m/s < v < 1 m/s."""
+    """Return a condition whose numerical bounds have units: -1 m/s < v < 1 m/s."""
     left, right = condition.left, condition.right
     letter = left.right if isinstance(left, Relation) else left
     unit = units.get(letter, "") if isinstance(letter, Symbol) else ""
@@ -63,8 +61,7 @@ def _amount(number: Any, unit: str) -> Any:
 
 
 def _follows(condition: Relation, below: dict[Expr, Relation], above: dict[Expr, Relation]) -> bool:
-    """Return whether the condition is that a sine or cosine is not zero, and the bounds imply it: 0 < alpha < pi/2
-    implies sin(alpha) != 0."""
+    """Return whether the bounds imply the condition: 0 < alpha < pi/2 implies sin(alpha) != 0."""
     function = condition.left
     if condition.operator != "!=" or condition.right != Integer(0) or not isinstance(function, sin | cos):
         return False

@@ -81,8 +81,8 @@ class ChainWriter:
         self._used = _letters_used(derivation.steps, values)
 
     def of(self, step: Step, mode: str = "") -> tuple[ChainLine, ...]:
-        """Return the lines of a step, with its decimals. If `mode` is `result` or `hidden`, only the last line and the
-        decimals are returned. A list of results has one line for each distinct value."""
+        """Return the lines of a step, with its decimals. If `mode` is `result` or `hidden`, lines before the result are
+        left out."""
         forms = [form for form in step.chain if form.expr != step.symbol]
         if mode in ("result", "hidden"):
             forms = [step.chain[-1]]
@@ -100,8 +100,7 @@ class ChainWriter:
         return tuple(lines)
 
     def _decimals(self, step: Step) -> list[Form]:
-        """Return the decimals of an answer that contains no symbols; these decimals are shown with the lines of the
-        answer."""
+        """Return the decimals of an answer that contains no symbols."""
         value = self.values.get(step.key)
         exact = value is not None and value.outcome == "exact"
         return [form for form in value.chain if form.because in NUMBERS] if value is not None and exact else []
@@ -158,24 +157,21 @@ class ChainWriter:
         return filled(template, {**self.names, **own, **references})
 
     def _are_just_before(self, step: Step, keys: Collection[str]) -> bool:
-        """Return whether the keys are those of the last one or two equations before the step. The reader has just read
-        these equations, so a note that names only them has nothing new."""
+        """Return whether the keys are those of equations just before the step. The reader has just read these
+        equations, so a note that names only them has nothing new."""
         if not keys or step.key not in self.numbers:
             return False
         earlier = sorted({each for each in self.numbers.values() if each < self.numbers[step.key]})
         return {self.numbers[key] for key in keys} <= set(earlier[-2:])
 
     def _numbered(self, keys: Collection[str]) -> list[str]:
-        """Return the keys of the numbered equations, ordered by number."""
         return sorted(self.numbers.keys() & keys, key=self.numbers.__getitem__)
 
     def _one_of_each_row(self, keys: Sequence[str]) -> list[str]:
-        """Return the first key for each number, because the equations in a row share a number."""
         return list({self.numbers[key]: key for key in reversed(keys)}.values())[::-1]
 
     def _having(self, key: str, of: Step) -> list[str]:
-        """Return the key itself. But if it is the key of a vector or tensor that the page does not show, return the
-        keys of those entries that the step `of` uses."""
+        """Return the key itself, or the keys of the entries if the page does not show the vector or tensor."""
         step = self.steps.get(key)
         if key in self.numbers or step is None or not isinstance(step.result, MatrixBase):
             return [key]
@@ -201,10 +197,8 @@ def _is_inserted(line: ChainLine, after: ChainLine | None, shown: Collection[Any
 
 
 def conditions_of(step: Step) -> tuple[ChainLine, ...]:
-    """Return a line for each condition under which the answer holds, if the sentence of the step states conditions.
-
-    A lower and an upper bound of one quantity share a line.
-    """
+    """Return a line for each condition under which the answer holds. A lower and an upper bound of one quantity share a
+    line."""
     told = dict(step.roles)
     found = [told[role] for role in step.display.conditions if role in told]
     if len(found) == 2 and found[0].left == found[1].left and found[0].operator in MIRRORED:
@@ -214,8 +208,7 @@ def conditions_of(step: Step) -> tuple[ChainLine, ...]:
 
 
 def _letters_used(steps: Sequence[Step], values: Mapping[str, Step]) -> set[Any]:
-    """Return the symbols of limits and series that the page must introduce, because other steps or numerical answers
-    use them."""
+    """Return the symbols of limits and series that the page must introduce."""
     own = {step.symbol for step in steps if step.breaks_off and step.symbol is not None}
     found = {step.symbol for step in values.values()} & own
     for step in steps if own else ():
@@ -227,8 +220,8 @@ def _letters_used(steps: Sequence[Step], values: Mapping[str, Step]) -> set[Any]
 
 
 def _share_a_sum_or_root(vector: MatrixBase) -> bool:
-    """Return whether a sum, such as a^2 - c^2, or the root of a number is a factor or a denominator of every entry that
-    does not vanish. In front of the vector this sum or root is printed once."""
+    """Return whether a sum or a root is a factor or a denominator of all entries; in front of the vector it is printed
+    once."""
     present = [entry for entry in vector if entry != 0]
     factors = Mul.make_args(common_factor(present))
     return len(present) > 1 and any(each.as_base_exp()[0].is_Add or each.is_irrational for each in factors)

@@ -2,8 +2,8 @@
 
 The grade of a step is the lower of two grades. The first is the lowest grade of its lines and of statements that were
 only tested at trial numbers. The second is the highest grade of its other evidence, such as second routes and checks.
-Each route and each check is counted once for every result that it tests. Checks start from the result and are counted
-separately from routes. Motions that the witness (`derive.witness`) simulates numerically are also counted separately.
+Routes and checks are counted separately, and so are the motions that the witness (`derive.witness`) simulates
+numerically.
 """
 
 from __future__ import annotations
@@ -24,11 +24,11 @@ from derive.steps.step import Step
 
 @dataclass(frozen=True)
 class Row:
-    """Consecutive steps of one rule, of the same grade and checked by the same methods, with their inputs and the
+    """Consecutive steps of one rule with the same grade and the same methods of checking, with their inputs and the
     number of their lines.
 
-    `routes` names the second routes and, at the end, the motion if the witness simulated it numerically. `checks` names
-    the checks.
+    routes   the names of the second routes, and of the motion if the witness simulated it numerically
+    checks   the names of the checks
     """
 
     steps: tuple[str, ...]
@@ -139,8 +139,8 @@ def checks_of(steps: Iterable[Step], words: Phrases, compared: Sequence[Told]) -
 
 
 def second_ways_of(step: Step, sort: Compared, words: Phrases) -> tuple[str, ...]:
-    """Return the words for the checks of a step or for its second routes, as `sort` requires. If the witness simulated
-    the motion, the words for the routes end with a phrase about this simulation."""
+    """Return the words for the checks of a step or for its second routes, as `sort` requires. The words for the routes
+    also mention a motion that the witness simulated."""
     found = tuple(said for e in step.evidence if e.compared is sort and (said := words.route(step, e.claim)))
     followed = sort is Compared.ROUTE and any(e.compared is Compared.WITNESS for e in step.evidence)
     return (*found, words.labels["motion"]) if followed else found

@@ -73,10 +73,7 @@ class Clauses:
         return self._sentence("where", self._due(lines))
 
     def around(self, sentence: tuple[Inline, ...], lines: Any) -> tuple[Inline, ...]:
-        """Return the sentence that follows some lines, with a clause that defines the symbols in these lines.
-
-        The clause comes first, except if the sentence begins with a small letter and so continues the lines.
-        """
+        """Return the sentence that follows some lines, with a clause that defines the symbols in these lines."""
         due = self._due(lines)
         if continues_sentence(sentence):
             clause = self._sentence("here", due)
@@ -104,7 +101,7 @@ class Clauses:
         return filled(self.words.labels[label], {"definitions": told})
 
     def _told(self, step: Step, by_value: bool) -> tuple[Inline, ...]:
-        """Return `rho = M/(6 a^3) is the density`; if there is no phrase, only `rho = M/(6 a^3)`."""
+        """Return `rho = M/(6 a^3) is the density`, or `rho = M/(6 a^3)` if there is no phrase."""
         phrase = self.words.clauses.get(step.rule, {}).get(step.outcome, BY_VALUE)
         names, by_value = self._names(step), by_value and step.key not in self.by_name
         return filled(phrase, names if by_value or phrase == BY_VALUE else {**names, "definition": Math(step.symbol)})

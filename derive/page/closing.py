@@ -37,7 +37,7 @@ def limits_left_out(problem: Problem, derivation: Derivation) -> list[Complaint]
 
 def sort_of_cases(problem: Problem, derivation: Derivation) -> str:
     """Return the label of the cases: in a limiting case a symbol goes to a limit, in a special case it has a value.
-    One case alone has a label in the singular."""
+    A single case has a label in the singular."""
     shown = [given for keys, given in zip(derivation.closing, problem.limits, strict=True) if keys]
     special = [bool(given.where) for given in shown if not given.step]
     alone = len(shown) == 1
@@ -78,8 +78,7 @@ def limiting_cases(
 
 
 def _agreed(step: Step, derivation: Derivation, words: Phrases, numbers: Mapping[str, Number]) -> Nodes:
-    """Return the sentence which states that a limit agrees with a known result; it names the result by number or
-    symbol."""
+    """Return the sentence which states that a limit agrees with a known result."""
     known = derivation.step(step.inputs[-1])
     named: Inline = Ref(known.key) if known.key in numbers or known.symbol is None else Math(known.symbol)
     return filled(words.phrase(step), {"known": named, "formula": Math(step.chain[0].expr)})
@@ -100,9 +99,7 @@ def _result(step: Step) -> Nodes:
     last = step.chain[-1]
     if step.symbol is None or step.display.names_formula:
         return (Math(last.expr),)
-    what = dict(step.roles).get(
-        "bound", name_before(step)
-    )  # the left side: the `bound` of a step for the least value of a symbol, otherwise the symbol of the step
+    what = dict(step.roles).get("bound", name_before(step))
     match sign_before(last):
         case "tends":
             return (Math(Approach(what, last.expr)),)
@@ -114,7 +111,6 @@ def _result(step: Step) -> Nodes:
 
 
 def _with_commas(parts: Sequence[Nodes]) -> Nodes:
-    """Join the parts of a sentence with commas, and end the sentence with a full stop."""
     nodes: list[Inline] = []
     for i, part in enumerate(parts):
         nodes += [Text(", ")] if i else []

@@ -46,8 +46,7 @@ class References:
         return Ref(mention.name)
 
     def note(self, pieces: Iterable[str | Mention], names: Mapping[str, object]) -> None:
-        """Record the mentions that print an equation number: a relation is named by number, because it has no
-        symbol."""
+        """Record the mentions that print an equation number."""
         mentions = (piece for piece in pieces if isinstance(piece, Mention) and not piece.of)
         self.equations += [mention for mention in mentions if isinstance(names.get(mention.name), Ref)]
 
@@ -57,7 +56,7 @@ class References:
         return {mention.name for mention in self.equations}
 
     def check_title(self, mentions: Iterable[Mention], names: Mapping[str, object]) -> None:
-        """Reject references by number in the title, because lists, bookmarks and page headers also show the title."""
+        """Reject references by number in the title, because the title also appears in lists and page headers."""
         for mention in mentions:
             if mention.of or isinstance(names.get(mention.name), Ref):
                 message = "a title cannot refer to an equation, a figure or a problem"

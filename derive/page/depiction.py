@@ -2,9 +2,8 @@
 
 The alternative text is derived from the expressions of the marks, so the text changes with the inputs. A drawing
 appears in the statement if it shows only inputs. Some drawings, such as a force diagram, are placed before the steps
-that they explain; such a drawing appears in the part that derives the first of these steps. Any other drawing appears
-in the first part after which all its steps are derived. A problem may move a drawing to a later part, but never to an
-earlier one.
+that they explain. Any other drawing appears in the first part after which all its steps are derived. A problem may move
+a drawing to a later part.
 """
 
 from __future__ import annotations
@@ -70,8 +69,7 @@ class Depicted:
 def caption_numbers(problem: Problem, drawings: Sequence[m.Recorded], derivation: Derivation) -> dict[str, int]:
     """Return the figure numbers of the author's figure and of the drawings with a caption, in the order of the page.
 
-    A drawing that leaves out conditions or given forces has a caption, which states them. A force diagram, and the
-    drawings of a normal mode and of polhodes, also have captions.
+    A drawing that leaves out conditions or given forces has a caption, which states them.
     """
     captioned = {p.key for p in problem.drawings if p.caption}
     shown = [d for d in drawings if d.key in captioned or _left_out(d) or _has_standard_caption(d)]
@@ -126,7 +124,6 @@ def depictions(
 
 
 def _left_out(drawing: m.Recorded) -> Sequence[Any]:
-    """Return the conditions, and the given forces with their kinds, that a drawing does not show."""
     return (*drawing.left_out, *drawing.undrawn) if isinstance(drawing, m.Drawing) else ()
 
 
@@ -139,7 +136,7 @@ def _has_standard_caption(drawing: m.Recorded) -> bool:
 def _standard_caption(drawing: m.Recorded, words: Phrases, said: set[str]) -> tuple[Inline, ...]:
     """Return the caption of a force diagram, or of the drawing of a normal mode, to which the problem gives no caption.
 
-    said   the sentences about the arrows of modes that earlier captions contain; a new sentence is added
+    said   the sentences in earlier captions; a new sentence is added
     """
     if not isinstance(drawing, m.Drawing):
         return ()
@@ -160,9 +157,9 @@ def _standard_caption(drawing: m.Recorded, words: Phrases, said: set[str]) -> tu
 
 
 def _positive(drawing: m.Recorded, words: Phrases, said: set[str]) -> tuple[Inline, ...]:
-    """Return the sentence about the thin arrow of a force diagram, to follow the caption; each is said once.
+    """Return the sentence about the thin arrow of a force diagram, to follow the caption.
 
-    said   the sentences that earlier captions contain; a new sentence is added
+    said   the sentences in earlier captions; a new sentence is added
     """
     marks = drawing.marks if isinstance(drawing, m.Drawing) else ()
     sorts = {PositiveDirection: "positive_direction", PositiveRotation: "positive_rotation"}
@@ -174,8 +171,7 @@ def _positive(drawing: m.Recorded, words: Phrases, said: set[str]) -> tuple[Inli
 
 
 def _not_shown(drawing: m.Recorded, words: Phrases, follows: bool) -> tuple[Inline, ...]:
-    """Return the sentences with the conditions and the given forces that a drawing does not show, to follow the
-    caption."""
+    """Return the sentences with the conditions and the given forces that a drawing does not show."""
     if not isinstance(drawing, m.Drawing) or not _left_out(drawing):
         return ()
     last, told = words.labels["and"], []
@@ -222,8 +218,6 @@ def _unknown(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Complaint
 
 
 def _without_letter(problem: Problem, drawing: m.Recorded) -> list[Complaint]:
-    """Return an error if `values` are given for a plot. For any other drawing, return an error for each name under
-    `values` that is a symbol neither of the drawing nor of the problem."""
     placement = placement_of(problem, drawing.key)
     if isinstance(drawing, m.Plot):
         message = f"`values` has no effect on the plot `{drawing.key}`"
@@ -240,14 +234,14 @@ def _without_letter(problem: Problem, drawing: m.Recorded) -> list[Complaint]:
 
 
 def _cases(problem: Problem, drawing: m.Recorded) -> list[Complaint]:
-    """Return an error for each case of a plot that repeats an earlier case. A number for the symbol that varies along
-    the horizontal axis or along a path is also an error."""
+    """Return an error for each case of a plot that repeats an earlier case or gives a number for the symbol that
+    varies."""
     placement = placement_of(problem, drawing.key)
     found: list[Complaint] = []
     if placement is None or not isinstance(drawing, m.Plot):
         return found
     before: list[dict[Symbol, Expr]] = []
-    of_several = bool(drawing.others)  # then each case belongs to another quantity
+    of_several = bool(drawing.others)  # each case belongs to another quantity
     for i, case in enumerate(placement.cases):
         for number in (each for each in case if each.symbol == drawing.variable):
             along = "the horizontal axis of" if drawing.across is None else "the path"
@@ -292,9 +286,7 @@ def _outside_its_case(problem: Problem, drawing: m.Recorded, derivation: Derivat
 
 
 def _conditions_for(plot: m.Plot, case: Sequence[Measured], derivation: Derivation) -> list[Relation]:
-    """Return the conditions that the plotted steps, and all steps on which they depend, state for their results. If
-    these steps replace a letter by a value, such as b by 2 sqrt(k m), and the case gives a number to this letter, then
-    b = 2 sqrt(k m) is also a condition."""
+    """Return the conditions that the plotted steps, and the steps on which they depend, state for their results."""
     steps = {step.key: step for step in derivation.steps}
     waiting, seen = list(plot.keys), dict[str, None]()
     while waiting:
@@ -313,10 +305,6 @@ def _conditions_for(plot: m.Plot, case: Sequence[Measured], derivation: Derivati
 
 
 def _is_broken(condition: Relation, names: Mapping[Any, Any], numbers: Mapping[Symbol, Expr]) -> bool:
-    """Whether these numbers violate a condition; False if a symbol of the condition has no number.
-
-    names   the values of the symbols that steps introduce
-    """
     value = explicit(condition)
     for _ in names:  # the value of a name may contain other names
         value = bound(value, names)
@@ -343,15 +331,15 @@ def letters_not_drawn(problem: Problem, drawings: Sequence[m.Recorded]) -> list[
 
 
 def _with_values(problem: Problem, placement: Placement) -> dict[str, Place | None]:
-    """Return the symbols with a value for a drawing, or with a number in cases that no part uses for its answers."""
+    """Return the symbols for which a drawing has a value."""
     is_for_parts = any(part.cases == placement.key for part in problem.parts)
     cases = () if is_for_parts else placement.cases
     return {**placement.names, **{number.symbol.name: number.place for case in cases for number in case}}
 
 
 def keys_without_effect(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Complaint]:
-    """Return a warning for each key `range`, `up`, `cases` or `panels` of a drawing that is not a plot, and for each
-    `view` of a drawing that is not in space."""
+    """Return a warning for each key of a drawing that has no effect, such as `range` of a drawing that is not a
+    plot."""
     found = []
     for placement in problem.drawings:
         no_plot = any(d.key == placement.key and not isinstance(d, m.Plot) for d in drawings)
@@ -387,7 +375,7 @@ def not_drawn(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Complain
 
 
 def _has_equal_moments(problem: Problem, drawing: m.Recorded, placement: Placement | None) -> bool:
-    """Whether a drawing would show polhodes of a body with two equal moments; such polhodes are circles."""
+    """Whether a drawing would show polhodes of a body with two equal moments; these polhodes are circles."""
     if not isinstance(drawing, m.Drawing) or drawing.polhodes is None:
         return False
     ratios, _ = _moments(problem, drawing, placement)
@@ -395,9 +383,8 @@ def _has_equal_moments(problem: Problem, drawing: m.Recorded, placement: Placeme
 
 
 def placed_after(drawing: m.Recorded) -> tuple[str, ...]:
-    """Return the keys of the steps that a drawing shows and, for a normal mode, the keys of the steps of the other
-    modes. The drawing is placed after those of these steps that are in its part. So the drawings of all modes are side
-    by side."""
+    """Return the keys of the steps that a drawing shows. For a normal mode, also return the keys of the other modes, so
+    that their drawings are side by side."""
     siblings = drawing.mode.siblings if isinstance(drawing, m.Drawing) and drawing.mode is not None else ()
     return (*drawing.keys, *siblings)
 
@@ -408,12 +395,7 @@ def leads_to(drawing: m.Recorded) -> tuple[str, ...]:
 
 
 def _earliest(drawing: m.Recorded, derivation: Derivation) -> int | None:
-    """Return the index of the earliest part for a drawing; None if there is no such part.
-
-    If the drawing is placed before steps, the part is the one that derives the first of these steps. Otherwise the part
-    is the first one after which all steps of the drawing are derived. The index -1 means that the drawing belongs to
-    the statement.
-    """
+    """Return the index of the earliest part for a drawing, or -1 for the statement; None if there is no such part."""
     if leads_to(drawing):
         return next((i for i, keys in enumerate(derivation.parts) if set(keys) & set(leads_to(drawing))), None)
     known: set[str] = set()
@@ -425,8 +407,6 @@ def _earliest(drawing: m.Recorded, derivation: Derivation) -> int | None:
 
 
 def _index(problem: Problem, drawing: m.Recorded, derivation: Derivation) -> int | None:
-    """Return the index of the part with the drawing, or -1 for the statement; None if the drawing is hidden, or if no
-    part can show it."""
     placement = placement_of(problem, drawing.key)
     if _has_equal_moments(problem, drawing, placement):
         return None
@@ -440,7 +420,7 @@ def _index(problem: Problem, drawing: m.Recorded, derivation: Derivation) -> int
 
 
 def _part_of(key: str, problem: Problem, derivation: Derivation) -> int | None:
-    """Return the index of the part that asks for a step, else of the part that shows the step, else None."""
+    """Return the index of the part that asks for a step or shows the step; None if there is no such part."""
     answered = [derivation.answering(part.answers) for part in problem.parts]
     asked = [index for index, steps in enumerate(answered) if key in [step.key for step in steps]]
     shown = [index for index, keys in enumerate(derivation.parts) if key in keys]
@@ -450,10 +430,7 @@ def _part_of(key: str, problem: Problem, derivation: Derivation) -> int | None:
 def _given_away(
     problem: Problem, drawing: m.Recorded, placement: Placement | None, derivation: Derivation
 ) -> Complaint | None:
-    """Return an error if a drawing shows a step that is derived later, or a step on which no answer depends.
-
-    If the `at` of the drawing names a step that does not exist, this is also an error.
-    """
+    """Return an error if a drawing shows a step that is derived later, or a step on which no answer depends."""
     index, earliest = _index(problem, drawing, derivation), _earliest(drawing, derivation)
     place = (placement.at_place or placement.place) if placement else problem.place_of("solve")
     at = placement.at if placement is not None else None
@@ -513,7 +490,7 @@ def _moves(mode: m.ShownMode, words: Phrases) -> tuple[Inline, ...]:
 
 def _moments(problem: Problem, drawing: m.Drawing, placement: Placement | None) -> tuple[list[Expr], bool]:
     """Return the ratios of the moments of inertia for which polhodes are drawn, and whether the ratios are only an
-    example, because a number in them is not a number of the problem."""
+    example."""
     assert drawing.polhodes is not None
     given = {letter: explicit(amount) for letter, amount in problem.amounts.items()}
     chosen = dict(placement.values) if placement else {}
@@ -529,8 +506,7 @@ def _moments(problem: Problem, drawing: m.Drawing, placement: Placement | None) 
 def _polhodes(
     phrase: str, problem: Problem, drawing: m.Drawing, placement: Placement | None, words: Phrases
 ) -> tuple[Inline, ...]:
-    """Return the caption or the alternative text of polhodes, as `phrase` selects. Both name the axes that the curves
-    surround."""
+    """Return the caption or the alternative text of polhodes, as `phrase` selects."""
     assert drawing.polhodes is not None
     ratios, _ = _moments(problem, drawing, placement)
     if missing := sorted({s.name for ratio in ratios for s in ratio.free_symbols}):
@@ -544,7 +520,7 @@ def _polhodes(
 
 
 def _ratio(problem: Problem, drawing: m.Drawing, placement: Placement | None, words: Phrases) -> tuple[Inline, ...]:
-    """Return the sentence with the ratio of the moments for which polhodes are drawn, to follow the caption."""
+    """Return the sentence with the ratio of the moments for which polhodes are drawn."""
     ratios, is_example = _moments(problem, drawing, placement)
     names: dict[str, Any] = {"ratio": " : ".join(_in_small_numbers(ratios)), "example": is_example}
     names["axes"] = joined([_named(scalar(axis)) for axis in AXES], words.labels["and"])
@@ -564,7 +540,7 @@ def _in_small_numbers(ratios: Sequence[Expr]) -> list[str]:
 
 
 def _told_once(marks: Sequence[m.Mark]) -> list[m.Mark]:
-    """Return the marks without duplicates, and with only the first of the dashed curves without a label."""
+    """Return the marks without repetitions, for the alternative text."""
     found: dict[Any, m.Mark] = {}
     for mark in marks:
         told = mark.in_words()
@@ -601,7 +577,7 @@ def _curves(problem: Problem, plot: m.Plot, placement: Placement | None, words: 
 
 
 def _heights(curve: Curve, curves: Curves) -> Iterator[dict[str, Any]]:
-    """Yield the names for the words about each horizontal line of a potential energy."""
+    """Yield the names for the words about each energy line of a plot."""
     for energy, ranges in curve.heights:
         for start, end in ranges:
             ends = [with_unit(x * curves.variable.per_unit, curves.variable.unit) for x in (start, end)]
@@ -609,12 +585,10 @@ def _heights(curve: Curve, curves: Curves) -> Iterator[dict[str, Any]]:
 
 
 def _divided(label: Any, axis: Axis) -> Any:
-    """Return the name of an axis, divided by the quantity that divides the axis if there is one."""
     return _named(label if axis.per is None else label / axis.per)
 
 
 def _spaced(told: Sequence[tuple[Inline, ...]]) -> tuple[Inline, ...]:
-    """Return sentences with a space between them."""
     return tuple(node for i, nodes in enumerate(told) for node in ((Text(" "),) if i else ()) + nodes)
 
 
@@ -674,8 +648,7 @@ def _diagrams(plot: m.Plot, curves: Curves, words: Phrases, names: dict[str, Any
 
 
 def _part(line: BranchLine, curves: Curves, varies: bool) -> dict[str, Any]:
-    """Return the names for the words about a part of a branch: its ends, the values at its ends, whether it is stable,
-    and whether its values vary."""
+    """Return the names for the words about a part of a branch."""
     (start, first), (end, second) = line.points[0], line.points[-1]
     ends = {"start": start, "end": end}
     values = {"first": first, "second": second}
@@ -685,7 +658,6 @@ def _part(line: BranchLine, curves: Curves, varies: bool) -> dict[str, Any]:
 
 
 def _paths(plot: m.Plot, curves: Curves, words: Phrases, names: dict[str, Any]) -> Iterator[tuple[Inline, ...]]:
-    """Yield words for the quantities of a path, and for the ends of the path in each panel."""
     assert plot.across is not None
     names |= {"across": _divided(plot.across.label, curves.across), "several": len(curves.curves) > 1}
     yield filled(words.drawings["path"], names)
@@ -707,7 +679,6 @@ def _paths(plot: m.Plot, curves: Curves, words: Phrases, names: dict[str, Any]) 
 
 
 def _surfaces(plot: m.Plot, words: Phrases) -> Iterator[tuple[Inline, ...]]:
-    """Yield words for the surfaces that are drawn with a path."""
     if plot.outlines:
         names = [(Text(outline.name.replace("_", " ")),) for outline in plot.outlines]
         own = {"names": joined(names, words.labels["and"]), "several": len(names) > 1}
@@ -720,7 +691,7 @@ def _put_in(numbers: Sequence[Measured]) -> list[tuple[Inline, ...]]:
 
 
 def _shared(curves: Curves, words: Phrases) -> list[tuple[Inline, ...]]:
-    """Return words for the numbers that all curves share, which are not written above the panels."""
+    """Return words for the numbers that all curves share."""
     if not curves.shared:
         return []
     numbers = joined(_put_in(curves.shared), words.labels["and"])
@@ -728,7 +699,7 @@ def _shared(curves: Curves, words: Phrases) -> list[tuple[Inline, ...]]:
 
 
 def _turns(plot: m.Plot, curves: Curves, curve: Curve, words: Phrases) -> list[tuple[Inline, ...]]:
-    """Return a few words for each extremum of a curve; nothing for a curve with too many extrema to mark."""
+    """Return words for each extremum of a curve."""
     return [
         filled(
             words.drawings["extremum"],
@@ -744,8 +715,7 @@ def _turns(plot: m.Plot, curves: Curves, curve: Curve, words: Phrases) -> list[t
 
 
 def _told_of_curves(curves: Curves, words: Phrases) -> tuple[Inline, ...]:
-    """Return what the dots mean, and the numbers that all curves of a plot share, to follow the caption, which does not
-    repeat the extrema."""
+    """Return the meaning of the dots, and the numbers that all curves of a plot share."""
     kinds = {turn.kind for curve in curves.curves for turn in curve.marked}
     dots = [filled(words.drawings["filled_and_open"], {"filled": MINIMUM in kinds})] if curves.has_unstable else []
     told = (*dots, *_shared(curves, words))
@@ -774,7 +744,7 @@ def _measured(name: str, value: Any, last: str) -> tuple[Inline, ...]:
 
 
 def _named(value: Any) -> Any:
-    """Return a value for use in a phrase: words and counts are unchanged, everything else becomes mathematics."""
+    """Return a value for use in a phrase."""
     if value is None or isinstance(value, str):
         return (Text(value),) if value else ()
     return value if isinstance(value, int) else (Math(value),)

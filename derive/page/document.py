@@ -139,13 +139,11 @@ class _Writer:
         self.converted, self.stated = set[Any](), Stated()
         self.before: Step | None = None  # the last step shown; the words of the next step may depend on it
         self.rest: list[Step] = []  # the steps that the part shows after the current step
-        self.pointed_to: tuple[Step, ...] = ()  # the steps to whose lines the last such sentence refers
+        self.pointed_to: tuple[Step, ...] = ()  # the steps whose lines the last sentence about earlier lines mentions
         self.told_before = ""  # the key of a step that shares the sentence of the step before
         self.framed: set[str] = set()  # steps whose result is framed as an answer
-        self.frames_again = (
-            False  # whether a result of an earlier part is framed again: it is the part's only answer, or
-        )
-        # the part names the answers that are framed
+        # Whether a result of an earlier part is framed again: it is the part's only answer, or the part has `box:`.
+        self.frames_again = False
         self.unplaced: set[str] = set()  # steps that the page has not yet described
         self.symbols = {step.key: step.symbol for step in derivation.steps}
         away, names = self.references.away, page_names(problem, derivation, words)
@@ -221,8 +219,7 @@ class _Writer:
         )
 
     def needs(self, document: Document) -> tuple[set[str], set[str]]:
-        """Return the hidden steps whose symbols the page uses, and the hidden steps to whose equations the page
-        refers."""
+        """Return the hidden steps whose symbols or equations the page needs."""
         shown = (document.title, document.statement, document.strategy, document.illustrations)
         whole = (shown, document.parts, document.limits, document.note)
         moving = {q for step in self.derivation.steps for q, _ in step.coordinates}
@@ -235,8 +232,7 @@ class _Writer:
         return defined, set(filter(could_stand, numbers))
 
     def _can_be_defined(self, key: str) -> bool:
-        """Return whether a clause may define the symbol of this step: the author hides the step, the symbol can be
-        defined in a clause, and no text of the author contains the symbol or mentions the step."""
+        """Return whether a clause may define the symbol of this step."""
         step = self.derivation.step(key)
         if self.problem.show.get(key) != HIDDEN_STEP or not self.clauses.can_define(step):
             return False
@@ -293,7 +289,7 @@ class _Writer:
         self.faults += faults
         stem = self.problem.id.rpartition("/")[2]
         away = {chr(ord("a") + i) for i, part in enumerate(self.problem.parts) if not self.level.shows(part.detail)}
-        here = [d for d in found if d.at not in away]  # without the drawings of parts that are not shown
+        here = [d for d in found if d.at not in away]  # drawings of parts that are not shown are left out
         own: list[Illustration] = []
         if figure := self.problem.figure:
             caption = self._told(figure.caption.pieces) if figure.caption else ()
@@ -345,8 +341,7 @@ class _Writer:
         return PartPage(label, self._question(label, part, illustrations), part.points, placed, part.extra)
 
     def _question(self, label: str, part: Question, drawings: Sequence[Illustration]) -> tuple[Inline, ...]:
-        """Return the question of a part, with the numbers of the cases of a plot if the part asks for these numbers or
-        mentions `<<cases>>`. A plot that only illustrates an answer has its numbers in its caption."""
+        """Return the question of a part, with the numbers of the cases of a plot if the reader needs them."""
         mentioned = next((each for each in part.ask.mentions if each.name == CASES and not each.of), None)
         with_cases = {each.key: each.cases for each in self.problem.drawings if each.cases}
         there = [drawing for drawing in drawings if drawing.key in with_cases]
@@ -367,7 +362,7 @@ class _Writer:
         return {mention.name for mention in mentions if mention.of == FIGURE}
 
     def _observed(self, index: int) -> tuple[Inline, ...]:
-        """Return the observations about the answers of a part, as one paragraph."""
+        """Return the observations about the answers of a part."""
         keys = self.derivation.observed[index] if self.derivation.observed and self.level is not Level.BRIEF else ()
         said = [self._without_lines(self._phrase(self.derivation.step(key))) for key in keys]
         return tuple(node for i, nodes in enumerate(said) for node in ((Text(" "),) if i else ()) + nodes)
@@ -378,8 +373,7 @@ class _Writer:
         return (*kept[:-1], Text(kept[-1].text.rstrip())) if kept and isinstance(kept[-1], Text) else tuple(kept)
 
     def _limits(self) -> PartPage | None:
-        """Return the limiting cases as the last part, which begins with the steps that only these cases need; None
-        without such cases."""
+        """Return the limiting cases as the last part; None without limiting cases."""
         blocks: list[Block] = []
         for each in limiting_cases(self.problem, self.derivation, self.words, self._phrase, self._told, self.numbers):
             if isinstance(each, Step):
@@ -391,12 +385,7 @@ class _Writer:
         return PartPage("", (Text(title),), None, _punctuated(blocks)) if blocks else None
 
     def _framed(self, keys: Sequence[str], asked: Collection[str], boxed: Collection[str]) -> set[str]:
-        """Return the keys of the steps of a part that are framed.
-
-        These are the answers of the part that are to be framed, except a formula whose numerical value is framed
-        instead, and a formula that is only the reason for a verdict in words. If the sentence of an answer points to
-        earlier lines, the steps of these lines are returned instead.
-        """
+        """Return the keys of the steps of a part that are framed."""
         derived = max((i for i, key in enumerate(keys) if key not in asked), default=-1)
         measured = {key for key in keys[derived + 1 :] if (v := self.values.get(key)) and v.outcome == "measured"}
         verdicts = {key for key in asked if self.derivation.step(key).display.verdict}
@@ -407,7 +396,7 @@ class _Writer:
     ) -> None:
         """Add the words and lines of a step; a step that continues the step before needs no words.
 
-        A result that a part asks for is always on the page: if the step is hidden, the result appears without words.
+        A hidden result that a part asks for appears without words.
 
         framed   whether the result is an answer, which is framed
         verdict  whether the answer is a word of the sentence, such as "stable"
@@ -468,7 +457,6 @@ class _Writer:
             blocks.append(Paragraph(self.clauses.around(after, blocks[-1])))
 
     def _is_only_and(self, before: Sequence[Inline]) -> bool:
-        """Return whether the words before lines are only "and": such lines join the lines before them, as in a list."""
         return all(isinstance(n, Text) for n in before) and _text_of(before).strip() == self.words.labels["and"].strip()
 
     def _clause(self, blocks: Sequence[Block], following: Sequence[Inline] = ()) -> tuple[Inline, ...]:
@@ -480,9 +468,7 @@ class _Writer:
         return (*told, Text(" ")) if told else ()
 
     def _share_a_row(self, step: Step, own: Equations, above: Equations) -> bool:
-        """Return whether a step and the step before may share a row and its number. Both steps need a symbol, and none
-        of their lines may have a reason next to it. If one of them is an answer, both must be answers and vectors,
-        which share a frame."""
+        """Return whether a step and the step before may share a row and its number."""
         steps = (self.before, step)
         if self.level is Level.FULL or any(each is None or each.symbol is None for each in steps):
             return False
@@ -494,15 +480,12 @@ class _Writer:
         return all(e.lines[-1].left is not None and not any(line.reason for line in e.lines) for e in pair)
 
     def _following(self, key: str) -> Step | None:
-        """Return the next step that the part shows, if one sentence may describe both the step `key` and this next
-        step; otherwise None."""
         if self.level is Level.FULL or not self.rest or {key, self.rest[0].key} & set(self.problem.wording):
             return None
         return self.rest[0] if self.rest[0].display.told_along else None
 
     def _completed(self, key: str) -> set[str]:
-        """Return the steps that the page has now described: a step without lines is described as soon as its words
-        appear."""
+        """Return the steps that the page has now described."""
         self.unplaced.add(key)
         if key not in self.numbers:
             return set()
@@ -511,7 +494,7 @@ class _Writer:
         return found
 
     def _phrase(self, step: Step, follows_words: bool = False) -> tuple[Inline, ...]:
-        """Return the sentence of a step. If it follows words, it does not continue a sentence: "so the Lagrangian"."""
+        """Return the sentence of a step."""
         own = names_of_step(step, self.words, self.dimensions.get(step.symbol))
         override = self.problem.wording.get(step.key, {})
         own |= {"amounts": self._amounts(step), **in_turn(step, self.rest, self.words)}
@@ -570,7 +553,6 @@ def _parts_nothing(blocks: Sequence[Block], i: int) -> bool:
 
 
 def _goes_on(block: Block) -> bool:
-    """Return whether this block continues the sentence before it: its text begins with a small letter."""
     return isinstance(block, Paragraph) and continues_sentence(block.nodes)
 
 
@@ -582,7 +564,7 @@ def _illustrated(
     steps: int,
 ) -> tuple[Block, ...]:
     """Insert each drawing before the first of its steps in `leads_to`, or after the last of its steps in `rests_on`; a
-    drawing without steps begins the part. Numerical values of the answers follow the drawing."""
+    drawing without steps begins the part."""
     without = [steps if drawing.rests_on else 0 for drawing in own]
     completed = [
         min((begins[k] for k in d.leads_to if k in begins), default=0)
@@ -596,7 +578,7 @@ def _illustrated(
         else next(i for i in range(place, steps + 1) if i == steps or _parts_nothing(blocks, i))
         for drawing, place in zip(own, completed, strict=True)
     ]
-    places = list(accumulate(places, max))  # in the order of their numbers
+    places = list(accumulate(places, max))  # the drawings stay in the order of their numbers
     before_values = steps if steps < len(blocks) and _parts_nothing(blocks, steps) else steps - 1
     found: list[Block] = []
     for i, block in enumerate(blocks):

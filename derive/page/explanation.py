@@ -28,10 +28,10 @@ class Need:
 
 @dataclass(frozen=True)
 class Explanation:
-    """The explanation of a step in `part`; `own_words` is the place of the problem's own `wording:` for the `sentence`.
+    """The explanation of a step in `part`.
 
-    A rewording may mention `names`. `names` is empty if no part shows the step, as for the numerical value of an
-    answer: such a step cannot be reworded.
+    own_words   the place of the problem's own `wording:` for the `sentence`
+    names       the names that a rewording may mention; empty if the step cannot be reworded
     """
 
     step: Step
@@ -114,16 +114,15 @@ def _label(index: int) -> str:
 
 
 def _asked(problem: Problem, derivation: Derivation, values: Mapping[str, Step]) -> dict[str, str]:
-    """Return a mapping from the key of each answer, and from the key of its numerical value, to the first part that
-    asks for the answer."""
+    """Return a mapping from the key of each answer to the part that asks for it."""
     answers = [derivation.answering(part.answers) for part in problem.parts]
     asked = {step.key: _label(i) for i, steps in reversed(list(enumerate(answers))) for step in steps}
     return asked | {value.key: asked[key] for key, value in values.items() if key in asked}
 
 
 def _needs(step: Step, asked: Mapping[str, str], steps: Sequence[Step]) -> Iterator[Need]:
-    """Yield the step itself if it is an answer. Yield each answer that depends on the step directly or through steps
-    that are not answers, with the shortest path of such steps."""
+    """Yield the step itself if it is an answer, and each answer that depends on the step, with the path to this
+    answer."""
     if step.key in asked:
         yield Need(asked[step.key], step.key, ())
     ways: deque[tuple[str, ...]] = deque([(step.key,)])

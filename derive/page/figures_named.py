@@ -1,10 +1,8 @@
 """Mentions of the figures of a part, in the sentence that a figure belongs to: "It is unstable (Figure 2)."
 
-A figure that no text of the author mentions is mentioned in parentheses at the end of the sentence before it, or, if
-the part begins with the figure, of the first sentence after it. If the sentence before it leads to a formula, a plot or
-a normal mode has a sentence of its own at the start of the next paragraph: "Figure 2 shows x as a function of t." A
-figure of forces is mentioned at the start of the sentence after it, which leads to the equations: "With the forces in
-Figure 2, the upward component is".
+A figure that no text of the author mentions is mentioned in parentheses at the end of a sentence. A plot or a normal
+mode after a formula has a sentence of its own: "Figure 2 shows x as a function of t." A figure of forces is mentioned
+at the start of the sentence that leads to the equations: "With the forces in Figure 2, the upward component is".
 """
 
 from __future__ import annotations
@@ -24,8 +22,7 @@ STOPS = (".", ",", ":")
 def figures_mentioned(
     blocks: Sequence[Block], drawings: Mapping[str, m.Recorded], mentioned: Collection[str], words: Phrases
 ) -> tuple[Block, ...]:
-    """Return the blocks of a part in which every figure is mentioned that no text of the author mentions; figures that
-    follow each other are mentioned together.
+    """Return the blocks of a part in which each figure is mentioned.
 
     drawings    the drawings of the problem, by key
     mentioned   the keys of the drawings that a text of the author mentions
@@ -64,7 +61,7 @@ def _shows_forces(drawing: m.Recorded) -> bool:
 
 
 def _after(said: tuple[Inline, ...], blocks: list[Block]) -> list[Block]:
-    """Return the blocks, of which the first paragraph begins with a sentence."""
+    """Insert a sentence at the beginning of the first paragraph."""
     first = blocks[0]
     return (
         [Paragraph((*said, Text(" "), *first.nodes)), *blocks[1:]] if said and isinstance(first, Paragraph) else blocks
@@ -72,7 +69,7 @@ def _after(said: tuple[Inline, ...], blocks: list[Block]) -> list[Block]:
 
 
 def _shown(drawn: Sequence[m.Recorded], figures: Sequence[Illustration], words: Phrases) -> tuple[Inline, ...]:
-    """Return a sentence about what one plot, or what some normal modes, show; empty for other figures."""
+    """Return a sentence about the content of a plot or of normal modes; empty for other figures."""
     first, named = drawn[0], _named(figures, words)
     if all(isinstance(each, m.Drawing) and each.mode is not None for each in drawn):
         return filled(words.drawings["shows_modes"], named)
@@ -87,7 +84,7 @@ def _shown(drawn: Sequence[m.Recorded], figures: Sequence[Illustration], words: 
 
 
 def _begins_a_sentence(blocks: Sequence[Block]) -> bool:
-    """Whether the blocks begin with a new sentence, not with the rest of one such as "and for the block"."""
+    """Whether the blocks begin with a new sentence, not with words such as "and for the block"."""
     first = blocks[0] if blocks else None
     opening: Any = first if isinstance(first, Paragraph) else None
     while isinstance(opening, Paragraph | ToldOnce):
@@ -96,7 +93,7 @@ def _begins_a_sentence(blocks: Sequence[Block]) -> bool:
 
 
 def _named(figures: Sequence[Illustration], words: Phrases) -> dict[str, Any]:
-    """Return the names of the figures, such as Figure 1, or Figures 1 and 2, and how many there are."""
+    """Return the names of the figures, such as Figures 1 and 2, and their number."""
     numbers = [(each.number, each.key) for each in figures if each.number is not None]
     if len(numbers) == 1:
         [(number, key)] = numbers
@@ -108,7 +105,7 @@ def _named(figures: Sequence[Illustration], words: Phrases) -> dict[str, Any]:
 
 
 def _sentence_before(blocks: Sequence[Block]) -> int | None:
-    """Return the position of the last paragraph, if it ends the blocks or leads to a display that ends them."""
+    """Return the position of the last sentence before the figures."""
     for at in (len(blocks) - 1, len(blocks) - 2):
         if at >= 0 and isinstance(blocks[at], Paragraph):
             return at
@@ -124,8 +121,7 @@ def _after_figures(blocks: list[Block], figures: Sequence[Illustration], words: 
 
 
 def _with_forces(blocks: list[Block], figures: Sequence[Illustration], words: Phrases) -> list[Block]:
-    """Begin the first sentence with the figures of forces; a sentence that does not begin with an article, or a
-    paragraph of several sentences, follows a sentence about the figures."""
+    """Mention the figures of forces at the beginning of the first sentence, or in a sentence before it."""
     first, named = blocks[0], _named(figures, words)
     article = words.drawings["article"]
     nodes = first.nodes if isinstance(first, Paragraph) else ()
@@ -142,7 +138,7 @@ def _with_forces(blocks: list[Block], figures: Sequence[Illustration], words: Ph
 
 
 def _with_mention(paragraph: Block, figures: Sequence[Illustration], words: Phrases) -> Block:
-    """Put the figures in parentheses before the mark at the end of a paragraph, or after its last word."""
+    """Put the figures in parentheses at the end of a paragraph."""
     if not isinstance(paragraph, Paragraph):
         return paragraph
     *before, last = paragraph.nodes
@@ -153,7 +149,7 @@ def _with_mention(paragraph: Block, figures: Sequence[Illustration], words: Phra
     if said.endswith(STOPS):
         said, end = said[:-1], said[-1]
     mention: tuple[Inline, ...] = filled(words.drawings["mentioned"], _named(figures, words))
-    if said.endswith(")"):  # in the parentheses that are there
+    if said.endswith(")"):  # the paragraph already ends with parentheses
         mention = (*_named(figures, words)["figures"], Text(")"))
         return replace(paragraph, nodes=(*before, Text(said[:-1]), words.semicolon, *mention, Text(f"{end}{space}")))
     return replace(paragraph, nodes=(*before, Text(f"{said} "), *mention, Text(f"{end}{space}")))

@@ -33,7 +33,7 @@ def with_details(document: Document, full: Document) -> Document:
 def _merged(
     full: PartPage, numbers: Mapping[str, Number], lines: Mapping[str, Sequence[ChainLine]]
 ) -> dict[str, tuple[Block, ...]]:
-    """Return the blocks to fold after each step, by the key of the step; blocks before the first step have an empty
+    """Return the blocks to fold after each step, by the key of the step. Blocks before the first step have an empty
     key."""
     found: dict[str, list[Block]] = {}
     at = ""
@@ -56,8 +56,7 @@ def _merged(
 
 
 def _naming_once(block: Block, numbers: Mapping[str, Number]) -> Block:
-    """Keep one of adjacent references to the same number: two equations of the full page may share a number on this
-    page."""
+    """Keep one of adjacent references to the same number."""
     if isinstance(block, Paragraph):
         return Paragraph(each_number_once(block.nodes, numbers))
     if not isinstance(block, Display):

@@ -3,9 +3,8 @@ checked.
 
 A formula in prose is data: derive prints it in the order in which the author wrote it and does not prove it. But an
 equation of the solution (in `strategy:`, `wording:` or `note:`) that contains results must hold for the results of the
-page. If it does not, for example because the problem was changed and the equation was not, the author is warned. A
-formula that cannot be parsed is printed, with a warning for the author, if it contains only commands that derive can
-print.
+page. If it does not, for example because the problem was changed and the equation was not, the author is warned. The
+author is also warned of a formula that is printed but cannot be parsed.
 """
 
 from __future__ import annotations
@@ -64,8 +63,6 @@ class Formulas:
 
     known   the dimensions of all symbols of the page; None for a symbol whose dimension is unknown
     steps   the steps of the page
-
-    A formula of the solution may also contain the variables of integration of the steps.
     """
 
     def __init__(self, problem: Problem, known: Mapping[Any, Dimension | None], steps: Iterable[Step] = ()):
@@ -79,7 +76,7 @@ class Formulas:
         moving = {q for step in steps for q, kind in step.coordinates if kind not in FORCES}
         self.varying = {each for q in moving for each in (q, rate(q))}
         results = _results(steps, self.varying)
-        unknown = {step.symbol for step in steps}  # also a tension, which is declared but derived
+        unknown = {step.symbol for step in steps}  # these symbols include tensions, which are declared but derived
         self.results = {
             symbol: values for symbol, values in results.items() if symbol in unknown or symbol not in self.given
         }
@@ -101,11 +98,11 @@ class Formulas:
         return self.node(formula, self._with_variables(key))
 
     def in_question(self, formula: TexFormula) -> Math | Text:
-        """Return a formula of the statement or of a question, and note the strict inequalities in it."""
+        """Return a formula of the statement or of a question, and note the inequalities in it."""
         try:
             read = self._read(formula, None)
         except Rejected:
-            return self.node(formula)  # which reports the error
+            return self.node(formula)
         values = [value for side in read.sides for entries in side.branches for value, _ in entries]
         if len(values) == len(read.sides):
             inequalities = zip(pairwise(values), read.marks[1:], strict=True)
@@ -132,7 +129,6 @@ class Formulas:
         return Math(Transcript(quoted_formula(formula.tex), [*values, *vectors]))
 
     def _with_variables(self, key: str) -> Mapping[str, Declared]:
-        """Return the symbols that a formula of the solution may contain, with the variables of integration."""
         found: dict[Any, Dimension | None] = {}
         for variables in self.integrated.values():
             for name, dimension in variables.items():
@@ -140,8 +136,7 @@ class Formulas:
         return {**_by_name({**found, **self.integrated.get(key, {})}), **self.letters}
 
     def _letter(self, symbol: Symbol, is_vector: bool) -> Any:
-        """Return a lone letter as the page prints it. The result is the vector of that name if the author wrote a
-        vector, or if no scalar has the name."""
+        """Return a lone letter as the page prints it: as a scalar or as a vector."""
         vector = self.vectors.get(symbol.name)
         return vector if vector is not None and (is_vector or symbol not in self.scalars) else symbol
 
@@ -185,9 +180,7 @@ class Formulas:
     def _check_result(self, left: Side, right: Side) -> None:
         """Warn if the left side is the symbol of a result, and the page does not derive the right side for it.
 
-        There is no warning if the right side is zero, or a symbol or its negative: such an equation is a condition, for
-        example for resonance. There is also no warning if the right side contains a symbol that is neither given nor
-        derived, such as a rate of steady motion.
+        A condition, such as one for resonance, causes no warning.
         """
         one, other = left.branches[0][0][0], right.branches[0][0][0]
         values = self.results.get(one, ())
@@ -204,8 +197,7 @@ class Formulas:
     def _check_equation(self, left: Side, right: Side) -> None:
         """Warn if an equation between two formulas does not hold for the results of the page.
 
-        There is no warning if the equation contains fewer than two results, because it may be a condition, such as
-        v^2 = g R. There is also no warning if the equation contains a symbol that is neither given nor derived.
+        A condition, such as v^2 = g R, causes no warning.
         """
         one, other = left.branches[0][0][0], right.branches[0][0][0]
         if any(isinstance(side, Symbol | MatrixBase) for side in (one, other)):
@@ -221,9 +213,10 @@ class Formulas:
         self.warnings[Complaint("differs-from-result", message, right.place, (), help_line, severity="warning")] = None
 
     def _in_givens(self, value: Any, depth: int = DEEPEST) -> Iterator[Any]:
-        """Yield an expression for each combination of values of the results in `value`: the symbols of the results are
-        replaced by these values. If the values contain symbols of results, these are replaced in the same way, up to
-        `depth` times in all."""
+        """Yield the expression with the symbols of results replaced by their values, for combinations of these values.
+
+        depth   how often the symbols are replaced
+        """
         symbols = [symbol for symbol in self.results if symbol in explicit(value).free_symbols]
         if not symbols or not depth:
             yield explicit(value)
@@ -260,7 +253,7 @@ class Formulas:
 
 
 def _results(steps: Iterable[Step], varying: set[Any]) -> dict[Any, list[Any]]:
-    """Return every value that the steps derive for each symbol; coordinates and rates vary, so they are left out."""
+    """Return the values that the steps derive for each symbol; coordinates and rates vary, so they are left out."""
     found: dict[Any, list[Any]] = {}
     for step in steps:
         symbol, value = step.symbol, explicit(step.result)
@@ -294,8 +287,7 @@ def _compare(left: Side, right: Side) -> None:
 
 
 def _letters(problem: Problem, known: Mapping[Any, Dimension | None]) -> dict[str, Declared]:
-    """Return the symbols that a formula may contain, by name: the symbols of the problem and of its steps, the axes,
-    and time."""
+    """Return the symbols that a formula may contain, by name."""
     found: dict[str, Declared] = {axis: Declared(axis, scalar(axis), "length") for axis in AXES}
     found[TIME.name] = Declared(TIME.name, TIME, "time")
     found.update(_by_name(known))
@@ -305,7 +297,6 @@ def _letters(problem: Problem, known: Mapping[Any, Dimension | None]) -> dict[st
 
 
 def _by_name(known: Mapping[Any, Dimension | None]) -> dict[str, Declared]:
-    """Return the scalars and vectors by name. If a scalar and a vector have the same name, the scalar is returned."""
     vectors = [symbol for symbol in known if isinstance(symbol, MatrixSymbol)]
     found = {each.name: _derived(Symbol(each.name, real=True), known[each]) for each in vectors}
     return {**found, **{each.name: _derived(each, known[each]) for each in known if isinstance(each, Symbol)}}
@@ -316,7 +307,7 @@ def _derived(symbol: Symbol, dimension: Dimension | None) -> _Derived:
 
 
 def _seems_zero(value: Any) -> bool:
-    """Whether a value is zero. Roots of sums have no normal form, so a value that contains them is also tested at trial
+    """Whether a value is zero. A value with roots of sums, which have no normal form, is also tested at trial
     numbers."""
     if is_zero(value):
         return True

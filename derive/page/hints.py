@@ -1,8 +1,7 @@
 """Graded hints derived from a solution: first what to find and in which order, then the laws, then the next lines.
 
-A line gives the result away if nothing is left to do: no result to substitute, no derivative or integral to
-evaluate. The same is true of a line whose right side is a result. Hints omit such a line and all lines after it. The
-lines of a step that substitutes numbers are not shown in hints.
+A line gives the result away if its right side is a result, or if nothing remains to be substituted or evaluated. Hints
+omit this line and the lines after it.
 """
 
 from __future__ import annotations
@@ -51,8 +50,7 @@ class _Hints:
     answers         results that the parts ask for
     shown           the results on the page, and the components of vectors and tensors among them
     introduced      symbols that the statement or a hint has explained
-    worded_answers  keys of the answers for which the author wrote the sentence; such a sentence may give the answer
-                    away: "no, unless"
+    worded_answers  keys of the answers whose sentence the author wrote; this sentence may give the answer away
     """
 
     steps: Sequence[Step]
@@ -83,7 +81,6 @@ class _Hints:
         return replace(part, blocks=found)
 
     def _in_order(self, groups: Sequence[Equations]) -> list[Block]:
-        """Return a sentence that says what to find: the symbols in their order, with the names of their quantities."""
         formulas = [group for group in groups if not any(f.because in NUMBERS for f in self.by_key[group.key].chain)]
         items: list[tuple[str, list[Any]]] = []
         for group in formulas or groups:
@@ -102,7 +99,7 @@ class _Hints:
         return [Paragraph(filled(self.words.labels["sought"], {"items": listed, "several": len(told) > 1}))]
 
     def _name(self, step: Step) -> str:
-        """Return the name of what a relation or a letter denotes; any other symbol, such as dL/dt, needs no name."""
+        """Return the name of the quantity that a step derives."""
         if step.rule in self.words.labels["unnamed"] or not isinstance(step.symbol, LETTERS):
             return ""
         name = self.words.rule(step.rule)
@@ -119,7 +116,7 @@ class _Hints:
         return (*shown, Text(f" ({name})")) if name else shown
 
     def _laws(self, sentence: Sentence) -> list[Block]:
-        """Return the laws of a sentence; if its words contain no answer, return the words and then the laws."""
+        """Return the laws of a sentence, after its words unless these contain an answer."""
         words = [block for block in sentence[:1] if isinstance(block, Paragraph) and not self._tells(block.nodes)]
         is_safe = not any(group.key in self.worded_answers for group in groups_in(sentence))
         laws = self._cut(sentence, slice(1))
@@ -129,8 +126,7 @@ class _Hints:
         return [*words, *laws]
 
     def _cut(self, sentence: Sentence, rung: slice) -> list[Block]:
-        """Return the law of each chain in a sentence, or the lines after the law, as the slice `rung` selects; results
-        are left out."""
+        """Return the law of each chain in a sentence, or the lines after the law, as the slice `rung` selects."""
         found: list[Block] = []
         for display in (block for block in sentence if isinstance(block, Display)):
             groups = tuple(cut for group in display.groups if (cut := self._part_of(group, rung)))
@@ -157,7 +153,7 @@ class _Hints:
         return replace(group, lines=lines, framed=0) if lines else None
 
     def _kept(self, chain: Sequence[ChainLine], step: Step, rung: slice) -> list[ChainLine]:
-        """Return the lines of a chain for one hint; the first line has the left side of the chain."""
+        """Return the lines of a chain for one hint."""
         lines = [*_law_behind(chain, step), *(line for line in chain if not line.numeric)]
         if lines[0].because != "law" or any(form.because in NUMBERS for form in step.chain):
             return []
@@ -170,9 +166,7 @@ class _Hints:
         return kept
 
     def _tells_a_result(self, line: ChainLine, result: ChainLine, step: Step) -> bool:
-        """Return whether the line shows a result. This is so if its right side is the result of some step. It is also
-        so if nothing is left to do: no symbol of another step has to be replaced, and no integral or derivative has to
-        be evaluated, except those in the result."""
+        """Return whether the line gives a result away."""
         names = self.names - letters_in(_sides(result, step)) - letters_of(step.symbol)
         has_names = bool(letters_in(_sides(line, step)) & names)
         return not (has_names or _is_to_be_done(line) and not _is_to_be_done(result)) or _of(line.right) in self.results
@@ -184,7 +178,7 @@ class _Hints:
         return any(_of(formula) in self.answers or self._is_answer(formula) for formula in formulas)
 
     def _is_answer(self, formula: Any) -> bool:
-        """Return whether a formula equals an answer; a law with a derivative or integral to evaluate does not count."""
+        """Return whether a formula equals an answer."""
         is_plain = isinstance(formula, Basic) and not formula.is_Atom and not formula.has(*TO_BE_DONE)
         return is_plain and any(equal(formula, answer) for answer in self.answers)
 
@@ -198,7 +192,7 @@ def _law_behind(chain: Sequence[ChainLine], step: Step) -> list[ChainLine]:
 
 
 def _sides(line: ChainLine, step: Step) -> list[Any]:
-    """Return the expressions of a line: both sides for a relation, else the right side."""
+    """Return the expressions of a line that hints test."""
     return [line.right] if step.symbol is not None else [line.left, line.right]
 
 
@@ -208,13 +202,11 @@ def _is_to_be_done(line: ChainLine) -> bool:
 
 
 def _parts(value: Any) -> list[Any]:
-    """Return the formulas in a value: the value itself, or the components of a vector or tensor. Plain numbers and
-    single symbols are left out."""
+    """Return the formulas in a value: the value itself, or the components of a vector or tensor."""
     found = _of(value)
     components = list(found) if isinstance(found, MatrixBase) else [found]
     return [each for each in components if not getattr(each, "is_Atom", False)]
 
 
 def _of(value: Any) -> Any:
-    """Return the explicit form of a value, so that formulas compare as equal although they are printed differently."""
     return explicit(value) if isinstance(value, Basic | MatrixBase) else value

@@ -30,9 +30,7 @@ class Numbering(dict[str, Number]):
         self._like = like
 
     def add(self, key: str) -> None:
-        """Assign a number greater than all numbers in use: the number on the page `like`, if it is greater, else the
-        next number. If the last equation later takes over the number of an earlier equation, the number that was
-        assigned here is used again."""
+        """Assign a number greater than all numbers in use. The numbers of the page `like` are used if possible."""
         last = max(self.values(), default=Number(0))
         self[key] = self._next(key, last)
 

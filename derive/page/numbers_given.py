@@ -41,8 +41,7 @@ def _untold(measured: Iterable[Measured], shown: Sequence[Inline]) -> list[Measu
 
 
 def numbers_of_cases(cases: Iterable[Sequence[Measured]], words: Phrases) -> tuple[Inline, ...]:
-    """Return the numbers of the cases of a plot, first those of all cases: `M = 1 kg and (i) R = 20 cm, a = 5 cm;
-    (ii) R = 10 cm, a = 30 cm`."""
+    """Return the numbers of the cases of a plot: `M = 1 kg and (i) R = 20 cm, a = 5 cm; (ii) R = 10 cm, a = 30 cm`."""
     first, *later = cases = list(cases)
     if not later:
         return _listed(first)

@@ -97,7 +97,7 @@ def read_phrases(folders: Sequence[Path]) -> PhraseTable:
         for file in sorted(folder.glob("*.yaml")):
             _replace(page, _phrases_of(file), ())
     for name in _SHAPE:
-        page[name]  # this access raises an error if the table is missing
+        page[name]  # raises an error if the table is missing
     page["reasons"]["general"]
     return page
 
@@ -108,7 +108,7 @@ def _phrases_of(file: Path) -> PhraseTable:
     try:
         loaded = yaml.load(source.text, Loader=yaml.CSafeLoader)
     except (yaml.YAMLError, RecursionError, ValueError) as error:
-        yaml_tree(source)  # if possible, this call raises an error with the line
+        yaml_tree(source)  # raises an error with its line if the YAML is invalid
         lines = str(error).splitlines() or [type(error).__name__]
         raise Rejected(Complaint("yaml", f"the phrases cannot be read: {lines[0]}", Place(shown_as, 1))) from None
     table: PhraseTable = _Checked(source).phrases(loaded, _SHAPE, ())
@@ -116,7 +116,7 @@ def _phrases_of(file: Path) -> PhraseTable:
 
 
 def _add(page: PhraseTable, topic: PhraseTable) -> None:
-    """Add the phrases of a topic to the phrases of the page; a phrase that is in two files is an error."""
+    """Add the phrases of a topic to the phrases of the page."""
     for sort, table in topic.items():
         known = page.setdefault(sort, PhraseTable(page.source, (sort,)))
         for name, phrases in table.items():
@@ -127,7 +127,7 @@ def _add(page: PhraseTable, topic: PhraseTable) -> None:
 
 
 def _replace(known: PhraseTable, own: PhraseTable, keys: tuple[str, ...]) -> None:
-    """Put the phrases of a course in the places of those of derive; a phrase that derive does not use is an error."""
+    """Replace phrases of derive by those of a course."""
     for name, phrases in own.items():
         if name not in known and keys != ("terms",):  # a course may have words for the names of its own bodies
             message = f"derive has no phrase `{'.'.join((*keys, name))}` that this one could replace"
@@ -186,7 +186,7 @@ def _wrong(source: Source, keys: tuple[str, ...], wanted: str, help_line: str | 
 
 
 def _place(source: Source, keys: tuple[str, ...]) -> Place:
-    """Return the line of the last of these keys; the YAML is parsed again here, which happens only for an error."""
+    """Return the line of the last of these keys."""
     node, index = yaml.compose(source.text, Loader=yaml.CSafeLoader), 0
     for name in keys:
         pairs = node.value if isinstance(node, yaml.MappingNode) else []

@@ -1,7 +1,6 @@
 """The curves of a plot: the range, and the numbers and extrema of each curve.
 
-A case states only the numbers that differ from the first case. If neither a case nor the first case has a number for a
-symbol of the curve, the problem must have a number for this symbol.
+A case states the numbers that differ from the first case. Other numbers are those of the first case or of the problem.
 """
 
 from __future__ import annotations
@@ -43,7 +42,8 @@ MOST_MARKED, MOST_IN_TIME = 6, 3  # a curve with more extrema has no marks; the 
 NEAR = 1e-6  # greatest distance of an extremum from the place of a name, divided by the range
 MOST_TOGETHER = 4  # greatest number of curves in one panel; they differ in the style of their lines
 KEPT = 1 / 3  # length of the part of a curve after its range, on which the curve is constant, divided by the range
-CHANGED, SHARES = 1.31, (0.23, 0.59, 0.87)  # to test a dependence: the factor of a number, and the places in the range
+# For a test whether a curve depends on a number: the factor of the number, and the places in the range.
+CHANGED, SHARES = 1.31, (0.23, 0.59, 0.87)
 FLATTEST = 1 / 6  # least size of a readable curve, divided by the size of all curves in the panel
 
 
@@ -94,8 +94,7 @@ class Curve:
 
     @property
     def marked(self) -> tuple[Extremum, ...]:
-        """Return the extrema to mark: none if there are many, because the marks would hide the curve. The extrema of an
-        oscillation in time differ only in their number, so a few are enough."""
+        """Return the extrema to mark: none if there are many, because the marks would hide the curve."""
         most = MOST_IN_TIME if self.variable == TIME else MOST_MARKED
         return self.extrema if len(self.extrema) <= most else ()
 
@@ -154,8 +153,7 @@ class Curves:
         """Return the marked points of a panel that are not extrema: the coordinates of each in SI units, and whether it
         is a zero.
 
-        If the curves of two quantities meet, the marked points are the points where they meet. Otherwise they are the
-        zeros of the quantities. The zero of an energy is arbitrary, so it is not marked.
+        They are meeting points of two curves, or zeros. The zero of an energy is arbitrary, so it is not marked.
         """
         one, *others = own
         if self.labels_differ and len(own) > 2:
@@ -189,7 +187,7 @@ def curves_of(problem: Problem, plot: Plot, placement: Placement | None) -> Curv
     # A number for a symbol that does not occur in any curve would be shown although it has no effect.
     cases = [tuple(number for number in case if number.symbol in letters) for _, case in pairs]
     changed = dict.fromkeys(number.symbol for case in cases[1:] for number in case if number not in cases[0])
-    # The caption states the numbers that all curves share. Without a caption, one curve has them above the panel.
+    # The caption states the numbers that all curves share. A single curve without a caption has them above the panel.
     is_told = len(cases) > 1 or bool(placement and placement.caption)
     numbers = [_numbers(problem, plot, placement, (*cases[0], *case), letters) for case in cases]
     used = {letter for letter in numbers[0] if not plot.per or _matters(letter, pairs, numbers, written)}
@@ -244,10 +242,7 @@ def _matters(
     numbers: Sequence[Mapping[Any, Expr]],
     ends: Sequence[Expr],
 ) -> bool:
-    """Whether the curves change with the number of a letter, at some points, after the axes are divided.
-
-    The points have fixed positions on the divided axes. The numbers of the letters are those of each curve.
-    """
+    """Whether the curves change with the number of a letter, after the axes are divided."""
     for (plot, _), known in zip(pairs, numbers, strict=True):
         other = {**known, letter: known[letter] * CHANGED}
         for share in SHARES:
@@ -260,8 +255,7 @@ def _matters(
 def _divided_values(
     plot: Plot, numbers: Mapping[Any, Expr], first: Mapping[Any, Expr], ends: Sequence[Expr], share: float
 ) -> list[complex]:
-    """Return the values of a plot divided by its units at one place: for a path, at a part of its range, otherwise at a
-    position that is fixed for the numbers `first` in units of the axes."""
+    """Return the values of a plot, divided by its units, at one place."""
     divisors = [[expr.xreplace(each) for _, expr in plot.per] for each in (numbers, first)]
     lower, upper = (end.xreplace(numbers if plot.across else first) for end in ends[:2])
     at = lower + share * (upper - lower)
@@ -275,14 +269,11 @@ def _divided_values(
 
 
 def _in_radians(ends: Iterable[tuple[Expr, Expr]]) -> bool:
-    """Return whether an end of the range is a rational number of radians other than zero, as an author wrote it; an end
-    such as acos(2/3) has no unit of its own."""
     return any(end.is_Rational and end != 0 for both in ends for end in both)
 
 
 def plots_with_cases(plot: Plot, placement: Placement | None) -> list[tuple[Plot, tuple[Measured, ...]]]:
-    """Return the plot of each curve with the numbers of its case: one plot in several cases, or several plots, each in
-    its own case or all in the same case."""
+    """Return the plot of each curve with the numbers of its case."""
     plots, cases = plot.each, placement.cases if placement and placement.cases else ((),)
     if len(plots) == 1:
         return [(plots[0], case) for case in cases]
@@ -304,12 +295,7 @@ def _own(
 
 
 def _are_together(problem: Problem, plot: Plot, placement: Placement | None, curves: Sequence[Curve]) -> bool:
-    """Return whether the curves are in one panel. The problem may state this.
-
-    Otherwise the curves of several quantities share a panel. The cases of one quantity share a panel if no curve is
-    much smaller than all curves together and, except for paths, the curves have the same range. More than
-    `MOST_TOGETHER` curves never share a panel; a phase portrait or a bifurcation diagram always has its own panel.
-    """
+    """Return whether the curves are in one panel: as the problem states, or if their sizes and ranges are similar."""
     stated = placement.panels if placement else None
     if len(curves) < 2 or plot.levels is not None or plot.diagram is not None or stated == APART:
         return False
@@ -324,7 +310,7 @@ def _are_together(problem: Problem, plot: Plot, placement: Placement | None, cur
 
 
 def _are_of_comparable_size(curves: Sequence[Curve]) -> bool:
-    """Return whether every curve, or for a path its width or its height, is readable in a panel for all curves."""
+    """Return whether every curve is readable in a panel for all curves."""
     spans = [[(min(values), max(values)) for values in zip(*curve.spots, strict=True)] for curve in curves]
     whole = [max(high for _, high in each) - min(low for low, _ in each) for each in zip(*spans, strict=True)]
     parts = [[high - low for low, high in each] for each in spans]
@@ -339,13 +325,11 @@ def _unit(kind: str) -> str:
 
 
 def _axis(unit: str) -> Axis:
-    """Return the axis of a quantity with this SI unit; angles are in degrees."""
     return IN_DEGREES if unit == RADIANS else Axis(unit)
 
 
 def _ends(plot: Plot, placement: Placement | None) -> list[Expr]:
-    """Return the ends of the range; if the engine draws the plot, the ends in `plot` are already the ends that the
-    problem states."""
+    """Return the ends of the range."""
     if placement and placement.range and not placement.is_of_engine:
         return placement.range.of_kind(plot.of)
     return list(plot.ends)
@@ -363,8 +347,7 @@ def _ends_up(problem: Problem, plot: Plot, placement: Placement | None) -> tuple
 def _numbers(
     problem: Problem, plot: Plot, placement: Placement | None, known: tuple[Measured, ...], letters: set[Symbol]
 ) -> dict[Any, Expr]:
-    """Return the number of each symbol; a symbol that varies has none. Every other symbol in `letters` needs a
-    number."""
+    """Return the number of each symbol in the plot, except the symbols that vary."""
     numbers: dict[Any, Expr] = {letter: explicit(amount) for letter, amount in problem.amounts.items()}
     numbers |= {measured.symbol: measured.si for measured in known}
     missing = sorted(s.name for s in letters - {*numbers, *plot.varies})
@@ -517,7 +500,7 @@ def panel_letters(curves: Curves) -> list[str]:
 
 
 def curve_letters(curves: Curves) -> list[str]:
-    """Return the letter of each curve: that of its panel, or its own if the caption refers to it."""
+    """Return the letter of each curve in the caption."""
     if curves.is_lettered:
         return [case_label(i) for i, _ in enumerate(curves.curves)]
     letters = zip(panel_letters(curves), curves.panels, strict=True)

@@ -1,4 +1,4 @@
-"""Steps whose result earlier lines show, such as one of two roots written with ±, or a principal moment in a tensor.
+"""Steps whose results are in earlier lines, such as one of two roots written with ±, or a principal moment in a tensor.
 
 Below the level `full` the sentence of such a step points to the earlier lines, and the step has no lines of its own.
 """
@@ -17,11 +17,7 @@ from derive.steps.step import Step
 
 
 def that_have_it(step: Step, derivation: Derivation) -> tuple[Step, ...]:
-    """Return the inputs whose lines show the result.
-
-    For a list of results, return one input for each distinct value, or no inputs if one of the values is not the result
-    of an input.
-    """
+    """Return the inputs whose lines show the result of the step."""
     inputs = [each for key in step.inputs if (each := derivation.step(key)).rule in step.display.result_in]
     if not isinstance(step.symbol, MatrixBase):
         return tuple(inputs)
@@ -45,7 +41,7 @@ def pointed_out(
 
 
 def _names_of_values(step: Step, having_it: Sequence[Step], words: Phrases) -> tuple[Inline, ...]:
-    """Return the values, each with its names and with the symbol of the earlier line that shows it: I_1 = I_2 = I_xx
+    """Return each value with its names and with the symbol of the earlier line: I_1 = I_2 = I_xx
     and I_3 = I_zz.
     """
     letters: dict[object, Symbol] = {each.result: each.symbol for each in having_it}

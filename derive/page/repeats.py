@@ -36,7 +36,7 @@ class Stated:
 
         T = (general formula) = (with values) loses its first line; I' = I = (known formula of I') loses its last line.
 
-        letters  the symbols of the page; the last line is dropped only if the line before it is one of these symbols
+        letters  the symbols of the page
         """
         if len(lines) > 1 and lines[1].left is None and _result(lines[:1]) in self._found:
             lines = (replace(lines[1], left=lines[0].left), *lines[2:])
@@ -46,10 +46,8 @@ class Stated:
 
 
 def results(step: Step, lines: Lines) -> int:
-    """Return how many final lines are the result: the last line, or the decimals and the exact value before them.
-
-    If numbers are substituted, the line before the decimals repeats the formula with units, so only the decimals count.
-    """
+    """Return the number of final lines that are the result: the last line, or the decimals and the exact value before
+    them."""
     if isinstance(getattr(step, "symbol", None), MatrixBase):  # a list of results, with a line for each value
         return len(lines)
     decimals = next((i for i, line in enumerate(reversed(lines)) if not line.numeric), len(lines))
@@ -57,10 +55,7 @@ def results(step: Step, lines: Lines) -> int:
 
 
 def told_by_number(step: Step, nodes: tuple[Inline, ...], level: Level) -> tuple[Inline, ...]:
-    """Return the sentence of a repeated result, which refers to the earlier equation and needs no lines after it.
-
-    Return nothing if the outcome is not one of `AGAIN`, or if the level is `full`.
-    """
+    """Return the sentence of a repeated result, which refers to the earlier equation and needs no lines after it."""
     before, _ = around_chain(nodes)
     if step.outcome not in AGAIN or level is Level.FULL or not before or not isinstance(before[-1], Text):
         return ()
@@ -73,6 +68,5 @@ def noted(lines: Lines, note: tuple[Inline, ...]) -> Lines:
 
 
 def _result(lines: Lines) -> Formula:
-    """Return the left side of the chain with the relation and right side of the last line."""
     left = next((line.left for line in reversed(lines) if line.left is not None), None)
     return left, lines[-1].relation, lines[-1].right

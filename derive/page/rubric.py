@@ -2,8 +2,7 @@
 
 The author may specify points in a part, `rubric: {lagrangian: 2, motion_theta: 1}`; the rest is divided by shares. A
 step has one share and an answer has two. The points are rounded by the method of largest remainders. If an answer has a
-formula and a number, the formula has the two shares. The number is worth half a point, or nothing if there is less than
-half a point for each step.
+formula and a number, the formula has the two shares, and the number is worth at most half a point.
 """
 
 from __future__ import annotations
@@ -57,8 +56,7 @@ def credits_of(
     """Return the rubric of each part that is not an extra question, by label; `said` are the points that the problem
     specifies, by label.
 
-    `tasks` has the words for each step, by key. `values` are the steps that substitute numbers. Parts without points
-    share the remaining points of the problem.
+    `tasks` has the words for each step, by key. `values` are the steps that substitute numbers.
     """
     into = {value.key: value.inputs for value in values}
     asked = [part for part in document.parts_shown if not part.extra]
@@ -82,7 +80,7 @@ def credits_of(
 
 
 def _weighed(part: PartPage, into: Mapping[str, Collection[str]]) -> list[Weighed]:
-    """Return the steps of a part with their shares; if a number follows its formula, the answer is the formula."""
+    """Return the steps of a part with their shares."""
     groups = _groups(part)
     keys = {group.key for group in groups}
     formulas = {group.key: keys & set(into.get(group.key, ())) for group in groups}
@@ -97,8 +95,7 @@ def _weighed(part: PartPage, into: Mapping[str, Collection[str]]) -> list[Weighe
 
 
 def _shared(points: Fraction, groups: Sequence[Weighed]) -> dict[str, Fraction]:
-    """Give each numerical value half a point if every step can have half a point; divide the rest among the other
-    steps."""
+    """Divide the points of a part among its steps."""
     numbers = [group.equations.key for group in groups if group.weight == NUMBER]
     others = [group for group in groups if group.weight != NUMBER]
     worth = UNITS[0] if points >= UNITS[0] * len(groups) else Fraction(0)
@@ -107,7 +104,7 @@ def _shared(points: Fraction, groups: Sequence[Weighed]) -> dict[str, Fraction]:
 
 
 def _by_weight(points: Fraction, groups: Sequence[Weighed]) -> dict[str, Fraction]:
-    """Divide points by the method of largest remainders; of equal remainders, answers and later steps come first."""
+    """Divide points by the method of largest remainders."""
     if not groups or points <= 0:
         return {}
     weights = [group.weight for group in groups]

@@ -5,10 +5,8 @@
     full       every line of every step
 
 Each rule specifies, for all problems, how its steps are shown. Independently of the level, answers and reworded steps
-have lines of their own, unless earlier lines show their result. A step also has lines of its own if the page refers to
-its equation, or if the author lists it under `show` with a value other than `hidden`. A step whose symbol the page
-needs (`Needed`) has lines of its own or is defined in a clause. So a page does not use a symbol or an equation number
-that it has not introduced.
+have lines of their own, unless earlier lines show their result. A step whose symbol or equation the page needs
+(`Needed`) is shown too, so a page does not use a symbol or an equation number that it has not introduced.
 """
 
 from __future__ import annotations
@@ -126,11 +124,7 @@ class Selection:
         return self.manner(key) is not OWN and self.shown.get(key) != "hidden"
 
     def _can_be_pointed_out(self, step: Step) -> bool:
-        """Return whether earlier lines show the result of a step, so that its sentence can point to these lines.
-
-        If a part asks for the step and the answer has no numerical value, one part must contain both the step and the
-        lines.
-        """
+        """Return whether earlier lines show the result of a step, so that its sentence can point to these lines."""
         having_it = {each.key for each in self._having_it[step.key]}
         if not having_it or step.key in self.shown or step.key in self.needed.numbers or self.level is Level.FULL:
             return False
@@ -162,7 +156,7 @@ class Selection:
         return found
 
     def _only_for_worded(self, steps: Sequence[Step]) -> set[str]:
-        """Return the steps that only explain steps for which the problem has its own `wording:`."""
+        """Return the steps that only explain steps with an own `wording:`."""
         found: set[str] = set()
         for step in reversed(steps) if self.worded else ():
             users = {other.key for other in steps if step.key in other.inputs}
@@ -191,10 +185,7 @@ class Selection:
         return found
 
     def _lines(self, step: Step, repeats: bool, in_turn: bool) -> tuple[Form, ...]:
-        """Return the lines at this level; a step of the same form as an earlier step may show only the `brief` lines.
-
-        A step directly after a step of the same rule and outcome may show only its result.
-        """
+        """Return the lines at this level. A step like an earlier step may show fewer lines."""
         if self.level is Level.FULL or self.shown.get(step.key) == "full":
             return step.chain
         if step.display.quoted and step.key not in self.asked:

@@ -12,8 +12,8 @@ _BY_REASON = {"rounded": "approx", "series": "approx", "limit": "tends"}
 
 
 def sign_before(form: Form) -> str:
-    """Return the name of the sign before a line: `approx` before a rounded number or a series, `tends` before a limit,
-    `equals` before any other line."""
+    """Return the name of the sign before a line: for example `approx` before a rounded number, or `tends` before a
+    limit."""
     return _BY_REASON.get(form.because, "equals")
 
 
@@ -24,7 +24,7 @@ def sign_behind_name(step: Step, form: Form) -> str:
 
 
 def name_before(step: Step) -> Any:
-    """Return the left side of a chain: the step's symbol; for a limit or series, the symbol of the full quantity."""
+    """Return the left side of a chain: the symbol of the step or, for a limit or series, of the full quantity."""
     return step.approximates if step.breaks_off and not isinstance(step.approximates, Str) else step.symbol
 
 

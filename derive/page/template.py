@@ -26,7 +26,7 @@ class Templates:
     folders: tuple[Path, ...]
 
     def file(self, name: str) -> Path:
-        """Return the first file of this name; without one, the path that it would have in the last folder."""
+        """Return the first file of this name in the folders."""
         paths = [folder / name for folder in self.folders]
         return next((path for path in paths if path.is_file()), paths[-1])
 
@@ -37,8 +37,7 @@ class Templates:
 
 
 def templates_of(root: Path) -> Templates:
-    """Return the course's folder of templates, if there is one, and then the templates of derive itself. If the course
-    is a checkout of derive, only its own templates are used."""
+    """Return the course's folder of templates, if there is one, and then the templates of derive itself."""
     folders = [each / "templates" for each in (root, Path(FOLDER), Path(FOLDER).parent)]
     complete = next((folder for folder in folders if (folder / COMPLETE).is_dir()), None)
     if complete is None:
@@ -48,7 +47,7 @@ def templates_of(root: Path) -> Templates:
 
 
 def unused_templates(root: Path) -> list[Complaint]:
-    """Return a warning for each template of a course that replaces none of derive and that no other one includes."""
+    """Return a warning for each template of a course that has no effect."""
     templates = templates_of(root)
     if len(templates.folders) == 1:
         return []
@@ -72,7 +71,10 @@ def unused_templates(root: Path) -> list[Complaint]:
 
 
 def environment(**own: Any) -> ImmutableSandboxedEnvironment:
-    """Return an environment of Jinja; `own` are further options, such as the loader and how to print a value."""
+    """Return an environment of Jinja.
+
+    own   further options, such as the loader and the function that prints a value
+    """
     return ImmutableSandboxedEnvironment(
         variable_start_string="<<",
         variable_end_string=">>",

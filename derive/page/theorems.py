@@ -1,8 +1,8 @@
 """Theorems in their general form: a page states each theorem at most once, before the first step that uses it.
 
 A page is part of several documents: the document of its problem and the documents of its set. In a document of a set,
-the first problem that uses a theorem explains it, and later problems recall its formula in a short sentence that names
-this problem. So a page contains both sentences, and each document prints one of them.
+the first problem that uses a theorem states it in full, and later problems refer to this problem. So a page contains a
+long and a short sentence, and each document prints one of them.
 """
 
 from __future__ import annotations
@@ -39,10 +39,7 @@ def _paragraphs(blocks: Iterable[Block]) -> Iterator[Block]:
 
 
 class Theorems:
-    """The theorems that a page states before its steps; a brief page only names theorems in its sentences.
-
-    If a theorem has stated the law of a step, a standard page omits the line with this law. A full page shows it too.
-    """
+    """The theorems that a page states before its steps; a brief page only names theorems in its sentences."""
 
     def __init__(self, words: Phrases, level: Level):
         self._words, self._level = words, level

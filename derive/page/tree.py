@@ -117,8 +117,7 @@ class Document:
     evidence: EvidenceShown = EvidenceShown.NONE
 
     def points_of(self, part: PartPage) -> Fraction | None:
-        """Return the points in the heading of a part; None if the heading of the problem already shows them, because
-        no other part has points."""
+        """Return the points in the heading of a part; None if the heading of the problem already shows them."""
         return None if part.points == self.points and not part.extra else part.points
 
     @property

@@ -56,8 +56,7 @@ class Verdict(Text):
 
 @dataclass(frozen=True)
 class FigureRef(Text):
-    """A reference to a drawing of the page: Figure 1. Other documents may number the drawing differently. In a list,
-    such as Figures 1 and 2, the number is alone."""
+    """A reference to a drawing of the page: Figure 1. In a list, such as Figures 1 and 2, the number is alone."""
 
     key: str
     number: int
@@ -113,7 +112,7 @@ _DECIMAL_POINT = re.compile(r"(?<=[0-9])\.(?=[0-9])")
 
 AND = " and "  # key of a phrase for two steps: outcome of the first, AND, rule of the second
 AFTER = " after "  # key of a phrase: outcome, AFTER, outcome or rule of the step just before
-SAME = "same"  # in place of the outcome after AFTER: the step just before has the same rule, outcome and words
+SAME = "same"  # a word after AFTER: the step just before has the same rule, outcome and words
 
 JOINED = "<<chain>>"  # the phrase of a step without words; its lines follow the lines of the step before
 VALUE = "value_"  # prefix of the roles that give values of symbols
@@ -185,11 +184,7 @@ class Phrases:
         return "," if self.labels["language"]["decimal"] == DecimalSign.COMMA else "."
 
     def phrase(self, step: Step, before: Step | None = None) -> str:
-        """Return the phrase for the sentence of a step; the phrase may depend on the step shown just before.
-
-        A phrase may apply only after certain steps: after a step of the same rule with a certain outcome or with the
-        same words, or after a step of a certain other rule.
-        """
+        """Return the phrase for the sentence of a step; the phrase may depend on the step shown just before."""
         of_rule = self.rules.get(step.rule, {})
         preceded_by = "" if before is None else before.outcome if before.rule == step.rule else before.rule
         keys = [f"{step.outcome}{AFTER}{preceded_by}", step.outcome]
@@ -221,10 +216,7 @@ class Phrases:
         return self.routes.get(step.rule, {}).get(claim, "")
 
     def beside_answer(self, step: Step, again: str | None) -> tuple[Inline, ...]:
-        """Return the note next to an answer that repeats an earlier equation, or that is only a definition.
-
-        A definition that contains derived results is itself derived.
-        """
+        """Return the note next to an answer that repeats an earlier equation, or that is only a definition."""
         if again is not None:
             return filled(self.labels["again"], {"ref": Ref(again)})
         return (Text(self.labels["by_definition"]),) if step.grade is Grade.DEFINITION and not step.inputs else ()
@@ -445,9 +437,7 @@ def equation_of(step: Step) -> Inline:
 
 
 def with_verdict(nodes: Sequence[Inline], words: Phrases) -> tuple[Inline, ...]:
-    """Return the sentence with its verdict marked, if it contains exactly one: "the equilibrium is stable". In a
-    sentence with several, "stable if this is positive, that is, if a > b, and unstable if it is negative", the
-    condition is marked if it is the only one."""
+    """Return the sentence with its verdict marked, if it contains exactly one: "the equilibrium is stable"."""
     pattern = re.compile(rf"\b({'|'.join(words.labels['verdicts'])})\b")
     found = [(i, match) for i, node in enumerate(nodes) if type(node) is Text for match in pattern.finditer(node.text)]
     if len(found) > 1:
@@ -509,9 +499,8 @@ def letters_put_equal(roles: Sequence[tuple[str, Any]]) -> list[tuple[str, Any]]
 
 
 def in_turn(step: Step, following: Iterable[Step], words: Phrases) -> dict[str, tuple[Inline, ...]]:
-    """Return names for a step and those following steps that have no words of their own: `together` is the list of the
-    coordinates of these steps, `theta, x and y`, and `newton_together` is the list of the equations in the role
-    `newton`."""
+    """Return names for a step and the following steps that share its sentence. For example, `together` is the list of
+    their coordinates, `theta, x and y`."""
     steps = [step]
     for each in following:
         if each.rule != step.rule or words.phrase(each, steps[-1]) != JOINED:
@@ -551,8 +540,7 @@ def given_words(given: Given, measured: Iterable[Measured], words: Phrases) -> t
 def stated_once(nodes: Sequence[Inline], last: str, also: str) -> tuple[Inline, ...]:
     """Show the number of a symbol only at its first occurrence: `a = 10 cm`, then `a`.
 
-    `last` is the word between an expression and its symbols, as in `a/2 with a = 10 cm`, and `also` is "and". If a
-    known symbol is the only symbol after this word, the word and the symbol are removed.
+    `last` is the word between an expression and its symbols, as in `a/2 with a = 10 cm`, and `also` is "and".
     """
     kept: list[Inline] = []
     known: set[Any] = set()
@@ -600,7 +588,7 @@ def around_chain(nodes: tuple[Inline, ...]) -> tuple[tuple[Inline, ...], tuple[I
 
 
 def _trimmed(nodes: tuple[Inline, ...]) -> tuple[Inline, ...]:
-    """Remove blank text at both ends; at the beginning, also remove text that contains only commas and full stops."""
+    """Remove blank text at both ends, and punctuation at the beginning."""
     kept = list(nodes)
     while kept and isinstance(kept[0], Text) and not kept[0].text.strip(" .,"):
         kept.pop(0)
@@ -610,10 +598,10 @@ def _trimmed(nodes: tuple[Inline, ...]) -> tuple[Inline, ...]:
 
 
 def unknown_keys(problem: Problem, derivation: Derivation, words: Phrases) -> list[Complaint]:
-    """Return errors for keys of `wording:` and `show:` that are not steps, and for outcomes unknown to their rule."""
+    """Return errors for unknown keys of `wording:` and `show:`, and for unknown outcomes."""
     here = {step.key: step for step in derivation.steps}
     in_another_case = {key for step in derivation.steps for key in step.stands_for}
-    known = {*here, *in_another_case, *derivation.unshown}  # no answer depends on `unshown`: a part may be left out
+    known = {*here, *in_another_case, *derivation.unshown}  # `unshown` has steps on which no answer depends
     faults = []
     for section, key in [*(("wording", key) for key in problem.wording), *(("show", key) for key in problem.show)]:
         if key not in known:

@@ -122,7 +122,7 @@ def read(written: GivenBody, symbols: Mapping[str, Declared], faults: Faults) ->
 
 
 def _without(written: GivenBody) -> tuple[tuple[Word, set[str]], ...]:
-    """Return, for each such key, the answers that do not depend on it."""
+    """Return some keys, each with the answers that do not depend on it."""
     own = {f"{name.replace(' ', '_')}_": keys for name, keys in written.bodies.items()}
     asks = [*BodyAnswers(Asked(DescribedBody("", (), True))).asks()]
     every = {f"{prefix}{name}" for prefix in own or [""] for name in asks}
@@ -150,7 +150,7 @@ def _one_of_many(name: Word, written: OneOfManyKeys, others: GivenBody, known: I
 
 
 def _asked(body: DescribedBody, own: Questions, others: Questions, known: InLetters) -> Asked:
-    """Return one body with its points and axes, or those for all bodies in place of missing ones."""
+    """Return one body with its points and axes; keys for all bodies are the default."""
     about, origin = own.about or others.about, own.origin or others.origin
     directions = Directions(known)
     direction = own.direction or others.direction
@@ -202,7 +202,6 @@ class BodyAnswers(Answers[Asked]):
         return self._of_mass("mass")
 
     def _of_mass(self, name: str) -> Quantity:
-        """Return the step that derives the density or the mass."""
         if isinstance(self.body, PointMass) or name == "density" and isinstance(self.body, Composite):
             self._has_no(name)
         found = self.body.density

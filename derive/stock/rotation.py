@@ -175,7 +175,7 @@ def _components(written: RotationKeys, name: str, kind: str, known: InLetters) -
 
 
 def _without(written: RotationKeys) -> tuple[tuple[Word, set[str]], ...]:
-    """Return, for `rate` and `torque`, the answers that do not depend on them."""
+    """Return some keys, each with the answers that do not depend on it."""
     asks = {*RotationAnswers(DescribedRotation()).asks()}
     of_rate = {name for name in asks if name.startswith(("stability", "wobble"))}
     without_torque = ("inertia_tensor", "spin", "angular_momentum", "kinetic_energy", "angle_between", "torque")
@@ -228,10 +228,7 @@ class RotationAnswers(StockAnswers[DescribedRotation]):
         return ImmutableDenseMatrix([part * size for part, size in zip(parts, sizes, strict=False)])
 
     def _draw_polhodes(self, asked: Sequence[Word]) -> None:
-        """Draw the curves on which the tip of the angular momentum of a free body stays.
-
-        The drawing follows the answers about the stability of a rotation, if there are any.
-        """
+        """Draw the curves on which the tip of the angular momentum of a free body stays."""
         if self.described.torque or self.is_given:
             message = "the polhodes are those of a body that rotates freely"
             rejected("wrong-argument", message, None, "leave out `torque`, `along`, `rates` and `start`")

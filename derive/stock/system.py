@@ -129,7 +129,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         return answers
 
     def _by_methods(self, asked: Sequence[Word], drawings: Sequence[Placement]) -> dict[str, object]:
-        """Return the answers by the requested names, each derived by the method of its part, and draw the plots."""
+        """Return the answers by the requested names, each derived by the method of its part."""
         methods, whole = self.described.methods, self.described.methods.whole
         groups: dict[Word | None, list[Word]] = {whole: []}
         for name in asked:
@@ -147,7 +147,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         return {str(name): found[str(name)] for name in asked}
 
     def _draw_after(self, drawings: Sequence[Placement]) -> None:
-        """Draw the system just after an impact, if the problem has an entry for this drawing."""
+        """Draw the system just after an impact, if the problem asks for this drawing."""
         for each in (each for each in drawings if each.key == AFTER and not each.is_of_engine):
             if self.of_impact is None:
                 rejected("drawing", "the drawing `after` needs an impact", each.place, "describe it under `impact`")
@@ -156,7 +156,6 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
 
     @cached_property
     def _named(self) -> list[Any]:
-        """Return the places of `places:`, which drawings prefer as starts of lines."""
         return list(made(self.described.named, self.parts_by_name))
 
     def place_of_mark(self, node: Tree, name: str, letters: InLetters) -> MatrixBase:
@@ -181,10 +180,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
                     state_static_friction(contact, self.by_name.one)
 
     def _draw_forces(self) -> None:
-        """Draw the forces on each particle and each body.
-
-        A drawing before the steps of Newton's laws shows each force in the direction in which its symbol is positive.
-        """
+        """Draw the forces on each particle and each body."""
         run = current_run.get()
         steps = run.established if run is not None else ()
         at_rest, along = _forces_found(steps, self.system)
@@ -534,8 +530,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         return self.lagrangian if is_pushed else self.potential_energy
 
     def _assume_momenta(self) -> None:
-        """Assume that each constant momentum is positive, if its symbol is declared positive, or that it is not zero,
-        if this matters."""
+        """Assume that each constant momentum is positive, or that it is not zero, if this matters."""
         left = [q.symbol for name, q in self.coordinates.items() if name not in self.cyclic]
         for symbol in (momentum.symbol for momentum in self.cyclic.values()):
             if symbol.is_positive:
@@ -596,14 +591,14 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
 
     @property
     def _is_pushed(self) -> bool:
-        """Whether given forces that do not depend on the time may shift the equilibrium."""
+        """Whether given forces may shift the equilibrium."""
         if depends_on_time(self.lagrangian.value):
             return False
         pushes = [c for force in self.system.given_forces for c in force.components] if not self.described.given else []
         return self.described.given is not None or bool(pushes) and not any(map(depends_on_time, pushes))
 
     def _check_letters(self) -> None:
-        """Check that each symbol that the description introduces denotes quantities of one kind."""
+        """Check that each symbol of the description denotes quantities of one kind."""
         run = current_run.get()
         established = run.established if run is not None else []
         for name, place in self.described.brought.items():
@@ -615,7 +610,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
 
 
 def _some(found: Iterable[Quantity], otherwise: str) -> tuple[Quantity, ...]:
-    """Return the quantities as a tuple; if there are none, reject with the message `otherwise`."""
+    """Return the quantities as a tuple; without quantities, report an error."""
     some = tuple(found)
     if not some:
         raise Rejected(Complaint("wrong-argument", otherwise))
@@ -626,8 +621,8 @@ STOCK = Stock(SystemKeys, read, SystemAnswers)
 
 
 def _forces_found(steps: Sequence[Any], system: System) -> tuple[dict[Any, Quantity], dict[Any, Quantity]]:
-    """Return the steps that derive constraint forces, by their symbols, and the steps that express these forces without
-    rates."""
+    """Return, by the symbols of constraint forces, the steps that derive the forces, and the steps that express them
+    without rates."""
     found: dict[Any, Quantity] = {}
     along: dict[Any, Quantity] = {}
     rates, coordinates = {rate(q) for q in system.coordinates}, {*system.coordinates}

@@ -1,4 +1,4 @@
-"""Systems for the tests of drawings, and what is drawn of them with numbers."""
+"""Systems for the tests of drawings, and functions that return their drawn pieces."""
 
 from __future__ import annotations
 

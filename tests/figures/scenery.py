@@ -1,4 +1,4 @@
-"""Drawings for the tests: the block's, and what is drawn of them with numbers."""
+"""Drawings for the tests, such as that of the block, and functions that return their drawn pieces."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ CONE = Cone(R, h, M)
 
 
 def leaning(tilt: Any = theta, **names: Any) -> Drawing:
-    """A disc of radius a/2 in the middle of a rod of length 2a, which turns about its lower end."""
+    """A disc of radius a/2 in the middle of a rod of length 2a, which rotates about its lower end."""
     whole = Composite(Disc(a / 2, M).at(0, 0, a), Rod(2 * a, M).at(0, 0, a), points={"pivot": (0, 0, 0)})
     with recorded(Run()):
         return _leaning(whole, tilt, **names)
@@ -68,7 +68,7 @@ def _leaning(whole: Any, tilt: Any, **names: Any) -> Drawing:
 
 
 def slab(inertia: Any = None) -> Drawing:
-    """A slab that rolls on a cylinder: a plate, or a body of which only a moment is known, drawn as one."""
+    """A slab that rolls on a cylinder: a plate, or a body with a given moment of inertia that is drawn as a plate."""
     with recorded():
         angle, way = coordinate("theta"), coordinate("s", "length")
         plate = Plate((3 * R + a, a), M)
@@ -104,13 +104,13 @@ def strokes(pieces: list[Piece], pen: str) -> list[Stroke]:
 
 
 def heading(stroke: Stroke) -> float:
-    """The direction of a straight stroke on paper, in degrees from the right, anticlockwise."""
+    """Return the direction of a straight stroke on paper, in degrees, counterclockwise from the right."""
     (x, y), (u, v) = stroke.spots[0], stroke.spots[-1]
     return degrees(atan2(v - y, u - x))
 
 
 def area(stroke: Stroke) -> float:
-    """What a stroke sweeps out as seen from its own middle: positive if it goes round anticlockwise."""
+    """Return the area that a stroke encloses; it is positive if the stroke is counterclockwise."""
     middle = [sum(s[k] for s in stroke.spots) / len(stroke.spots) for k in (0, 1)]
     spots = [(x - middle[0], y - middle[1]) for x, y in stroke.spots]
     return sum(x * v - y * u for (x, y), (u, v) in pairwise(spots)) / 2

@@ -1,4 +1,4 @@
-"""Arrows, arcs, turns and dimension lines: true directions, the sense of a turn, nothing where there is nothing."""
+"""Tests of arrows, arcs, rotation arrows and dimension lines."""
 
 from __future__ import annotations
 
@@ -73,14 +73,14 @@ def test_a_length_of_zero_has_no_dimension_line() -> None:
 
 @pytest.mark.parametrize(("along", "sense"), [((0, 0, 1), 1), ((0, 0, -1), -1)])
 def test_a_turn_is_right_handed(along: tuple[int, ...], sense: int) -> None:
-    """Seen from above, from where z points, a right-handed turn about z goes round anticlockwise."""
+    """Seen from above, a right-handed rotation about z is counterclockwise."""
     square = Polyhedron(tuple(column(*p, 0) for p in ((0, 0), (4, 0), (4, 4), (0, 4))))
     found = plane(square, Turn(column(2, 2, 0), column(*along), Rational(1, 4)))
     assert area(strokes(pieces_of(found), "turn")[0]) * sense > 0
 
 
 def test_a_negative_rate_turns_the_other_way() -> None:
-    """The eye is above the plane of x and y, so that a turn about z keeps its sense on paper."""
+    """The viewer is above the plane of x and y, so a rotation about z has the same sense on paper."""
     box = outline(Cuboid((a, a, a), M), named=False)
     areas = []
     for rate in (omega, -omega):
@@ -132,7 +132,7 @@ def test_a_dimension_line_without_room_for_its_heads_has_arrows_outside() -> Non
 
 @pytest.mark.parametrize(("eye", "is_dot"), [((-90, 90), True), ((-90, -90), False)])
 def test_an_axis_along_the_line_of_sight_is_a_circle(eye: tuple[float, float], is_dot: bool) -> None:
-    """With a dot, it is towards the viewer; with a cross, away from the viewer."""
+    """A circle with a dot means that the axis is towards the viewer; with a cross, it is away from the viewer."""
     axis = Axis(column(0, 0, 0), column(0, 0, 1), label=a)
     pieces = axis.pieces(OnPaper(Numbers({}), stance_from(*eye), 50.0))
     bullets = [piece for piece in pieces if isinstance(piece, Bullet)]

@@ -1,4 +1,4 @@
-"""Bodies that the package does not have, each a class of its own and nothing else: integrated, named and drawn."""
+"""Tests of bodies that the package does not have: each is defined by one class, and is integrated, named and drawn."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ from tests.figures.scenery import CONE, M, R, a, h, pieces_of, plane, strokes, t
 
 @dataclass(frozen=True)
 class Spheroid(RoundSolid):
-    """A ball of radius R drawn out along z to the half length h."""
+    """A ball of radius R that is stretched along z to the half length h."""
 
     radius: Expr
     half: Expr
@@ -83,7 +83,7 @@ class Spheroid(RoundSolid):
         return self.radius * sympy.sqrt(self.half**2 - z**2) / self.half
 
     def edge_condition(self, z: Expr, r: Expr) -> tuple[Expr, Expr]:
-        """Its section is an ellipse of half axes R and h."""
+        """The section is an ellipse with the semi-axes R and h."""
         return r**2 / self.radius**2 + z**2 / self.half**2, Integer(1)
 
     @property
@@ -105,7 +105,7 @@ class Spheroid(RoundSolid):
 
 @dataclass(frozen=True)
 class Pyramid(EdgedBody):
-    """A pyramid of height h on a square of side a, whose middle is the origin."""
+    """A pyramid of height h on a square of side a; the middle of the square is the origin."""
 
     side: Expr
     height: Expr
@@ -178,7 +178,8 @@ def test_a_body_of_ones_own_is_told_by_its_own_name_and_measures() -> None:
 
 
 def test_the_outline_of_a_curved_body_is_what_its_shadow_is() -> None:
-    """Of an ellipsoid as wide as R and as high as sqrt((h cos e)^2 + (R sin e)^2), e the elevation of the eye."""
+    """The outline is an ellipse of half width R and half height sqrt((h cos e)^2 + (R sin e)^2), where e is the
+    elevation."""
     (edge,) = strokes(pieces_of(drawing("one", outline(SPHEROID, named=False)), R=1.0, h=2.0), "edge")
     wide, high = (max(s[k] for s in edge.spots) - min(s[k] for s in edge.spots) for k in (0, 1))
     e = acos(USUAL.up[2])
@@ -432,7 +433,7 @@ def test_axes_of_a_block_begin_at_its_point(about: str) -> None:
     share = 1 if about == "corner" else Rational(1, 2)
     assert ends == {"x": [share * a, 0, 0], "y": [0, share * 2 * a, 0], "z": [0, 0, share * 3 * a]}
     inside = [mark for mark in marks if isinstance(mark, Line)]
-    assert len(inside) == (0 if about == "corner" else 3)  # along edges one sees them
+    assert len(inside) == (0 if about == "corner" else 3)
 
 
 def test_an_ellipsoid_has_its_half_axes_beside_them() -> None:

@@ -63,7 +63,7 @@ def test_nothing_changes_in_a_range() -> None:
     ],
 )
 def test_wrong_branches_are_refused(branches: tuple[Branch, ...], said: str) -> None:
-    if not said:  # a value that is not real is not drawn, and the others agree
+    if not said:  # a value that is not real is not drawn
         assert bifurcations_of(replace(PITCHFORK, branches=branches), X, (-1.0, 4.0), {}).changes
         return
     with pytest.raises(Unverified, match=said):

@@ -1,4 +1,4 @@
-"""Centres of forces, nails, charges with their fields, the accelerations of supports, and tables with a hole."""
+"""Tests of central forces, nails, charges with their fields, accelerated supports, and tables with a hole."""
 
 from __future__ import annotations
 

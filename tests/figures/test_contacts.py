@@ -1,4 +1,4 @@
-"""What a body rolls on is drawn from the condition of rolling: a cylinder outside of it, or round it."""
+"""Tests of the surfaces that are drawn for rolling conditions, such as a cylinder inside or around a body."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ b = symbols("b", positive=True)
 
 
 def test_the_centre_of_a_rolled_slab_is_where_rolling_takes_it() -> None:
-    """x = (R + a/2) sin q - R q cos q, y = (R + a/2) cos q + R q sin q; the corners are about that centre."""
+    """x = (R + a/2) sin q - R q cos q, y = (R + a/2) cos q + R q sin q."""
     x, y = (R + a / 2) * sin(theta) - R * theta * cos(theta), (R + a / 2) * cos(theta) + R * theta * sin(theta)
     corners = next(mark.corners for mark in SLAB.marks if isinstance(mark, SilhouetteMark))
     mean = sum((Matrix(corner) for corner in corners), Matrix([0, 0])) / 4
@@ -60,7 +60,7 @@ def test_a_disc_that_rolls_inside_a_cylinder_hides_nothing_of_it() -> None:
         marks = sketch("inside", System(disc, rolling, weight(a))).marks
     circle = next(mark for mark in marks if isinstance(mark, Circle))
     assert (circle.radius, circle.filled) == (a + b, False)
-    # The way to the contact would lie under the disc; that between the axes is drawn over it.
+    # The disc would cover a line to the contact. The line between the axes is drawn over the disc.
     assert not any(isinstance(mark, ConnectionMark) for mark in marks)
     assert [(list(mark.end), mark.label) for mark in marks if isinstance(mark, Line)] == [
         ([b * sin(phi.symbol), -b * cos(phi.symbol)], b)

@@ -1,4 +1,4 @@
-"""The words of a script for the parts of machines: what they take, what they refuse, how they are told and kept."""
+"""Tests of the functions for the parts of machines: arguments, errors, descriptions and encoding."""
 
 from __future__ import annotations
 
@@ -124,7 +124,7 @@ def test_what_does_not_fit_is_refused(wrong: object, message: str) -> None:
 
 
 def test_no_word_of_drawings_is_one_of_mechanics() -> None:
-    """A script imports both: `point` is a place, `point_mark` is drawn."""
+    """A script imports both: `point` is a place, and `point_mark` draws a point."""
     modules = (elements, scenes, sketches, bodies)
     words = {name for module in modules for name in module.__all__}
     assert {name for name in words if hasattr(derive.mechanics, name)} == set()

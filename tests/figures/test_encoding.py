@@ -1,4 +1,4 @@
-"""Drawings go to JSON and back unchanged; what is no drawing does not."""
+"""Drawings are encoded as JSON and decoded without change; other data are rejected."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where a curve turns: found between the ends, confirmed by the curve itself, refused where it is no curve."""
+"""Tests of the extrema of curves, and of the errors for expressions that have no curve."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is dashed where it would be at another value of a coordinate."""
+"""Tests of dashed outlines at another value of a coordinate."""
 
 from __future__ import annotations
 

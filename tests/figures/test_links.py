@@ -1,4 +1,4 @@
-"""The lines of polar coordinates and their angles, as the formulas of positions give them."""
+"""Tests of the lines and angles of polar coordinates, which are found from the formulas of positions."""
 
 from __future__ import annotations
 
@@ -88,7 +88,7 @@ def test_a_way_of_two_angles_that_do_not_add_has_none() -> None:
     assert link is not None
     turned = angle_of_link(SYSTEMS["spherical"], link)
     assert turned is not None
-    assert str(turned[0]) == "theta"  # of phi the direction without it still moves
+    assert str(turned[0]) == "theta"
 
 
 def test_a_spring_has_an_energy_of_the_second_degree() -> None:

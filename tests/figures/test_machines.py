@@ -1,4 +1,4 @@
-"""A top on its pivot: places, directions and names, before they are drawn."""
+"""Tests of the places, directions and names of the marks of a top."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def test_the_weight_of_a_top_acts_in_the_middle_of_its_disc_and_downwards() -> N
     weight = next(mark for mark in leaning(weights=True).marks if isinstance(mark, Arrow))
     assert Matrix(weight.start)[2] == a * cos(theta)
     assert list(weight.value) == [0, 0, -1]
-    assert weight.keys == ()  # a letter gives no answer away
+    assert weight.keys == ()  # a symbol does not show an answer
 
 
 def test_a_body_that_turns_about_the_vertical_and_about_itself_has_an_arrow_round_each() -> None:

@@ -1,4 +1,4 @@
-"""A mark says all that is asked of it, so that one of a test's own is drawn, framed, told and kept."""
+"""A class of marks that a test defines is drawn, described and encoded like the other marks."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Parts of machines on paper: where they begin and end, how large they are, what hides what."""
+"""Tests of the drawn parts of machines: their ends, their sizes, and the parts that they hide."""
 
 from __future__ import annotations
 
@@ -140,7 +140,7 @@ def test_a_string_that_crosses_between_two_wheels_touches_both() -> None:
 
 @pytest.mark.parametrize("lifts", [(0.0, 0.0), (BLOCK[1] / 2, 0.0), (WHEEL, WHEEL)])
 def test_a_pulley_in_a_corner_touches_both_parts_of_its_string(lifts: tuple[float, float]) -> None:
-    """The parts stay parallel to their lines, at the distances by which they are lifted."""
+    """The pieces of the string are parallel to their lines, shifted by the given distances."""
     slope = point(-cos(0.6), -sin(0.6))
     marks = CornerRopeMark(column_of(4 * slope), column_of(point(0, 0)), column_of(point(0, -4)), lifts)
     pieces = seen(shown(marks))
@@ -153,7 +153,7 @@ def test_a_pulley_in_a_corner_touches_both_parts_of_its_string(lifts: tuple[floa
     (x, y), (u, v) = spots[:2]
     assert (v - y) / (u - x) == pytest.approx(sin(0.6) / cos(0.6))
     if lifts == (WHEEL, WHEEL):
-        assert hub == pytest.approx((0, 0), abs=1e-6)  # the lifted string has its wheel on the corner itself
+        assert hub == pytest.approx((0, 0), abs=1e-6)  # the wheel of a shifted string is at the corner itself
 
 
 def test_a_wedge_is_told_and_named_away_from_its_sharp_corner() -> None:

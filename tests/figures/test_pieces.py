@@ -1,4 +1,4 @@
-"""The pieces of a drawing and its paper: where each piece is, and how a place in space becomes a spot."""
+"""Tests of the pieces of a drawing and of the projection onto its paper."""
 
 from __future__ import annotations
 

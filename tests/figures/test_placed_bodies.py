@@ -1,4 +1,4 @@
-"""Outlines of bodies at their places: turned with them, as large as they are, held where they are held."""
+"""Tests of the outlines of bodies at their places, with their rotations, sizes and supports."""
 
 from __future__ import annotations
 
@@ -164,7 +164,7 @@ def test_a_hole_in_a_disc_is_drawn_and_the_pointer_leads_to_the_centre_of_mass()
     assert numbers(hole.of.centre, theta=0.0)[:2] == pytest.approx((0, 0.5))
     x, y, _ = numbers(disc.pointer, theta=0.0)
     assert x == pytest.approx(0) and y < 0
-    assert hypot(*numbers(turned.b, theta=0.3)) == pytest.approx(1)  # an arc that is seen, however near the centre is
+    assert hypot(*numbers(turned.b, theta=0.3)) == pytest.approx(1)  # the arc is visible although the centre is near
 
 
 def test_in_space_a_cavity_is_dashed_and_what_has_a_bore_is_not_drawn() -> None:

@@ -58,7 +58,8 @@ def test_the_tip_moves_along_the_curves() -> None:
 
 
 def test_near_the_axis_of_the_greatest_moment_the_tip_moves_counterclockwise() -> None:
-    """Seen from outside, with y to the right and z up; around the axis of the least moment it is the opposite."""
+    """This is so as seen from outside, with y to the right and z up. Around the axis of the least moment the sense is
+    opposite."""
     assert motion_at(MOMENTS, (1.0, 0.0, 0.1))[1] < 0 < motion_at(MOMENTS, (1.0, 0.1, 0.0))[2]
     assert motion_at((2.0, 3.0, 4.0), (1.0, 0.0, 0.1))[1] > 0
 

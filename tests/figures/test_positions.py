@@ -1,4 +1,4 @@
-"""Places and directions as scripts hand them over, with the steps that they rest on."""
+"""Tests of the positions and directions that scripts give to drawings, and of the steps that they use."""
 
 from __future__ import annotations
 

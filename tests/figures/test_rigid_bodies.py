@@ -1,4 +1,4 @@
-"""A body known by its principal moments: the ellipsoid that has them, and vectors in their true directions."""
+"""Tests of bodies with given principal moments: the drawn ellipsoid, and vectors in their true directions."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def test_it_is_thick_across_the_axis_about_which_its_moment_is_small() -> None:
     a, b, c = body.semi_axes
     assert simplify(a - b) == 0
     whole: Expr = 2 * A + C
-    # An ellipsoid has I_x - I_z = (M/5)(c^2 - a^2)/... with one common factor for all pairs.
+    # For an ellipsoid, I_x - I_z is proportional to c^2 - a^2, with the same factor for all pairs of axes.
     assert simplify((c**2 - a**2) / (A - C)) == 2
     assert simplify(a**2 - (C + THICK * whole)) == 0
     assert {str(each) for each in labels(found, Axis)} == {"x", "y", "z"}
@@ -39,7 +39,7 @@ def test_omega_and_the_angular_momentum_point_where_they_do() -> None:
     one, other = of(found, Arrow)
     ratios = [y / x for x, y in zip(one.value, other.value, strict=True)]
     assert ratios == [A, B, C]
-    assert found.keys == ()  # a direction of letters gives no answer away
+    assert found.keys == ()  # a direction that contains only symbols does not show an answer
 
 
 @pytest.mark.parametrize("moments", [(1, 1, 2), (1, 1, 0), (2, 3, 4)], ids=["flat", "a line", "any"])

@@ -1,4 +1,4 @@
-"""What a script records of a drawing: values, names and keys; what is no vector and no name is refused."""
+"""Tests of recorded drawings: their values, names and keys, and the errors for invalid vectors and names."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Sketches of whole systems: all that they have is drawn and told, and nothing fails, whatever the system."""
+"""Tests of sketches of whole systems."""
 
 from __future__ import annotations
 
@@ -165,7 +165,7 @@ def test_a_given_force_is_drawn_in_its_direction_at_the_start(
 
 
 def test_a_force_whose_magnitude_depends_on_a_coordinate_is_not_drawn() -> None:
-    """At x > a, the arrow of F (a - x)/a would point to the left, with a label that is negative there."""
+    """At x > a, the arrow of F (a - x)/a would point to the left with a negative label."""
     with recorded():
         x, y = coordinate("x", "length"), coordinate("y", "length")
         found = sketch("cart", System(Particle(m, point(x, y)), force((F * (a - x) / a, 0), point(x, y))))

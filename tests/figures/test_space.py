@@ -1,4 +1,4 @@
-"""Vectors of numbers: right-handed axes across a direction, circles about it, and what has no direction."""
+"""Tests of numerical vectors: right-handed axes, circles, and vectors without a direction."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Surfaces of bodies: how far they reach, what they hide, and how they are told."""
+"""Tests of the surfaces of bodies: their outermost points, the lines that they hide, and their descriptions."""
 
 from __future__ import annotations
 
@@ -79,7 +79,8 @@ def test_one_looks_through_a_thin_ring_and_not_through_a_thick_one(section: Any,
     outline = next(piece for piece in pieces if isinstance(piece, Patch)).spots
     wide, high = (max(s[k] for s in outline) - min(s[k] for s in outline) for k in (0, 1))
     size = float(section / R)
-    # From an elevation of 18 degrees the middle circle is an ellipse, and the outline is as far from it as the section.
+    # At an elevation of 18 degrees, the central circle of the torus is an ellipse. The outline is at the distance
+    # `size` from this ellipse.
     assert high / wide == pytest.approx((sin(radians(18)) + size) / (1 + size), rel=0.01)
 
 

@@ -1,4 +1,4 @@
-"""Ground, fixed ends, angles and lengths on paper: which side is solid, how wide an arc is, what stands clear."""
+"""Tests of ground, fixed ends, angles and lengths: the hatched side, the radius of an arc, and free space."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Tops: the line of nodes and the axes that follow it, what their parts measure, and a stand that they clear."""
+"""Tests of tops: the line of nodes, the axes that follow it, and the dimensions of the parts."""
 
 from __future__ import annotations
 
@@ -93,7 +93,7 @@ def test_only_of_a_symmetric_body_the_line_of_nodes_is_a_principal_axis(moments:
     found, system = top_of(rigid(*moments))
     assert follows_nodes(system.bodies[0]) is follows
     assert {str(each) for each in labels(found, Axis)} == ({"x", "y", "z", "Z"} if follows else {"Z"})
-    assert labels(found, PointMark) == ["M"]  # nothing is known of its size
+    assert labels(found, PointMark) == ["M"]  # the size of the body is unknown
 
 
 def test_a_block_beside_the_axis_makes_no_symmetric_top() -> None:

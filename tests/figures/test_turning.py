@@ -1,4 +1,4 @@
-"""What turns, as a sketch draws it: rods on pivots, wires that are carried round, angles in the plane and in space."""
+"""Tests of drawn rotations: rods on pivots, rotating wires, and angles in the plane and in space."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def test_angles_are_counted_from_the_downward_vertical(name: str) -> None:
 
 @pytest.mark.parametrize(("joint", "height", "side"), [(True, -1, 1), (True, 1, -1), (False, -1, 1), (False, 1, 0)])
 def test_no_rod_or_string_passes_through_the_hatches_of_its_support(joint: bool, height: int, side: int) -> None:
-    """The hatches are on the side away from the bob; a string to a bob above it ends at a bare peg."""
+    """The hatches are on the side away from the bob. A string to a bob above its support ends at a bare peg."""
     held = ImmutableDenseMatrix([1, height])
     pieces = FixedEnd(0 * held, downwards(2), joint, held).pieces(OnPaper(Numbers({}), FLAT))
     hatches = [piece.spots for piece in pieces if isinstance(piece, Stroke) and piece.pen == "hatch"]

@@ -1,4 +1,4 @@
-"""Given velocities, given impulses and what an impact meets, as arrows and lengths."""
+"""Tests of drawn velocities, impulses and points of impact."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def thrown(x_rate: Any, y_rate: Any) -> Drawing | None:
 
 
 def test_a_projectile_starts_with_its_speed_at_its_angle() -> None:
-    """Taylor, Classical Mechanics, section 2.3: v_0 cos(alpha) along, v_0 sin(alpha) up."""
+    """Taylor, Classical Mechanics, section 2.3. The components are v_0 cos(alpha) and v_0 sin(alpha)."""
     found = thrown(v * cos(alpha), v * sin(alpha))
     assert found is not None
     (arrow,) = of(found, Arrow)
@@ -114,7 +114,7 @@ def test_the_coordinates_that_are_zero_at_an_impact_are_shown_by_dashed_bodies(t
     (angle,) = of(found, AngleBetween)
     (rod,) = of(found, ConnectionMark)
     assert angle.label == scalar("theta") and not angle.b.free_symbols & {scalar("theta")}
-    assert Matrix(rod.end)[0].subs(l, 1) > 0.1  # to the right of the rod, in the positive sense of the angle
+    assert Matrix(rod.end)[0].subs(l, 1) > 0.1  # on the right, in the positive sense of the angle
     ball = drawings(tmp_path / "ball", library("cue_ball"))["system"]
     assert len(of(ball, Ghost)) == 1 and {"h", "x"} <= set(map(str, labels(ball, LengthMark)))
     rods = drawings(tmp_path / "rods", library("struck_pair"))["system"]
@@ -123,7 +123,7 @@ def test_the_coordinates_that_are_zero_at_an_impact_are_shown_by_dashed_bodies(t
 
 
 def test_the_state_just_after_an_impact_is_drawn_on_request(tmp_path: Path) -> None:
-    """The left rod turns clockwise, the right one counterclockwise; the total momentum is J."""
+    """The left rod rotates clockwise, and the right rod rotates counterclockwise. The total momentum is J."""
     text = library("struck_pair")
     after = drawings(tmp_path / "drawn", text)["after"]
     left, right = of(after, DisplacementArrow)

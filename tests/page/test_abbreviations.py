@@ -1,4 +1,4 @@
-"""A long formula that a step has given a letter to stands once; an equation that is linear already is not repeated."""
+"""A long formula with a symbol is printed once, and an equation that is linear already is not repeated."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ def test_a_long_length_has_a_letter(tmp_path: Path) -> None:
 
 
 def test_what_is_handed_on_is_the_formula(tmp_path: Path) -> None:
-    """A letter that was kept would be a constant to Lagrange's equations."""
+    """Lagrange's equations need the formula, because they would treat its symbol as a constant."""
     steps = solved(tmp_path, PENDULUMS)
     k, l, d, m, g = symbols("k l d m g", positive=True)
     theta, phi = symbols("theta phi", real=True)

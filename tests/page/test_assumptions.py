@@ -1,4 +1,4 @@
-"""What is assumed of the letters is told once, in one line for each letter."""
+"""The assumptions about symbols are stated once, in one line for each symbol."""
 
 from __future__ import annotations
 

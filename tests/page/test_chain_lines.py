@@ -1,4 +1,4 @@
-"""The lines of a step as a page has them, and two steps in one row."""
+"""Tests of the lines of a step on a page, and of two steps in one row."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How a page counts its checks: by the least sure line, by the surest route, and routes by the results they reached."""
+"""Tests of the grades of steps, and of the counts of routes and checks."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def words() -> Phrases:
 
 
 def step(key: str, *claims: str) -> Step:
-    """(a + b)^2 by a rule whose second routes have words."""
+    """Return a step with (a + b)^2, by a rule whose second routes have words."""
     routes = dict.fromkeys(claims, compared_with(lambda: a**2 + 2 * a * b + b**2))
     rule = Rule("test.square", evidence={each: CHECK if each == "sum" else ROUTE for each in claims})
     made = establish(rule, scalar("s"), lambda: (a + b) ** 2, {}, key=key, routes=routes)

@@ -1,4 +1,4 @@
-"""Steps that are told in passing: after the lines that have their letter, once, and in words that go on from these."""
+"""Tests of clauses that define symbols after the lines in which the symbols appear."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The limiting cases at the end of a page: in the line where there is room, else as any step."""
+"""Tests of the limiting cases at the end of a page."""
 
 from __future__ import annotations
 

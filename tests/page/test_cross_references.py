@@ -1,4 +1,4 @@
-"""References by number: to equations, drawings and problems; what has no number is told where it is referred to."""
+"""Tests of references by number to equations, drawings and problems, and of their errors."""
 
 from __future__ import annotations
 

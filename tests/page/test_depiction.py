@@ -1,4 +1,4 @@
-"""Drawings on a page: where they stand, their words, and what an edit changes."""
+"""Tests of the positions and the descriptions of drawings on a page."""
 
 from __future__ import annotations
 
@@ -199,7 +199,7 @@ def test_the_page_of_tex_names_the_files_and_says_what_they_show(block: Rendered
 
 
 def test_a_value_for_a_letter_that_the_drawing_no_longer_has_is_told_as_a_warning(tmp_path: Path) -> None:
-    """`a` is a letter of the problem, but with sides in numbers nothing is drawn with it."""
+    """`a` is a symbol of the problem, but the drawing does not contain it if the sides are numbers."""
     edits = {
         "[a, 2*a, 3*a]": "[b, b, b]",
         "a: length": "a: length, b: length",

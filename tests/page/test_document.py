@@ -1,4 +1,4 @@
-"""The page as a tree: what is numbered, how much of a step is shown, whose words it has, and where a drawing stands."""
+"""Tests of the page as a tree: numbered equations, shown steps, their words, and drawings."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""One line explained: why it is there, how it was checked, in what words, and where its law stands."""
+"""Tests of the explanation of a step: why it is needed, how it was checked, and the code of its law."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def test_a_step_is_there_for_the_nearest_answers_that_rest_on_it(block: Block) -
     needs = [(need.part, need.answer, need.through) for need in explained(block, "axis_vector").needed]
     assert needs[0] == ("b", "kinetic_energy_about_axis", ("spin",))
     assert ("d", "torque", ("spin",)) in needs
-    assert "magnitude" not in [answer for _, answer, _ in needs]  # which rests on it through the torque
+    assert "magnitude" not in [answer for _, answer, _ in needs]  # the magnitude depends on the step through the torque
     assert explained(block, "torque").needed[0].through == ()
 
 
@@ -82,7 +82,7 @@ def test_what_replaces_the_words_is_told_with_the_names_that_they_may_have(block
     words = said(block, "torque")["words"]
     assert "`wording: {torque: {generic: ...}}`" in words
     assert "<<momentum>>" in words
-    assert "<<point>>" not in words  # by which a phrase only chooses
+    assert "<<point>>" not in words  # phrases only test this name
 
 
 def test_show_says_what_the_problem_says(block: Block) -> None:

@@ -1,4 +1,4 @@
-"""What a page of more detail has besides, folded where it belongs."""
+"""Tests of the additional lines of a more detailed page, which are folded."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Formulas in prose: read in the letters of the page, printed in every format, and refused where they are wrong."""
+"""Formulas in prose use the symbols of the page, appear in every format, and are rejected if they are wrong."""
 
 from __future__ import annotations
 

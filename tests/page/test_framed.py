@@ -1,4 +1,4 @@
-"""What a part asks for is framed in its place: no framed formula repeats one above it."""
+"""The results that a part asks for are framed, and no framed formula repeats another one."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Hints: what to compute, its law, how it goes on; and never the answer."""
+"""Hints show the results to find, the laws and the next lines, but no answers."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ def sides_in(words: Paragraph) -> list[Any]:
 
 
 def gives_away(line: ChainLine, of: Step, result: Step, names: set[Any]) -> bool:
-    """Whether a line of one step is the result of a step, with nothing left to put in or to carry out."""
+    """Whether a line of a step shows the result of a step, with nothing left to substitute or to evaluate."""
     whole = line.right if of.symbol is not None or line.left is None else Relation(line.left, "=", line.right)
     shown = [line.left, line.right] if isinstance(whole, Relation) else [line.right]
     still_named = letters_in(shown) & (names - letters_of(of.symbol) - letters_in([result.result]))

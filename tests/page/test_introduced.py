@@ -1,4 +1,4 @@
-"""What a piece of a page uses, and what it would need to introduce it; tests/printed/test_levels.py has every page."""
+"""Tests of the symbols that a piece of a page uses and introduces; tests/printed/test_levels.py tests whole pages."""
 
 from __future__ import annotations
 

@@ -1,5 +1,4 @@
-"""Each language has the phrases of English: the same files and keys. A phrase prints the same names; it may do without
-a name that English only tests, such as the number of equations."""
+"""Each language has the phrases of English: the same files and keys. A phrase prints the same names."""
 
 from __future__ import annotations
 

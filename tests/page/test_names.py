@@ -1,4 +1,4 @@
-"""What prose may mention: what is given, the axes, and each step by its key."""
+"""Tests of the names that prose may mention: inputs, axes, and steps by their keys."""
 
 from __future__ import annotations
 

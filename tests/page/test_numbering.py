@@ -1,4 +1,4 @@
-"""The numbers of equations: in order, and the same on pages of other detail."""
+"""The equations of a page have consecutive numbers, which are the same on pages of other levels of detail."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def test_no_number_goes_back_where_the_order_is_another() -> None:
     assert numbers["a"] > numbers["b"]
 
 
-# How each format shows a number beside an equation, and how it refers to one.
+# For each format, the number next to an equation, and a reference to an equation.
 NUMBER = r"\((\d+[a-z]*)\)"
 MARKDOWN = rf"\\qquad\\text{{{NUMBER}}}", rf"(?<=[a-z,] ){NUMBER}"
 WRITTEN = {
@@ -62,7 +62,7 @@ WRITTEN = {
 def test_each_format_has_every_number_that_it_refers_to_and_leaves_none_out(name: str, tmp_path: Path) -> None:
     found = rendered_once(course_in(tmp_path, problem=name), f"hw9/{name}", only={*WRITTEN})
     for form, (beside, referring) in WRITTEN.items():
-        text = found.html if form == "html" else found.texts[form].replace(r"\\", "\\")  # JSON doubles them
+        text = found.html if form == "html" else found.texts[form].replace(r"\\", "\\")  # JSON doubles each backslash
         shown = re.findall(beside, text, re.MULTILINE)
         referred = re.findall(referring, re.sub(beside, "", text, flags=re.MULTILINE), re.MULTILINE)
         assert referred and {*referred} <= {*shown}, form

@@ -1,4 +1,4 @@
-"""Numbers that no text of a problem mentions: they follow the statement."""
+"""Numbers that no text of a problem mentions follow the statement."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Phrases that are broken, missing or told twice are complaints at their line."""
+"""Broken, missing and repeated phrases are errors at their line."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The curves of a plot: of numbers alone, over a range that runs from left to right, with their extrema."""
+"""Tests of the curves of a plot: numbers, ranges and extrema."""
 
 from __future__ import annotations
 
@@ -134,7 +134,7 @@ def test_an_angle_is_told_in_degrees() -> None:
     ],
 )
 def test_up_to_four_curves_of_comparable_height_share_a_panel(cases: Any, together: bool) -> None:
-    """The least height is a sixth of the height of all curves."""
+    """The least height of a readable curve is a sixth of the height of all curves."""
     assert curves(a * cos(theta), cases=cases).is_together is together
 
 
@@ -209,7 +209,7 @@ def test_the_number_of_the_problem_names_a_curve_whose_case_does_not_state_it() 
 
 
 def divided(expr: Expr, *per: Expr, energies: tuple[Expr, ...] = (), cases: Any = ({a: 2, k: 3},)) -> Curves:
-    """Return the curves of an energy against an angle, with axes that are divided by these quantities."""
+    """Return the curves of an energy against an angle, with axes that are divided by quantities."""
     problem: Any = SimpleNamespace(amounts={}, measured=[], place_of=lambda _: SCRIPT)
     plot = Plot("potential", theta, expr, theta, Integer(0), pi, "energy", "angle", energies=energies)
     plot = replace(plot, per=tuple((each, each) for each in per))

@@ -1,4 +1,4 @@
-"""Results that lines above have: a sentence points to them, and is left alone where they are not all there."""
+"""Tests of sentences that point to earlier lines in place of repeating their results."""
 
 from __future__ import annotations
 

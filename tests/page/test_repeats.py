@@ -1,4 +1,4 @@
-"""What stands on a page already: a chain that begins or ends with it, and a result that is reached again."""
+"""Tests of formulas and results that a page has already shown."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A rubric: points on steps, which add up to those of the part whatever is shared and whatever is said."""
+"""Tests of rubrics: the points of the steps of a part add up to the points of the part."""
 
 from __future__ import annotations
 
@@ -118,5 +118,5 @@ def test_a_key_says_what_the_steps_are_worth(tmp_path: Path) -> None:
     rendered_once(root, "hw9/block")
     key = rendered(root, "hw9/block", documents=("key",)).documents
     lines = [line for line in key["key"].splitlines() if "Points:" in line]
-    assert lines and all(line.endswith(r"\par\nobreak") for line in lines)  # no page ends between it and what it is of
+    assert lines and all(line.endswith(r"\par\nobreak") for line in lines)  # no page ends after the points
     assert "Points:" in key["key.html"]

@@ -1,4 +1,4 @@
-"""What a level shows: what is told in passing, taken in or left out, and what forces a step to stand on its own."""
+"""Tests of the steps and lines that a level of detail shows."""
 
 from __future__ import annotations
 

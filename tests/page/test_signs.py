@@ -1,4 +1,4 @@
-"""The sign before a line tells how it follows from the one before."""
+"""Tests of the signs between the lines of a chain."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""One environment for phrases and for TeX: nothing unknown is passed over, and nothing reaches the program."""
+"""In templates, unknown names are errors, and code is not run."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Theorems stand once on a page, before the first step that uses them, and not on a brief one."""
+"""A page states each theorem once, before the first step that uses it. A brief page does not state theorems."""
 
 from __future__ import annotations
 

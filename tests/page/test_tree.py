@@ -1,4 +1,4 @@
-"""The tree of a page: displays that are joined, and parts that a level leaves out."""
+"""Tests of joined displays, and of parts that a level leaves out."""
 
 from __future__ import annotations
 

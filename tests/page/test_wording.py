@@ -1,4 +1,4 @@
-"""Words are filled with verified things only, and every step has the words it needs."""
+"""Phrases contain verified results only, and every step has the phrases that it needs."""
 
 from __future__ import annotations
 
@@ -193,7 +193,7 @@ def test_what_goes_on_from_an_alike_step_has_the_words_for_that() -> None:
     first, second, product = (known_block()[f"corner_tensor_{pair}"].step for pair in ("xx", "yy", "xy"))
     assert first.outcome == second.outcome != product.outcome
     assert WORDS.phrase(second) == WORDS.phrase(first) != WORDS.phrase(second, before=first) == "<<chain>>"
-    assert WORDS.phrase(product, before=second) == WORDS.phrase(product)  # nothing is said of a product after a moment
+    assert WORDS.phrase(product, before=second) == WORDS.phrase(product)
 
 
 def test_an_alike_outcome_of_another_rule_changes_no_words() -> None:

@@ -1,4 +1,4 @@
-"""How a solution reads: one display for Lagrange's equation, positions before speeds, answers in frames."""
+"""Tests of the texts of solutions, such as the display of Lagrange's equation and the frames of answers."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from tests.stock.described import course_with, edited, solved
 
 WORDS = phrases(templates_of(ROOT))
 LIBRARY = ROOT / "problems" / "library"
-REJECTED = (  # each was on a page, and was wrong, misleading or no help
+REJECTED = (  # these phrases were on pages, and were wrong, misleading or useless
     "For Lagrange's equation",
     "general form see",
     "The derivatives in Lagrange's equation",

@@ -1,4 +1,4 @@
-"""A page made by hand, with one of everything that a page may have."""
+"""A page for tests that contains every kind of element of a page."""
 
 from __future__ import annotations
 

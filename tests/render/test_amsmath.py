@@ -1,4 +1,4 @@
-"""A display as LaTeX for other documents: what TeX and readers of mathematics know."""
+"""Tests of displays as LaTeX for other documents."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How firmly a layout holds together, where it needs brackets, and which sign it has."""
+"""Tests of how strongly a layout binds, and of its brackets and its sign."""
 
 from __future__ import annotations
 

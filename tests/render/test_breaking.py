@@ -1,4 +1,4 @@
-"""Sums that are too long for a line: broken before a sign, all of them there, no bracket left open."""
+"""Sums that are too long for a line are broken before a sign, without loss of terms."""
 
 from __future__ import annotations
 

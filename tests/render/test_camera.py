@@ -1,4 +1,4 @@
-"""From letters to places on paper: a number for each, and a stance from which one sees what is shown."""
+"""Tests of the numbers for symbols and of the views of drawings."""
 
 from __future__ import annotations
 
@@ -78,7 +78,7 @@ def test_the_time_has_a_number_while_it_is_drawn() -> None:
 
 
 def test_a_plane_that_is_carried_round_is_seen_from_its_front() -> None:
-    """However open its angles would look from another place, a hoop is a circle and a level arm level."""
+    """A rotating hoop is drawn as a circle and a level arm is drawn level, even if another view shows larger angles."""
     slanting = [arrow(column(1, 2, 1), size=1), arrow(column(1, -2, 3), size=1)]
     omega = sqrt(2)
     assert best_stance(drawing("one", slanting), Numbers({})) != USUAL

@@ -1,4 +1,4 @@
-"""Drawings as sheets: the same bytes each time, lines as their pens have them, letters as the page has them."""
+"""Tests of drawings as sheets: the same bytes each time, the pens of lines, and the letters of the page."""
 
 from __future__ import annotations
 

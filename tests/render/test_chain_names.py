@@ -1,4 +1,4 @@
-"""The names in the lines of a step: apart from each other, with what they stand for, or written out."""
+"""Tests of the names in the lines of a step, and of their values."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import sympy
 from sympy import Matrix, Symbol, symbols
-from sympy import sympify as sympy_reads  # as any stranger would; the engine itself never does
+from sympy import sympify as sympy_reads  # an independent reader of the texts: the engine never uses `sympify`
 
 from derive.algebra import expressions as ex
 from derive.render.printing.chain_names import Page, factor_between

@@ -1,4 +1,4 @@
-"""The JSON of a page: its keys, and that each of its strings is read back with SymPy alone."""
+"""Tests of the JSON of a page: its keys, and texts that SymPy alone can read."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 import sympy
 from sympy import Rational, Symbol
-from sympy import sympify as sympy_reads  # as any stranger would; the engine itself never does
+from sympy import sympify as sympy_reads  # an independent reader of the texts: the engine never uses `sympify`
 
 from tests.courses import course_in, rendered_once
 

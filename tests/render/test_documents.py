@@ -1,4 +1,4 @@
-"""The documents of a set: every one in TeX and in HTML, with the same numbers and the same answers."""
+"""The documents of a set in TeX and in HTML have the same numbers and the same answers."""
 
 from __future__ import annotations
 

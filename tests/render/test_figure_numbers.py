@@ -1,4 +1,4 @@
-"""Figures of several problems on a page: one series of numbers."""
+"""The figures of several problems on a page have consecutive numbers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A page to be read into another document: it says what it needs, and needs no more."""
+"""A page for another document lists the packages that it needs."""
 
 from __future__ import annotations
 

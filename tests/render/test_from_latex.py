@@ -1,4 +1,5 @@
-"""A formula of a source, quoted in a terminal: laid out as our own are, and garbled ones no worse than they are."""
+"""Tests of quoted formulas in a terminal: correct formulas look like those of a page, and garbled ones cause no
+error."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which lines of a surface are hidden, whatever convex surface it is."""
+"""Tests of the hidden lines of convex surfaces."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Pages for a browser: what they have, what they leave out, and that every formula of a page is on them."""
+"""Tests of pages for a browser, which contain every formula of a page."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Pages of solutions in a real Chromium: nothing stands in the way of a reader, whatever they read with."""
+"""Tests of pages in Chromium, also for readers with assistive technology."""
 
 from __future__ import annotations
 

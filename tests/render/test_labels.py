@@ -1,4 +1,4 @@
-"""Labels stand beside what they name and on nothing else."""
+"""Labels are next to the things that they name and cover nothing else."""
 
 from __future__ import annotations
 
@@ -127,7 +127,8 @@ def test_the_label_of_a_line_slides_along_it_past_another_label() -> None:
 
 
 def test_labels_with_few_places_choose_first_where_otherwise_something_would_be_covered() -> None:
-    """A label of a line between two walls has one place, which the label of a point beside it would take as well."""
+    """The label of a line between two walls has one possible place. The label of a point next to the line would also
+    choose this place."""
     walls = [Stroke(((x, -30.0), (x, 30.0)), "edge") for x in (-17.0, 17.0)]
     point, line = Tag("p", (0.0, 20.0), (0.0, -1.0)), Tag("q", (0.0, -4.0), (0.0, 1.0), 3.0, (0.0, 0.1))
     blocked = Stroke(((-17.0, -6.0), (17.0, -6.0)), "edge")
@@ -138,7 +139,7 @@ def test_labels_with_few_places_choose_first_where_otherwise_something_would_be_
 
 
 def test_the_label_of_a_line_stands_nearer_to_it_than_to_another() -> None:
-    """It would stand above its line, where another runs."""
+    """At its preferred place, the label would be close to another line."""
     own, other = Stroke(((-50.0, 0.0), (50.0, 0.0)), "edge"), Stroke(((-50.0, 13.0), (50.0, 13.0)), "edge")
     tag = Tag("a", (0.0, 0.0), (0.0, 1.0), way=(40.0, 0.0))
     (alone,) = labels(own, tag)

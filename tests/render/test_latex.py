@@ -1,4 +1,4 @@
-"""A layout as LaTeX, and text that TeX prints as it is."""
+"""Tests of layouts as LaTeX, and of escaped text."""
 
 from __future__ import annotations
 

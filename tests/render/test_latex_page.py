@@ -1,4 +1,4 @@
-"""A page as LaTeX: text is escaped, numbers are anchors that references lead to, and the sheet gives nothing away."""
+"""Tests of pages as LaTeX: escaped text, references to equations, and sheets without answers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is decided of a formula before any format, and so is the same in all of them."""
+"""Tests of the layout of formulas, which is the same in all formats."""
 
 from __future__ import annotations
 

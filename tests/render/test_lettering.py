@@ -1,4 +1,4 @@
-"""Letters as contours: in Computer Modern, with the box that they fill, known to JSON."""
+"""Tests of letters as contours in Computer Modern."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def test_letters_are_data_of_json() -> None:
 
 
 def test_setting_letters_starts_no_thread_and_no_window() -> None:
-    """A process that will be forked sets them."""
+    """A process that will be forked draws letters, so it must not start threads."""
     program = (
         "import sys, os; from derive.render.drawing.lettering import letters_of; letters_of(['$x$']); "
         "alone = not os.path.isdir('/proc/self/task') or len(os.listdir('/proc/self/task')) == 1; "

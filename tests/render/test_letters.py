@@ -1,4 +1,4 @@
-"""One letter stands for one thing, as printed."""
+"""A printed symbol has one meaning."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The lines of a step: which forms share one, what stands at its end, and what is broken."""
+"""Tests of the printed lines of a step: shared lines, ends of lines, and broken lines."""
 
 from __future__ import annotations
 
@@ -51,7 +51,8 @@ def test_the_frame_holds_a_result_and_with_a_law_in_letters_the_whole_equation()
 
 @pytest.mark.parametrize("result", [Integer(0), LETTERS[2], 2 * LETTERS[1], ImmutableDenseMatrix([0, 0, 0])])
 def test_only_a_law_in_letters_shares_the_frame_of_its_result(result: Any) -> None:
-    """T = a = 0 is framed as a whole; after a long line only the result is framed, but T = 0 with its left side."""
+    """T = a = 0 is framed as a whole. After a long line only the result is framed, but T = 0 is framed with its left
+    side."""
     T = Symbol("T")
     chain = (ChainLine(T, "equals", LETTERS[0]), ChainLine(None, "equals", result, (Text("why"),)))
     (line,) = printed_lines(Equations("T", (replace(chain[1], left=T),), 7, 1), NOTATION)

@@ -1,4 +1,4 @@
-"""A page as Markdown: nothing in a formula means anything to a reader that knows no formulas."""
+"""The formulas of a Markdown page contain no characters that Markdown could interpret."""
 
 from __future__ import annotations
 

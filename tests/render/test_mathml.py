@@ -1,4 +1,4 @@
-"""Formulas in MathML: what `latex` writes can be converted, and every letter of a page has its glyph."""
+"""The output of `latex` can be converted to MathML, and every letter of a page has a glyph."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Labels in matplotlib's mathtext: vectors as bold runs of their own, and no TeX that it does not know."""
+"""Tests of labels in matplotlib's mathtext, in which vectors are separate bold runs."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def test_matplotlib_can_set_every_run(layout: Layout) -> None:
     from matplotlib.mathtext import MathTextParser
 
     for run in runs(layout):
-        _, _, width, *_ = MathTextParser("path").parse(run.text)  # raises on what it does not know
+        _, _, width, *_ = MathTextParser("path").parse(run.text)  # raises an error for unknown commands
         assert width or not run.text.strip("$")
 
 

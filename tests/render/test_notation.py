@@ -1,4 +1,4 @@
-"""Mathematics on paper: the layout keeps its value, LaTeX and text only print it, and it reads like a textbook."""
+"""Tests of the layout of formulas: their values do not change, and formulas look as in a textbook."""
 
 from __future__ import annotations
 
@@ -77,7 +77,7 @@ def text(expr: Any) -> str:
 # --- one by one ---
 
 PINNED = [
-    # numbers stand in front of letters, masses before lengths before rates
+    # numbers before symbols, masses before lengths before rates
     (Rational(13, 12) * M * a**2, r"\frac{13}{12}\,Ma^{2}", "13/12 M a²"),
     (-M * a**2 / 4, r"-\frac{1}{4}\,Ma^{2}", "-1/4 M a²"),
     (omega**2 * a**2 * M * Rational(7, 24), r"\frac{7}{24}\,Ma^{2}\omega^{2}", "7/24 M a² ω²"),
@@ -85,7 +85,7 @@ PINNED = [
     (M * g * a, "Mga", "M g a"),
     (2 * pi * a, r"2\pi a", "2π a"),
     (M * (b**2 + c**2) / 12, r"\frac{1}{12}\,M\,(b^{2}+c^{2})", "1/12 M (b² + c²)"),
-    # roots: 1/sqrt(14) in front of vectors, sqrt(42)/28 as it is
+    # roots: 1/sqrt(14) before vectors, sqrt(42)/28 unchanged
     (omega / sqrt(14), r"\frac{\omega}{\sqrt{14}}", "ω/√14"),
     (M * a**2 * omega / (12 * sqrt(14)), r"\frac{Ma^{2}\omega}{12\sqrt{14}}", "M a² ω/(12√14)"),
     (sqrt(42) / 28 * M * a**2 * omega**2, r"\frac{\sqrt{42}}{28}\,Ma^{2}\omega^{2}", "√42/28 M a² ω²"),

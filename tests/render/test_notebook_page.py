@@ -1,4 +1,4 @@
-"""The cells of a notebook: what is said, what is drawn, and what is derived, in the order of the page."""
+"""The cells of a notebook are in the order of the page."""
 
 from __future__ import annotations
 

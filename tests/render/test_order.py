@@ -1,4 +1,4 @@
-"""The order of terms and factors is that of a textbook, and it changes no value."""
+"""Terms and factors have the order of a textbook, and the order does not change a value."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A drawing on paper: in its proportions, as large as its room, what is in front drawn last."""
+"""Tests of drawings on paper: their proportions, their size, and the order of the pieces."""
 
 from __future__ import annotations
 

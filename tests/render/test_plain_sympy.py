@@ -1,4 +1,4 @@
-"""Expressions as text that SymPy reads with nothing of ours: their letters, their nodes, and what moves."""
+"""Tests of expressions as text that SymPy alone can read."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 import sympy
 from sympy import Float, Integer, Matrix, MatrixExpr, MatrixSymbol, Rational, Symbol, symbols
-from sympy import sympify as sympy_reads  # as any stranger would; the engine itself never does
+from sympy import sympify as sympy_reads  # an independent reader of the texts: the engine never uses `sympify`
 
 from derive.algebra import expressions as ex
 from derive.algebra.expressions import component_names
@@ -60,7 +60,7 @@ def agree(left: list[Any], right: list[Any]) -> bool:
 def test_every_line_of_a_chain_equals_the_first_when_read_with_sympy_alone(variant: dict[str, Any]) -> None:
     for quantity in known_block(**variant).values():
         names = meanings(quantity)
-        # `omega_x` is open in what is said of every rotation: there it stands for itself.
+        # The general law of a rotation contains `omega_x` without a value, so here the symbol denotes itself.
         lines = [number(sympy_text(form.expr), names) for form in quantity.step.chain]
         for line, form in zip(lines[1:], quantity.step.chain[1:], strict=True):
             assert agree(lines[0], line), f"{quantity.key}: {form.because}"

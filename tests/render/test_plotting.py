@@ -1,4 +1,4 @@
-"""Plots: a panel for each curve, round ticks, axes named with their units, extrema named beside the curve."""
+"""Tests of plots: panels, round ticks, axes with units, and the names of extrema."""
 
 from __future__ import annotations
 
@@ -349,7 +349,7 @@ def test_the_value_of_a_phase_portrait_is_in_a_gap_of_its_curve() -> None:
 
 
 def test_names_without_room_next_to_the_curves_are_in_a_legend() -> None:
-    """The curves coincide nearly, so that a name next to one of them would also be next to the other."""
+    """The curves almost coincide, so a name next to one of them would also be next to the other."""
     near = plot_of(theta + a / 100)
     _, inside = named(near, 1, 2)
     assert len([shape for shape in inside.curves if shape.width]) == 2, "a line for each curve"
@@ -459,7 +459,7 @@ def points_of(found: Curves) -> list[tuple[float, float]]:
 
 
 def test_a_zero_is_marked_where_a_quantity_changes_its_sign() -> None:
-    """The force in a rod that turns about its lower end: 3 cos(theta) = 2 at 48.19 degrees."""
+    """The force in a rod that rotates about its lower end vanishes if 3 cos(theta) = 2, at 48.19 degrees."""
     found = force_of(2 - 3 * cos(theta))
     assert points_of(found) == [(0.8411, 0.0)]
     panel = panel_of(Plot("force", V, 2 - 3 * cos(theta), theta, Integer(0), pi, "force", "angle", unit="N"),
@@ -478,7 +478,7 @@ def test_the_point_at_which_two_curves_meet_is_marked_also_at_the_end_of_the_ran
     assert points_of(force_of(1 - theta, theta)) == [(0.5, 0.5)]
     assert points_of(force_of(1 - theta, theta, upper=Rational(1, 2))) == [(0.5, 0.5)]
     assert not points_of(force_of(2 + theta, theta))
-    assert not points_of(force_of(theta, 2 * theta))  # they only start together
+    assert not points_of(force_of(theta, 2 * theta))  # two curves that both start at zero do not count as meeting there
 
 
 def test_the_zeros_of_two_curves_that_do_not_meet_are_marked() -> None:
@@ -512,7 +512,7 @@ def test_a_curve_is_cut_at_the_ends_of_the_vertical_axis_that_the_problem_states
 
 def test_a_name_in_a_gap_leaves_no_short_end_of_an_open_curve() -> None:
     line = [(2.0 * i, 0.0) for i in range(101)]
-    near_the_end = [(x, 30.0) for x in range(0, 160)]  # another curve, from which the last part of the line is farthest
+    near_the_end = [(x, 30.0) for x in range(0, 160)]  # another curve, close to the first part of the line
     box = on_curve(line, (20.0, 8.0), (-50.0, -50.0, 250.0, 50.0), [], near_the_end)
     assert box is not None
     assert box[2] <= line[-1][0] - STUB and box[0] >= line[0][0] + STUB

@@ -1,4 +1,4 @@
-"""How factors stand side by side: their order, what is drawn together, and where a dot keeps them apart."""
+"""Tests of products: the order of factors, and the marks between them."""
 
 from __future__ import annotations
 
@@ -65,7 +65,8 @@ def test_what_is_very_small_or_large_and_round_has_its_power_of_ten(number: Rati
 
 
 def test_below_the_root_of_a_fraction_goes_what_it_is_divided_by() -> None:
-    """A rod that swings at x from its middle: 2 pi sqrt((l^2 + 12 x^2)/(12 g x)). Source: Morin, section 8.4."""
+    """A rod that swings about a point at the distance x from its middle: 2 pi sqrt((l^2 + 12 x^2)/(12 g x)). Source:
+    Morin, section 8.4."""
     a, g, x = symbols("a g x", positive=True)
     assert plain(Notation().layout(pi * sqrt(3) * sqrt(a**2 + 12 * x**2) / (3 * sqrt(g * x)))) == (
         "π √((a² + 12x²)/(3g x))"

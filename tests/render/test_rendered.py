@@ -1,4 +1,4 @@
-"""A page goes to JSON and back unchanged, and data of any other shape are none."""
+"""A page is encoded as JSON and decoded without change; data of another structure are rejected."""
 
 from __future__ import annotations
 

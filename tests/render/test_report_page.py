@@ -1,4 +1,4 @@
-"""A problem in the report: rows of steps, and the source quoted in its own letters or told in ours."""
+"""Tests of a problem in the report: the rows of steps, and quotations of the source."""
 
 from __future__ import annotations
 

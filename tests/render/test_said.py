@@ -1,4 +1,4 @@
-"""What the JSON tells of a page's words: in the order of the page, with the keys of what a sentence refers to."""
+"""The JSON has the texts of a page in order, with the keys of the equations to which they refer."""
 
 from __future__ import annotations
 

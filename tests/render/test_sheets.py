@@ -1,4 +1,4 @@
-"""Shapes as files: a PDF that a reader takes apart again, an SVG of the same shapes, the same bytes each time."""
+"""Tests of shapes as files: the PDF and the SVG show the same shapes and have the same bytes each time."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ def test_an_svg_has_the_same_shapes_and_says_what_it_shows() -> None:
 
 
 def test_a_circle_is_round() -> None:
-    """The middle of each quarter is as far from the middle as its ends, to a thousandth."""
+    """The middle of each quarter is as far from the centre as its ends, within a thousandth."""
     (_, (start,)), *quarters, (last, _) = circle((3.0, -1.0), 10.0)
     assert (start, last) == ((13.0, -1.0), "Z")
     before = start

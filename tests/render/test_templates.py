@@ -1,4 +1,4 @@
-"""Templates of TeX: what they print is escaped, what is wrong with them is told at its line."""
+"""The templates of TeX escape the values that they print, and report errors with their lines."""
 
 from __future__ import annotations
 

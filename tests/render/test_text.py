@@ -1,4 +1,4 @@
-"""A layout as text: on a line where it fits, brackets where paper needs none, boxes beside each other."""
+"""Tests of layouts as text: lines, brackets and boxes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A page for a terminal: everything in its order, nothing wider than the screen, boxes and numbers in line."""
+"""Tests of pages for a terminal: their order, their width, boxes and equation numbers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Theorems on a page of several problems: told by the first that uses them, named by the others."""
+"""On a page of several problems, the first problem that uses a theorem states it, and later problems refer to it."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 """Integrals as a document writes them: signs with limits, differentials in any customary place, brackets with limits.
 
-Only integrals that are quick to evaluate are read: integrals of powers, of sines and cosines, and of roots.
+Integrals are read if they are quick to evaluate, such as those of powers, of sines and cosines, and of roots.
 """
 
 from __future__ import annotations
@@ -105,11 +105,8 @@ def check_limits(reader: Grids, variable: Term, *limits: Term) -> None:
 
 
 def _is_elementary(function: Expr, limits: Limits) -> bool:
-    """Return whether the integral can be evaluated by `definite`, or by SymPy with elementary rules.
-
-    An integral with a root always counts as elementary; if it cannot be evaluated, it is undefined, and its comparison
-    fails.
-    """
+    """Return whether the integral can be evaluated by elementary rules. An integral with a root counts as
+    elementary."""
     variables = {x for x, *_ in limits}
     ends = [end for _, *both in limits for end in both]
     found = definite(function, limits)
@@ -181,7 +178,6 @@ def _degree(expr: Expr, x: Expr, most: int) -> int:
 
 
 def _only_letter(reader: Grids, term: Term, lower: Term, upper: Term) -> Symbol:
-    """Return the only letter of the antiderivative that the limits may replace."""
     outside = lower.expr.free_symbols | upper.expr.free_symbols
     limit = upper if upper.expr != 0 else lower
     free = (s for s in term.expr.free_symbols - outside if s in reader.dimensions)

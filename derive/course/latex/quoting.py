@@ -119,7 +119,6 @@ def _environment(name: str, environment: str, columns: str | None, nesting: list
 
 
 def _shown(environment: str) -> str:
-    """Return `aligned` in place of an environment of displayed rows; any other environment is unchanged."""
     return "aligned" if environment in ALIGNMENTS else environment
 
 

@@ -153,7 +153,7 @@ def _word(tokens: list[Token], at: int) -> str:
 
 
 def _in_one_line(reader: Values, tokens: list[Token]) -> list[Token]:
-    """Join the rows of an aligned chain: a row that begins with a relation or a sign continues the row before."""
+    """Join the rows of an aligned chain. A row that begins with a relation or a sign continues the row before."""
     aligned: list[Token] = []
     inside = at = 0
     while at < len(tokens):

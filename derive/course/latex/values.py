@@ -100,7 +100,7 @@ class _Unit:
 
 
 class _Parts:
-    """The factors of a product; dot and cross products are taken last."""
+    """The factors of a product. Dot and cross products are formed last."""
 
     def __init__(self, reader: Grids):
         self.reader = reader
@@ -182,7 +182,7 @@ class Values(Grids):
                 return Grid(tuple((term,) for term in terms), start, end)
         if declared is None:
             self.undeclared.append(self.not_declared(node))
-            self.homogeneous = False  # the letter's dimension is unknown, so dimensions are no longer compared
+            self.homogeneous = False  # the letter's dimension is unknown, so dimensions are not compared from here on
             return Term(Dummy(node.base, real=True), NUMBER, start, end)
         if is_vector:
             self.vectors.append(start)
@@ -243,7 +243,7 @@ class Values(Grids):
         self.at(node, "latex", f"`{self.written(node)}` is not expected here")
 
     def unit_of(self, node: Node, after_number: bool) -> _Unit | None:
-        r"""Return the unit that a node is, `\mathrm{m/s^2}` or `\text{ kg}`; None if the node is not a unit.
+        r"""Return a node as a unit, `\mathrm{m/s^2}` or `\text{ kg}`; None if the node is not a unit.
 
         Units are read only in prose.
         """
@@ -648,7 +648,7 @@ class Values(Grids):
 
 
 def _with_power_at_the_end(node: Node, exponent: Node) -> Node:
-    """Return `{ab}^2` as `ab^2`, because braces that only group are not printed."""
+    """Return `{ab}^2` as `ab^2`, because the braces of a group are not printed."""
     if isinstance(node, Mul):
         mark, last = node.factors[-1]
         return replace(node, factors=(*node.factors[:-1], (mark, _with_power_at_the_end(last, exponent))))
@@ -673,7 +673,6 @@ def is_dotted(node: Der) -> bool:
 
 
 def _function_first(node: Node) -> tuple[Fun, list[Node]]:
-    """Return the function of an alternative, and the factors after it."""
     if isinstance(node, Fun):
         return node, []
     assert isinstance(node, Mul)

@@ -139,7 +139,7 @@ def _of_relation(
         return Verdict(Grade.REFUTED, "`times` is zero, so any statement would agree")
     verdict = equal(stated.residual, factor * ours.residual)
     if not verdict:
-        turned = equal(stated.residual, -factor * ours.residual)  # the two sides may be interchanged
+        turned = equal(stated.residual, -factor * ours.residual)  # the two sides may be exchanged
         verdict = turned if turned else verdict
     return verdict
 
@@ -199,7 +199,7 @@ def _meanings(
     known = {**{m.symbol.name: m.symbol for m in pinned.measured}, **given, **own}
     if any(letter.name not in known and len(found.get(letter.name, ())) != 1 for letter in wanted):
         known = {**_letters_of(behind), **known}
-    # A name with two meanings in earlier steps (such as the inertia tensors of two bodies) is not replaced by either.
+    # A name with two meanings in earlier steps, such as the inertia tensors of two bodies, is not replaced.
     return {
         letter: values[0] if len(values := found.get(letter.name, [])) == 1 else known.get(letter.name, letter)
         for letter in wanted
@@ -207,7 +207,6 @@ def _meanings(
 
 
 def _letters_of(steps: Iterable[Quantity]) -> dict[str, Symbol]:
-    """Return the letters in the values of steps, by name."""
     letters = {letter for step in steps for letter in getattr(explicit(step.value), "free_symbols", ())}
     return {letter.name: letter for letter in sorted(letters, key=lambda x: (not x.is_nonzero, x.name))}
 
@@ -231,7 +230,6 @@ def _found_before(steps: Iterable[Quantity]) -> dict[str, list[Any]]:
 
 
 def _of_kind(dimension: Dimension, value: Expr, kind: str | None) -> Verdict | None:
-    """Return a refutation if the dimension is wrong; else None."""
     if kind is None or value == 0 or dimension == dimension_of_kind(kind):
         return None
     return Verdict(Grade.REFUTED, f"{named(dimension)} against {kind_with_article(kind)}")

@@ -1,7 +1,7 @@
 r"""The formulas of a document that a reference cites by their lines.
 
-A line belongs to the rows of displays that cover it, or to the only formula of a sentence that makes a statement there.
-Rows that begin with a relation continue the row before them.
+A line refers to the rows of displays that cover it, or to a formula in a sentence. A row that begins with a relation
+continues the row before.
 """
 
 from __future__ import annotations
@@ -265,7 +265,7 @@ def _parsed(side: Side) -> Node | None:
 
 
 def _lone_letter(side: Side) -> Letter | None:
-    r"""Return the letter if a side is only a letter, also in brackets."""
+    """Return the letter if a side is a single letter, also in brackets."""
     node = _parsed(side)
     while isinstance(node, Group | EvalBar):
         node = node.inner

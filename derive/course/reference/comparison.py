@@ -168,8 +168,7 @@ def _by_key(entry: Entry, steps: Steps, pinned: Problem) -> list[Comparison]:
 
 
 def _by_symbol(entry: Entry, steps: Steps, pinned: Problem) -> list[Comparison]:
-    """Compare a chain with the steps that have its first letter as their symbol; a side may be the value of any of
-    them."""
+    """Compare a chain with the steps that have its first letter as their symbol."""
     keys = [key for key, step in steps.items() if getattr(step.symbol, "name", "") == entry.symbol]
     if not keys:
         message = f"no step has the symbol `{entry.symbol}`"

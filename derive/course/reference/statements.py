@@ -507,7 +507,7 @@ class _EntryReader:
         return None
 
     def in_latex(self, scalar: Scalar, homogeneous: bool) -> Statement:
-        from derive.course.latex import read_latex  # imported here, because few files need LaTeX
+        from derive.course.latex import read_latex  # imported here because few files need LaTeX
 
         read = read_latex(scalar, self.printed, homogeneous=homogeneous)
         sides = tuple(Stated(s.branches, s.shape, s.text, s.place, homogeneous) for s in read.sides)

@@ -1,8 +1,8 @@
 """From the expressions of a drawing to points on paper: numbers for the symbols, and the viewing direction.
 
 A symbol with a number keeps this number. The other symbols of a kind get substitute values in the order of their
-declaration: 1, 3/2, 2, ... times the mean size of the given numbers of this kind. If there are no such numbers, the
-values are the same multiples of 36 degrees for angles, and of 1 for any other kind.
+declaration: 1, 3/2, 2, ... times the mean size of the given numbers of this kind. Without given numbers, the values are
+multiples of 36 degrees for angles, and of 1 for other kinds.
 """
 
 from __future__ import annotations
@@ -129,18 +129,15 @@ def stance_from(azimuth: float, elevation: float) -> Stance:
 
 FLAT = Stance((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 USUAL = stance_from(25, 18)
-# Views for polhodes, if the axis of the intermediate moment is x, y or z. All three axes point towards the viewer, and
-# this axis most of all.
+# Views for polhodes, if the axis of the intermediate moment is x, y or z.
 FROM_A_CORNER = stance_from(37, 30), stance_from(53, 30), stance_from(45, 42)
 
 
 def best_stance(drawing: Drawing, numbers: Numbers, reach: float = 1.0) -> Stance:
     """Return the view of a drawing.
 
-    A drawing in a plane has the view from the front. In space, the author may choose the view. Otherwise polhodes have
-    a view of `FROM_A_CORNER`, a drawing at a given time has the usual view, and a drawing without vectors has the view
-    of `_open_view`. For any other drawing, several views are tried, and the view is chosen in which vectors are long
-    and far apart and do not end at corners.
+    A drawing in a plane has the view from the front. In space, the author may choose the view. Otherwise a view is
+    chosen in which vectors are long and far apart and do not end at corners.
 
     `reach` is the size of the bodies.
     """
@@ -169,8 +166,6 @@ def best_stance(drawing: Drawing, numbers: Numbers, reach: float = 1.0) -> Stanc
 
 
 def _open_view(drawing: Drawing, numbers: Numbers, reach: float) -> Stance:
-    """Return the usual view or, if all bodies are in one plane that would be seen almost edge-on, the first view in
-    which this plane is open."""
     places = [place for mark in drawing.marks if isinstance(mark, Surface) for place in mark.places(numbers)]
     normal = _normal_of(places, reach)
     if normal is None:
@@ -200,9 +195,8 @@ def _apartness(stance: Stance, ends: Sequence[Vector], corners: Sequence[Vector]
 
 
 def _clearness(stance: Stance, vectors: Sequence[Vector], pairs: Sequence[tuple[Vector, Vector]]) -> float:
-    """Return a measure of how clearly the vectors appear. It is the product of two factors, each with an upper
-    limit: the shortest length of a vector in the view, and the smallest sine of an angle between two vectors in the
-    view. The sine of an obtuse angle counts 1.2 times."""
+    """Return a measure of how clearly the vectors appear. It grows with the shortest length of a vector in the view,
+    and with the smallest sine of an angle between two vectors in the view."""
     longest = min((hypot(*stance.spot(v)) for v in vectors), default=1.0)
     widest = 1.0
     for a, b in pairs:

@@ -117,8 +117,6 @@ def _reached(piece: Piece) -> Iterable[Spot]:
 
 @dataclass(frozen=True)
 class _Label:
-    """The contours of a label, each with its position and whether it is bold, and the size of the label."""
-
     contours: tuple[tuple[Contour, Spot, bool], ...]
     size: tuple[float, float]
 
@@ -144,12 +142,11 @@ def _label(parts: Sequence[tuple[Lettered, bool]]) -> _Label:
 
 
 def _runs(label: Any, notation: Notation) -> tuple[Span, ...]:
-    """Return the runs of a label, which is a name, an expression, a word printed unchanged, or a tuple of these."""
     if isinstance(label, tuple):
         parts = (span.text.strip("$") for each in label for span in _runs(each, notation))
         return (Span(f"${''.join(parts)}$"),)
     if isinstance(label, str):
-        spaced = label.replace(" ", "\\;")  # mathematical text has no spaces of its own
+        spaced = label.replace(" ", "\\;")  # mathtext ignores plain spaces
         return (Span(rf"$\mathrm{{{spaced}}}$"),)
     return runs(notation.result(label), inline=True)
 
@@ -158,7 +155,6 @@ def _runs(label: Any, notation: Notation) -> tuple[Span, ...]:
 
 
 def shapes_of(pieces: Sequence[Piece]) -> list[Shape]:
-    """Return the shapes of all pieces except labels."""
     found: list[Shape] = []
     for piece in pieces:
         match piece:
@@ -187,7 +183,6 @@ def _stroke(stroke: Stroke) -> list[Shape]:
 
 
 def _headed(spots: list[Spot], pen: Pen) -> tuple[list[Spot], Contour]:
-    """Return the line up to the base of the arrowhead at its last point, and the arrowhead along its last segment."""
     tip = spots[-1]
     kept = [spot for spot in spots[:-1] if hypot(tip[0] - spot[0], tip[1] - spot[1]) > 0.8 * pen.head] or spots[:1]
     angle = atan2(tip[1] - kept[-1][1], tip[0] - kept[-1][0])

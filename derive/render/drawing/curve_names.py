@@ -143,7 +143,7 @@ def corner_for(
 
 
 def rows_of(widths: Sequence[float], room: float) -> list[list[int]]:
-    """Return the indices of the entries of a legend, row by row, so that each row fits the room if this is possible."""
+    """Return the indices of the entries of a legend, row by row; each row fits the room if possible."""
     rows: list[list[int]] = []
     used = 0.0
     for i, wide in enumerate(widths):

@@ -55,7 +55,6 @@ class OnPaper(Paper):
         ]
 
     def _beside(self, name: object, lines: Sequence[tuple[Spot, ...]]) -> Tag:
-        """Put the name of a length next to the lowest of the outline edges that have this length."""
         spot = min((midway(*line) for line in lines), key=lambda at: (round(at[1], 6), at[0]))
         return Tag(name, spot, direction(self.spot(self.middle), spot))
 
@@ -100,8 +99,8 @@ class OnPaper(Paper):
 
 
 def _turns(facing: Sequence[float]) -> list[tuple[int, float]]:
-    """Return the places on the rim where a side begins or ceases to face the eye. Each place is the index of a rim
-    point, and the fraction of the distance from this point to the next."""
+    """Return the places on the rim where a side begins or ceases to face the eye: the index of a rim point, and the
+    fraction of the distance from this point to the next."""
     pairs = enumerate(pairwise(facing))
     return [(i, at / (at - after)) for i, (at, after) in pairs if (at >= 0) != (after >= 0)]
 

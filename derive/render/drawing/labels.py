@@ -2,9 +2,8 @@
 
 For each label, several positions around its point are tried. A position has a cost for each line point and each label
 that it covers. A smaller cost grows with the distance from the position that the mark prefers. The position with the
-lowest total cost is used. Labels on the things that they name choose first; labels of lines, which can slide,
-choose last. Then each label chooses again, now that the other labels have positions. If labels still cover something,
-a second search lets labels with few positions choose earlier, and the better result is used.
+lowest total cost is used. The labels choose one after another, in several rounds. If labels still cover something, they
+choose again in another order.
 """
 
 from __future__ import annotations
@@ -72,7 +71,6 @@ Tries: TypeAlias = Sequence[tuple[int, tuple[float, Extent]]]  # numbered boxes 
 def _one_by_one(
     order: Sequence[int], tried: Sequence[Tries], drawn: Sequence[Spot]
 ) -> tuple[dict[int, float], dict[int, Extent]]:
-    """Choose a box for each label in this order, in at most `ROUNDS` rounds; return the costs and the boxes."""
     found: dict[int, Extent] = {}
     costs: dict[int, float] = {}
     for _ in range(ROUNDS):
@@ -85,7 +83,7 @@ def _one_by_one(
 
 
 def _best(tried: Tries, drawn: Sequence[Spot], others: Sequence[Extent]) -> tuple[float, Extent]:
-    """Return the least total cost with its box: the base cost of a box plus the cost of what the box covers."""
+    """Return the least total cost of a box of the label, with this box."""
     least, best = inf, (-1, (0.0, 0.0, 0.0, 0.0))
     for place, (cost, box) in tried:
         if cost > least:
@@ -99,7 +97,7 @@ def _best(tried: Tries, drawn: Sequence[Spot], others: Sequence[Extent]) -> tupl
 def _weighed(
     tag: Tag, measured: Callable[[Any], tuple[float, float]], drawn: Sequence[Spot]
 ) -> Iterable[tuple[float, Extent]]:
-    """Yield the boxes of a label with costs; the label of a line costs more near another line, to avoid confusion."""
+    """Yield the boxes of a label with costs. The label of a line costs more near another line, to avoid confusion."""
     tried = _tried(tag, *measured(tag.label))
     if tag.way is None:
         yield from tried
@@ -112,7 +110,6 @@ def _weighed(
 
 
 def _distance(spot: Spot, start: Spot, end: Spot) -> float:
-    """Return the distance of a point from the line through two other points."""
     x, y = end[0] - start[0], end[1] - start[1]
     return abs((spot[0] - start[0]) * y - (spot[1] - start[1]) * x) / (hypot(x, y) or 1.0)
 
@@ -137,7 +134,7 @@ def _tried(tag: Tag, width: float, height: float) -> Iterable[tuple[float, Exten
 
 
 def _tried_on(tag: Tag, width: float, height: float) -> Iterable[tuple[float, Extent]]:
-    """Yield boxes in the middle of the thing that the label names, or a little to one side, then boxes outside it."""
+    """Yield boxes on the thing that the label names, then boxes outside it."""
     for share in (0.0, -0.5, 0.5, -1.0, 1.0):
         yield 4.0 * abs(share), _box(_moved(tag.spot, tag.towards, share), width, height)
     (x, y), far = tag.towards, hypot(*tag.towards)
@@ -149,7 +146,7 @@ def _tried_on(tag: Tag, width: float, height: float) -> Iterable[tuple[float, Ex
 
 
 def _tried_along(tag: Tag, way: Spot, width: float, height: float) -> Iterable[tuple[float, Extent]]:
-    """Yield boxes along a line on both sides, so far away that no corner touches the line."""
+    """Yield boxes along a line on both sides."""
     (x, y), far = tag.towards, hypot(*tag.towards) or 1.0
     normal = x / far, y / far
     away = tag.gap + (abs(normal[0]) * width + abs(normal[1]) * height) / 2
@@ -192,7 +189,7 @@ def _reads_as_fraction(one: Extent, other: Extent) -> bool:
 
 
 def _seen(pieces: Sequence[Piece], width: Callable[[Stroke], float]) -> list[Spot]:
-    """Return points of the lines and bullets, except points that are hidden by a surface drawn later."""
+    """Return points of the lines and bullets that are visible."""
     found: list[Spot] = []
     for piece in pieces:
         if isinstance(piece, Patch):
@@ -202,7 +199,7 @@ def _seen(pieces: Sequence[Piece], width: Callable[[Stroke], float]) -> list[Spo
 
 
 def _dots(piece: Piece, width: float) -> list[Spot]:
-    """Return a stroke as dots one point apart (both edges of a wide stroke), or a bullet as a small cluster of dots."""
+    """Return a stroke or a bullet as dots."""
     if isinstance(piece, Bullet):
         x, y = piece.spot
         reach = max(1, round(piece.size - 0.6))

@@ -92,7 +92,7 @@ class Panel:
     is_path          whether the curves are paths, which have dots at their ends and an arrowhead
     lines            the curves of a phase portrait
     levels           the values on these curves
-    rests            the points of stable rest in a phase portrait, like extrema of a curve
+    rests            the points of stable equilibrium in a phase portrait
     outlines         the lines of surfaces in the plane of a path
     branches         the branches of a bifurcation diagram, each with its name and its parts
     changes          the bifurcations
@@ -128,7 +128,7 @@ class Panel:
 
     @property
     def turns(self) -> tuple[Turn, ...]:
-        """Return the extrema of all curves, and the points of rest."""
+        """Return the extrema of all curves, and the points of stable equilibrium."""
         return (*(turn for trace in self.traces for turn in trace.turns), *self.rests)
 
     def texts(self) -> Iterator[str]:
@@ -243,7 +243,7 @@ def curve_panel(
 
 
 def _is_tick_at_end(point: tuple[float, float, bool], across: Ticks, curves: Curves) -> bool:
-    """Whether a point is at the end of all curves, where a tick already shows its place; no curve continues there."""
+    """Whether a point is at the end of all curves, where a tick already shows its place."""
     x, last = point[0] * curves.variable.per_unit, max(curve.end for curve in curves.curves)
     return point[0] == last and _has_tick(x, across)
 
@@ -252,8 +252,7 @@ def _point(
     at: float, value: float, is_zero: bool, curves: Curves, own: Sequence[Curve], across: Ticks, notation: Notation
 ) -> tuple[Spot, str]:
     """Return a point of a panel with its name: the value on the horizontal axis and, unless the point is a zero, the
-    value on the vertical axis. If the solution has a symbol for the place, the name is `t_1 = 0.583 s`, or `t_1` on an
-    axis that is divided by a quantity. A zero at a tick has no name."""
+    value on the vertical axis."""
     x, y = at * curves.variable.per_unit, value * curves.up.per_unit
     for curve in own:
         (found,) = with_names([Extremum(at, value, MINIMUM)], curve.places, NEAR * (curve.upper - curve.lower))
@@ -267,7 +266,6 @@ def _point(
 
 
 def path_panel(plot: Plot, own: Sequence[Curve], curves: Curves, notation: Notation, letter: str = "") -> Panel:
-    """Return the panel of paths."""
     assert plot.across is not None
     traces = tuple(
         Trace(
@@ -289,7 +287,7 @@ def path_panel(plot: Plot, own: Sequence[Curve], curves: Curves, notation: Notat
         low, high = _widened(low, high, max(tall, wide * shape))
         powers = (max(powers, key=abs),) * 2
     most_across, most_up = float(MOST_ACROSS), float(MOST_UP if shape is None or shape > 2 * FLATTEST else MOST_UP - 1)
-    if shape is not None:  # one scale, so the numbers of both axes have the same step
+    if shape is not None:  # the numbers of both axes have the same step
         step = max((right - left) / most_across, (high - low) / most_up)
         most_across, most_up = (right - left) / step, (high - low) / step
     return Panel(
@@ -309,7 +307,6 @@ def path_panel(plot: Plot, own: Sequence[Curve], curves: Curves, notation: Notat
 
 
 def _lines_of(surfaces: Sequence[Outline], box: Extent) -> tuple[tuple[Spot, ...], ...]:
-    """Return the lines of surfaces in a panel whose axes have these ranges."""
     if not surfaces:
         return ()
     from derive.figures.portrait import lines_of  # imports NumPy
@@ -320,7 +317,7 @@ def _lines_of(surfaces: Sequence[Outline], box: Extent) -> tuple[tuple[Spot, ...
 def portrait_panel(
     plot: Plot, curve: Curve, portrait: Portrait, curves: Curves, notation: Notation, letter: str
 ) -> Panel:
-    """Return the panel of a phase portrait; its axes have exactly the ranges of the two quantities."""
+    """Return the panel of a phase portrait."""
     start, end = (x * curves.variable.per_unit for x in (curve.lower, curve.upper))
     low, high = portrait.low * curves.up.per_unit, portrait.high * curves.up.per_unit
     powers = _power(start, end, curves.variable), _power(low, high, curves.up)
@@ -347,14 +344,14 @@ def portrait_panel(
 
 
 def _level(value: Any, number: float, axis: Axis, notation: Notation) -> str:
-    """Return the name of a level: its letters, or its number in the unit of the levels."""
+    """Return the name of a level."""
     if value.free_symbols and axis.per is None:
         return _mathtext(notation.layout(value))
     return _with_unit(number * axis.per_unit, axis.unit)
 
 
 def _rest(centre: Spot, curve: Curve, curves: Curves, across: Ticks, notation: Notation) -> Turn:
-    """Return a point of stable rest, with the name of its place on the horizontal axis."""
+    """Return a point of stable equilibrium, with the name of its place on the horizontal axis."""
     found = with_names([Extremum(*centre, MINIMUM)], curve.places, NEAR * (curve.upper - curve.lower))[0]
     (spot,) = _scaled([centre], curves.variable, curves.up)
     return spot, True, _name_of_place(found, curves.variable, across, notation)
@@ -367,7 +364,6 @@ def _with_unit(value: float, unit: str) -> str:
 def diagram_panel(
     plot: Plot, curve: Curve, found: Bifurcations, curves: Curves, notation: Notation, letter: str
 ) -> Panel:
-    """Return the panel of a bifurcation diagram."""
     assert plot.diagram is not None
     across, up = curves.variable, curves.up
     start, end = (x * across.per_unit for x in (curve.lower, curve.upper))
@@ -405,7 +401,6 @@ def diagram_panel(
 
 
 def _scaled(points: Sequence[Spot], across: Axis, up: Axis) -> tuple[Spot, ...]:
-    """Return points in the units of the axes."""
     return tuple((x * across.per_unit, y * up.per_unit) for x, y in points)
 
 
@@ -415,7 +410,7 @@ def _box(traces: Sequence[Trace]) -> Extent:
 
 
 def _room(sides: int, height: float) -> float:
-    """Return the margin for names at one or both sides of a curve, in units of the height of the curve."""
+    """Return the margin for names at the sides of a curve, in units of the height of the curve."""
     part = min(NAME / height, MOST_NAME)
     return part / (1 - 2 * part) if sides == 2 else part * (1 + MARGIN) / (1 - part)
 
@@ -426,14 +421,12 @@ def _with_margin(low: float, high: float) -> tuple[float, float]:
 
 
 def _widened(low: float, high: float, size: float) -> tuple[float, float]:
-    """Return a range of this size with the same middle."""
     middle = (low + high) / 2
     return middle - size / 2, middle + size / 2
 
 
 def _power(low: float, high: float, axis: Axis) -> int:
-    """Return the power of ten by which the numbers of an axis are divided; 0 for numbers of a usual size and for
-    degrees."""
+    """Return the power of ten by which the numbers of an axis are divided; 0 for numbers of a usual size."""
     greatest = max(abs(low), abs(high))
     power = floor(log10(greatest)) if greatest > 0 else 0
     return 0 if axis.in_degrees or USUAL[0] <= power <= USUAL[1] else power
@@ -442,7 +435,6 @@ def _power(low: float, high: float, axis: Axis) -> int:
 def _scaled_ticks(
     power: int, low: float, high: float, most: float, in_degrees: bool = False, room: tuple[float, float] = (0.0, 0.0)
 ) -> Ticks:
-    """Return the ticks with numbers that are divided by a power of ten."""
     unit = 10.0**power
     below, above = (each / unit for each in room)
     found = _ticks(low / unit, high / unit, most, in_degrees, (below, above))
@@ -452,9 +444,7 @@ def _scaled_ticks(
 def _ticks(low: float, high: float, most: float, in_degrees: bool, room: tuple[float, float]) -> Ticks:
     """Return round numbers with the same number of decimals; degrees in steps of 5, 10, 15, 30, 45, 90, 180 or 360.
 
-    The numbers divide the range into at most `most` intervals, except for a range of more than `most` full turns. If
-    there is room below and above, the numbers continue beyond both ends of the range, so that each end lies between two
-    numbers.
+    If there is room below and above, the numbers continue beyond both ends of the range.
     """
     span = high - low or abs(high) or 1.0
     tens = 10.0 ** floor(log10(span))
@@ -478,9 +468,7 @@ def _ticks(low: float, high: float, most: float, in_degrees: bool, room: tuple[f
 
 
 def _name_of_place(extremum: Extremum, axis: Axis, ticks: Ticks, notation: Notation) -> tuple[str, ...]:
-    """Return the place of an extremum: `r_0 = 0.589 m`, or shorter `r_0`; without a symbol `54.6°`. A place at a tick
-    needs no number, and on an axis that is divided by a quantity, neither does a place with a symbol, nor the place of
-    this quantity itself."""
+    """Return the place of an extremum: `r_0 = 0.589 m`, or shorter `r_0`; without a symbol `54.6°`."""
     x = extremum.at * axis.per_unit
     is_unit = axis.per is not None and (extremum.name is not None or abs(x - 1) < AT_TICK)
     has_no_value = is_unit or _has_tick(x, ticks)
@@ -491,14 +479,13 @@ def _name_of_place(extremum: Extremum, axis: Axis, ticks: Ticks, notation: Notat
 
 
 def _has_tick(x: float, ticks: Ticks) -> bool:
-    """Whether a tick shows this place."""
     places = [at for at, _ in ticks]
     return any(abs(x - at) <= AT_TICK * (max(places) - min(places)) for at in places)
 
 
 def _title(letter: str, own: Sequence[Curve], curves: Curves, notation: Notation) -> tuple[str, ...]:
-    """Return the texts above a panel of one curve: the letter of the panel, if there is one, the symbol of the
-    quantity, if the curves have different symbols, and the numbers. A panel of several curves has no such texts."""
+    """Return the texts above a panel of one curve: the letter of the panel, the symbol of the quantity, and the
+    numbers."""
     if len(own) > 1:
         return ()
     items = _distinction(own[0], curves, notation)
@@ -507,22 +494,20 @@ def _title(letter: str, own: Sequence[Curve], curves: Curves, notation: Notation
 
 
 def _name(curve: Curve, curves: Curves, notation: Notation) -> str:
-    """Return the name of one of several curves in a panel."""
     letter = curve_letters(curves)[curves.curves.index(curve)] if curves.is_lettered else ""
     first = rf"({{\mathrm{{{letter}}}}})\;\;" if letter else ""
     return "$" + first + r",\;\; ".join(_distinction(curve, curves, notation)) + "$"
 
 
 def _distinction(curve: Curve, curves: Curves, notation: Notation) -> list[str]:
-    """Return what distinguishes a curve from the others: the symbol of its quantity, if these symbols differ, and its
-    numbers."""
+    """Return what distinguishes a curve from the others, such as the symbol of its quantity."""
     quantity = [_mathtext(notation.layout(curve.label))] if curves.labels_differ else []
     return [*quantity, *_numbers(curve.numbers, notation)]
 
 
 def _labels(own: Sequence[Curve]) -> tuple[Any, ...]:
-    """Return the symbols for the name of the vertical axis. Three or more symbols that differ only in their subscripts
-    are replaced by the symbol without a subscript."""
+    """Return the symbols for the name of the vertical axis. Symbols that differ only in their subscripts may be
+    replaced by the symbol without a subscript."""
     labels = tuple(dict.fromkeys(curve.label for curve in own))
     named = [_NAMED.fullmatch(str(label)) for label in labels]
     stems = {f"{each['stem']}{each['rate'] or ''}" if each else "" for each in named}
@@ -530,9 +515,8 @@ def _labels(own: Sequence[Curve]) -> tuple[Any, ...]:
 
 
 def _axis_name(symbols: Sequence[Any], axis: Axis, notation: Notation, power: int = 0, inline: bool = False) -> str:
-    """Return the name of an axis, a quantity divided by its unit or by another quantity, and by a power of ten if there
-    is one: `U / J`, `v / (m/s)`, `U / (10^33 J)`, `r / r_0`. A quantity that is divided by 1/omega has a formula
-    without this fraction, `omega t`."""
+    """Return the name of an axis, a quantity divided by its unit or by another quantity: `U / J`, `v / (m/s)`, `U /
+    (10^33 J)`, `r / r_0`."""
     layouts = [notation.layout(symbol) for symbol in symbols]
     if axis.per is not None and len(symbols) == 1 and fraction(axis.per)[0] == 1:
         return f"${_mathtext(notation.layout(symbols[0] / axis.per), inline=True)}$"
@@ -568,7 +552,7 @@ def _mathtext(layout: Any, inline: bool = False) -> str:
 
 def _mathtext_of_value(told: str) -> str:
     """Return a value such as `2.205 J` as mathtext: the number, a space, and the unit upright."""
-    number, _, unit = told.replace("\u2212", "{-}").partition(" ")  # in braces, so that no space follows the sign
+    number, _, unit = told.replace("\u2212", "{-}").partition(" ")  # the braces prevent a space after the sign
     return rf"{number}\,{unit_latex(unit)}" if unit else number.replace(DEGREES, _mathtext_of_unit(DEGREES))
 
 

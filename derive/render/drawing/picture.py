@@ -22,8 +22,7 @@ SMALLEST = 15.0  # in points: the least distance from the middle of the bodies t
 def picture(drawing: Drawing, numbers: Numbers, width: float, height: float) -> list[Piece]:
     """Return the pieces in points.
 
-    Without their labels the pieces fit into `width` x `height` centimetres, unless the drawing sets the size of its
-    bodies or shows the forces on a particle.
+    Without their labels the pieces fit into `width` x `height` centimetres, except in some force diagrams.
     """
     if drawing.mode is not None:
         return [_reduced(piece) for piece in _fitted(drawing, numbers, width / REDUCED, height / REDUCED)]
@@ -50,7 +49,7 @@ def _fitted(drawing: Drawing, numbers: Numbers, width: float, height: float) -> 
     # Arrows that start at the masses of a mode do not change the scale, so that all modes have almost the same scale.
     kept = (mark for mark in drawing.marks if not isinstance(mark, DisplacementArrow) or mark.side is not None)
     measured = replace(drawing, marks=tuple(kept))
-    for _ in range(TRIES):  # because of parts with a fixed size, the size is not quite proportional to the scale
+    for _ in range(TRIES):  # the size is not quite proportional to the scale, because some parts have a fixed size
         spots = [spot for piece in _pieces(measured, paper) for spot in piece.spots]
         wide, high = (max(s[k] for s in spots) - min(s[k] for s in spots) for k in (0, 1))
         ratio = min(room[0] / max(wide, 1e-9), room[1] / max(high, 1e-9))
@@ -70,7 +69,7 @@ def _paper(drawing: Drawing, numbers: Numbers) -> OnPaper:
 
 
 def _labels_at_the_top(pieces: list[Piece], top: float) -> list[Spot]:
-    """Return the right ends of the labels at the top, so that the arrow of gravity does not cover these labels."""
+    """Return the right ends of the labels at the top, which the arrow of gravity must not cover."""
     tags = [p for p in pieces if isinstance(p, Tag) and p.label is not None and p.towards[0] > 0 and p.way is None]
     return [(tag.spot[0] + tag.gap + LABEL, tag.spot[1]) for tag in tags if tag.spot[1] > top - ARROW]
 

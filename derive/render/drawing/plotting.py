@@ -4,10 +4,9 @@ A path has dots at its start and at its end and an arrowhead in the direction of
 path have the same unit, both axes have the same scale.
 
 Several curves in one panel have different lines, and each has its name next to it. If a name has no clear place, all
-names are in a legend in a corner of the panel or, if no corner is free, above the panel.
+names are in a legend.
 
-Numbers and names have the font of the page. A dotted line leads from an extremum to the horizontal axis. The name of
-the place on this axis is above a maximum and below a minimum if there is room.
+Numbers and names have the font of the page. A dotted line leads from an extremum to the horizontal axis.
 """
 
 from __future__ import annotations
@@ -49,7 +48,7 @@ EDGE = 3.0  # in points: the margin around everything
 HEAD = 0.4  # part of the length of a path before its arrowhead; not 0.5, where a path may be back at its start
 DOT = 2.2  # in points: the radius of a dot, for example at an extremum
 AROUND = 46.0  # in points: the usual height of everything below and above the axes of a panel
-ROW = 17.0  # in points: the height of one row of numbers above a panel, and of the margin; more rows make a plot higher
+ROW = 17.0  # in points: the height of a row of numbers above a panel, and of the margin
 SPACE = 7.0  # in points: the distance between two numbers above a panel
 SAMPLE, BETWEEN = 22.0, 14.0  # in points: the line in a legend, and the distance between the entries of a legend
 PENS_OF_CURVES = ("curve", "dashed_curve", "dotted_curve", "chained_curve")
@@ -87,8 +86,8 @@ class Writing:
         return scale * (right - left), scale * (above - below)
 
     def at(self, spot: Spot, text: str, scale: float, share: Spot, colour: str = LINE, upwards: bool = False) -> Shape:
-        """Place a text so that the fractions `share` of its width and height are to the left of a point and below
-        it."""
+        """Place a text at a point; `share` has the fractions of its width and height that are to the left of the point
+        and below it."""
         contour, extent = self.known[text]
         if upwards:
             contour, extent = turned(contour), (-extent[3], extent[0], -extent[1], extent[2])
@@ -171,7 +170,6 @@ def _width_of_row(widths: Sequence[float]) -> float:
 
 
 def _drawn(panel: Panel, frame: Frame, writing: Writing, names: Names, ends: Spot) -> Iterator[Shape]:
-    """Yield all shapes of a panel with left and right edges `ends`."""
     left, below, right, above = frame.paper
     yield from shapes_of(list(_pieces(panel, frame, names.gaps)))
     yield from shapes_of([piece for turn in panel.turns for piece in _dot(turn, frame, panel.has_open)])
@@ -201,8 +199,7 @@ def _drawn(panel: Panel, frame: Frame, writing: Writing, names: Names, ends: Spo
 
 
 def _middle_of_name(panel: Panel, frame: Frame, writing: Writing) -> float:
-    """Return the height of the middle of the name of the vertical axis. A name that is longer than its axis ends above
-    the lower edge."""
+    """Return the height of the middle of the name of the vertical axis."""
     _, below, _, above = frame.paper
     return max((below + above) / 2, EDGE + writing.size(panel.names[1], SMALL)[0] / 2)
 
@@ -234,8 +231,7 @@ class Names:
 
 
 def _names(panel: Panel, frame: Frame, writing: Writing) -> Names:
-    """Return the names in a panel. The names of several curves are next to the curves, else in a legend in the panel,
-    else in a legend above the panel."""
+    """Return the names in a panel. The names of several curves are next to the curves or in a legend."""
     if panel.branches:
         return _names_of_branches(panel, frame, writing)
     if panel.lines:
@@ -252,7 +248,7 @@ def _names(panel: Panel, frame: Frame, writing: Writing) -> Names:
 def _names_of_points(
     panel: Panel, frame: Frame, writing: Writing, taken: Sequence[Extent]
 ) -> Iterator[tuple[Shape, Extent]]:
-    """Yield the value at each zero or meeting point with its box; a value without a clear place is left out."""
+    """Yield the value at each zero or meeting point with its box. A value without a clear place is left out."""
     left, below, right, above = frame.paper
     inner = left + TICK, below + TICK + PAD, right, above
     dots = [dot for trace in panel.traces for dot in dots_of(frame.spots(trace.points))]
@@ -300,14 +296,14 @@ def _names_of_curves(panel: Panel, frame: Frame, writing: Writing, points: Seque
 
 
 def _from_the_top(panel: Panel) -> list[int]:
-    """Return the indices of the curves in the order in which they are above each other, on average."""
+    """Return the indices of the curves, from the top to the bottom of the panel."""
     heights = [sum(y for _, y in trace.points) / len(trace.points) for trace in panel.traces]
     return sorted(range(len(heights)), key=lambda i: -heights[i])
 
 
 def _names_of_branches(panel: Panel, frame: Frame, writing: Writing) -> Names:
-    """Return the names of the branches of a diagram, each next to its branch, and the values of the parameter at the
-    bifurcations. A name without a clear place is left out; the alternative text has all names and values."""
+    """Return the names of the branches of a diagram and the values of the parameter at the bifurcations. A name without
+    a clear place is left out."""
     lines = [[dot for part in parts for dot in dots_of(frame.spots(part.points))] for _, parts in panel.branches]
     below = frame.paper[1]
     guides = [frame.spots(_guide(change, frame)) for change in panel.changes]
@@ -334,8 +330,8 @@ def _names_of_branches(panel: Panel, frame: Frame, writing: Writing) -> Names:
 
 
 def _names_of_levels(panel: Panel, frame: Frame, writing: Writing) -> Names:
-    """Return the values on the curves of a phase portrait, each in a gap of the longest curve of this value, and the
-    names of the points of rest. A value without a clear place is left out; the alternative text has all values."""
+    """Return the values on the curves of a phase portrait and the names of the points of stable equilibrium. A value
+    without a clear place is left out."""
     turns = _names_of_turns(panel, frame, writing, ())
     taken = [box for _, box in turns]
     lines = [dots_of(frame.spots(line.points)) for line in panel.lines]
@@ -359,13 +355,12 @@ def _names_of_levels(panel: Panel, frame: Frame, writing: Writing) -> Names:
 
 
 def _guide(change: Mark, frame: Frame) -> tuple[Spot, Spot]:
-    """Return the line from the horizontal axis to the highest place of a bifurcation."""
     highest = max(change.places, key=lambda place: place[1])
     return (highest[0], frame.values[1]), highest
 
 
 def _around(spot: Spot, size: tuple[float, float]) -> Iterator[Extent]:
-    """Yield boxes of a name around a point: on the right and on the left, above and below."""
+    """Yield boxes of a name around a point."""
     (x, y), (wide, high) = spot, size
     gap = PAD + DOT
     for left, below in (
@@ -378,7 +373,7 @@ def _around(spot: Spot, size: tuple[float, float]) -> Iterator[Extent]:
 
 
 def _size_of_legend(sizes: Sequence[tuple[float, float]]) -> tuple[float, float]:
-    """Return the width and height of a legend whose entries are below each other."""
+    """Return the width and height of a legend with its entries below each other."""
     return SAMPLE + PAD + max(wide for wide, _ in sizes), len(sizes) * (PAD + max(high for _, high in sizes))
 
 
@@ -409,8 +404,7 @@ def _dot(turn: Turn, frame: Frame, has_open: bool) -> Iterator[Piece]:
 def _names_of_turns(
     panel: Panel, frame: Frame, writing: Writing, taken: Sequence[Extent]
 ) -> list[tuple[Shape, Extent]]:
-    """Return the names of the extrema with their boxes. If the names on a curve have no room, they have their shortest
-    form; if these have no room, the curve has no names.
+    """Return the names of the extrema with their boxes. Names without room are shorter or left out.
 
     taken   boxes of other names
     """
@@ -436,8 +430,7 @@ def _names_of_turns(
 
 
 def _beside_turn(spot: Spot, is_lowest: bool, size: tuple[float, float], paper: Extent) -> Iterator[Extent]:
-    """Yield boxes of the name of an extremum: above a maximum or below a minimum, next to the line that leads to the
-    axis, then next to this line close to the axis, then on the other side of the curve."""
+    """Yield boxes of the name of an extremum."""
     (x, y), (wide, high) = spot, size
     above, below = y + PAD + DOT, y - PAD - DOT - high
     middle = max(paper[0] + TICK + PAD, min(x - wide / 2, paper[2] - wide))
@@ -466,8 +459,7 @@ def _line_to_axis(turn: Turn, frame: Frame) -> tuple[Spot, Spot]:
 
 
 def line_of(panel: Panel, frame: Frame, gaps: Sequence[tuple[int, Extent]] = ()) -> Iterator[Piece]:
-    """Yield the lines of a panel except its axes: curves, surfaces, branches, and bifurcations with their dots. A path
-    has an arrowhead, and dots at its start and at its end."""
+    """Yield the lines of a panel except its axes. A path has an arrowhead, and dots at its start and at its end."""
     for i, line in enumerate(panel.lines):
         spots, pen = frame.spots(line.points), "separatrix" if line.is_thick else "level"
         yield from (Stroke(part, pen) for part in _parts(spots, [box for k, box in gaps if k == i]))

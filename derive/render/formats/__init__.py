@@ -2,7 +2,7 @@
 
 A module defines `FORMAT = Format(...)`. With this definition, `--format` accepts the name of the format, and
 `Rendered.texts` can contain a page in this format. If the format is `built`, each build writes a file in this format
-for each problem. A list of the formats, even in the help of a command, imports all these modules. Each module therefore
+for each problem. The help of a command lists the formats and so imports all these modules. Each module therefore
 imports the code that renders a page only when it renders a page.
 """
 
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from derive.steps.derivation import Derivation
     from derive.steps.step import Step
 
-# Documents of a set are not formats: a document needs a page and its set, but a format needs only a page.
+# A document of a set is not a format: it needs a page and its set, but a format needs only a page.
 TYPESET, HTML = ("latex", "pdf"), "html"
 # `-o` replaces a file of a kind that authors write, such as .md, only if its first line contains this text.
 WRITTEN = "Written by derive"

@@ -1,7 +1,7 @@
 """How strongly a layout binds, and where brackets and signs are therefore needed.
 
 Brackets depend on what is printed, not on the kind of expression. For example, a product with one negative factor may
-be a `Mul`, a `Factors` or a number times a vector. It always begins with a minus sign, so it gets brackets next to
+be a `Mul`, a `Factors` or a number times a vector. In print it begins with a minus sign, so it gets brackets next to
 other factors.
 """
 
@@ -84,7 +84,10 @@ def binding(layout: Layout) -> Binding:
 
 
 def _of_item(i: int, items: tuple[Layout, ...], ended: bool) -> Binding:
-    """Return the binding of item `i` of a row; `ended` means that the row ends in a differential."""
+    """Return the binding of item `i` of a row.
+
+    ended   whether the row ends in a differential
+    """
     item = items[i]
     if isinstance(item, IntegralSign) and ended:
         return Binding.PRODUCT

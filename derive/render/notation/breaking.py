@@ -30,7 +30,6 @@ def broken(layout: Layout, room: float, room_after: float) -> list[Layout]:
 
 
 def _pieces(layout: Layout, room: float) -> list[Layout]:
-    """Return the parts of a layout between which a line may end."""
     terms = terms_of(layout)
     if len(terms) > 1:
         return [piece for term in terms for piece in (_pieces(term, room) if width(term) > room else [term])]

@@ -84,7 +84,7 @@ def layout_of_latex(tex: str) -> Layout:
 
 
 class _Reader:
-    """Reads the tokens once; an unmatched bracket is printed as it is, and a missing argument is left empty."""
+    """Reads the tokens of a formula once."""
 
     def __init__(self, tokens: Sequence[str]):
         self.tokens = [token for token in tokens if token.strip() and token not in ("~", "\\ ")]
@@ -123,9 +123,8 @@ class _Reader:
         return row(*items) if items else _NOTHING
 
     def group(self) -> Layout:
-        """Return the layout of an argument: a group in braces, or a single item without braces."""
         if self.next != "{":
-            if len(self.next) > 1 and self.next[0].isdigit():  # TeX takes one digit: 12 after \frac is 1/2
+            if len(self.next) > 1 and self.next[0].isdigit():  # TeX takes one digit: \frac12 is 1/2
                 self.tokens[self.at : self.at + 1] = [self.next[0], self.next[1:]]
             return (self.atom() or _NOTHING) if self.next else _NOTHING
         self.at += 1
@@ -137,7 +136,7 @@ class _Reader:
         token = self.taken()
         if token.startswith("\\text{"):
             word = token[len("\\text{") : -1].strip()
-            return Upright(f"{word} {self.taken()}" if self.next[:1].isdigit() else word)  # not a factor
+            return Upright(f"{word} {self.taken()}" if self.next[:1].isdigit() else word)  # the number is not a factor
         command = token.removeprefix("\\") if token.startswith("\\") else ""
         if token == "{":
             self.at -= 1
@@ -199,8 +198,7 @@ class _Reader:
         return RootSign(self.group(), degree)
 
     def words(self) -> Layout:
-        """Return the argument of a command for upright text as a word; a unit keeps the spaces between its factors. An
-        argument with other characters is laid out as a formula."""
+        """Return the argument of a command for upright text."""
         rest = self.tokens[self.at :]
         depths = list(accumulate({"{": 1, "}": -1}.get(token, 0) for token in rest))
         end = depths.index(0) + 1 if 0 in depths else 0
@@ -211,7 +209,7 @@ class _Reader:
         return self.group()
 
     def function(self, name: str) -> Layout:
-        """Return a function with its argument: the next factor, or a number and a letter."""
+        """Return a function with its argument."""
         _, power = self.scripts()
         if not self.next or self.next in _OPERATORS or self.next in _CLOSING | {"}"}:
             return Upright(name)
@@ -252,7 +250,7 @@ class _Reader:
         return inside if isinstance(inside, Array) else Fenced(inside, _OPENING.get(opening, "("))
 
     def environment(self) -> Layout:
-        """Return the rows of cells of a matrix, or aligned lines one after the other."""
+        """Return the rows of a matrix, or aligned lines one after the other."""
         name = self.braced()
         if name == "array" and self.next == "{":
             self.braced()

@@ -102,8 +102,7 @@ def latex_of_terms(layout: Layout, *, inline: bool = False) -> list[str]:
 
 
 def _with_strokes(layout: Layout) -> Layout:
-    """Write fractions as a/b in running text: R > a/2, dL/dt. A fraction next to another factor is unchanged, except a
-    derivative after a factor: f dg/dx."""
+    """Write fractions as a/b in running text, where this is unambiguous: R > a/2, dL/dt."""
     if isinstance(layout, Fenced):
         return Fenced(_with_strokes(layout.inside), layout.kind)
     items = _differentiated([_flat(item) for item in (layout.items if isinstance(layout, Row) else (layout,))])
@@ -113,7 +112,7 @@ def _with_strokes(layout: Layout) -> Layout:
         for i, item in enumerate(items)
     ]
     if any(isinstance(item, Fraction) and not apart for item, apart in zip(items, alone, strict=True)):
-        return row(*items)  # if one fraction cannot be written a/b, no fraction of the row is changed
+        return row(*items)  # all fractions of the row keep their form
     return row(*(_with_stroke(item) if apart else item for item, apart in zip(items, alone, strict=True)))
 
 
@@ -143,7 +142,6 @@ def _parts_terms(item: Layout) -> bool:
 
 
 def _flat(item: Layout) -> Layout:
-    """Return a column as a list of its components: (1, 2, 3)."""
     if not isinstance(item, Array) or len(item.rows[0]) > 1:
         return item
     (first,), *others = item.rows
@@ -152,8 +150,7 @@ def _flat(item: Layout) -> Layout:
 
 
 def _with_stroke(item: Layout) -> Layout:
-    """Write a fraction as a/b, if numerator and denominator are simple enough. Write fractions within brackets, under
-    roots and above subscripts in the same way. Return any other item unchanged."""
+    """Write the fractions of an item as a/b, if numerator and denominator are simple enough."""
     match item:
         case Fenced():
             return _with_strokes(item)
@@ -175,8 +172,7 @@ def _is_sum(layout: Layout) -> bool:
 
 
 def _fits_in_line(layout: Layout) -> bool:
-    """Return whether a numerator or a denominator can be written in a line: a product of letters and of short sums in
-    parentheses, or a short sum of such products."""
+    """Return whether a numerator or a denominator is short enough for a fraction a/b."""
     terms = terms_of(layout)
     return len(terms) <= SHORT_SUM and all(_are_letters(_unsigned(term)) for term in terms)
 
@@ -188,8 +184,6 @@ def _unsigned(term: Layout) -> Layout:
 
 
 def _are_letters(layout: Layout) -> bool:
-    """Return whether the layout is a product of letters, numbers, powers, roots, functions of one letter, and short
-    sums in parentheses."""
     return all(
         _are_letters(factor.argument) and not isinstance(factor.argument, Row)
         if isinstance(factor, Applied)
@@ -273,8 +267,7 @@ class _Printer:
         return f"{{{shown}}}" if isinstance(base, Name) and base.primes else shown
 
     def _rows(self, rows: tuple[tuple[Layout, ...], ...]) -> str:
-        """Return the rows of an array. Fractions have full size in a column of a displayed formula, and are small
-        otherwise."""
+        """Return the rows of an array. Fractions are small, except in a column of a displayed formula."""
         if not self.inline and len(rows[0]) == 1 and any(_is_tall(entry, inline=False) for (entry,) in rows):
             return rf" \\{ROW_GAP} ".join(
                 rf"{COLUMN_STRUT if _is_tall(entry, inline=False) else ''}\displaystyle {self.show(entry)}"
@@ -314,8 +307,7 @@ def _separated(pieces: list[str]) -> list[str]:
 
 
 def _runs_into(before: Layout, item: Layout) -> bool:
-    """Return whether two factors need a thin space between them: after a fraction, a root, a vector or a bracket, and
-    before a vector, a bracket or a power of a bracket."""
+    """Return whether two factors need a thin space between them."""
     apart = Operator | Sign
     if isinstance(item, apart) or isinstance(before, apart | IntegralSign) or begins_with_number(item):
         return False
@@ -416,9 +408,8 @@ def escaped(text: str) -> str:
 
 
 def unprintable(text: str) -> int | None:
-    """Return the index of the first character that the fonts of the page do not have; None if the fonts have all
-    characters.
-    """
+    """Return the index of the first character that the fonts of the page do not have; None if they have all
+    characters."""
     return next((i for i, character in enumerate(text) if not _is_printable(character)), None)
 
 

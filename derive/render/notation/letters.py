@@ -28,8 +28,8 @@ def letter_clashes(
 ) -> list[Complaint]:
     """Return an error for each symbol of the problem whose printed form also means something else.
 
-    `coordinates` are the coordinates that the script names. If the script creates a body before it names the
-    coordinates, a variable of integration of this body can have the symbol of a coordinate; this is an error.
+    `coordinates` are the coordinates that the script names. A variable of integration with the symbol of a coordinate
+    is also an error.
     """
     used, defined = letters_in_use(problem), {each.name: each.symbol for each in problem.defined}
     looks = {as_printed(letter): letter for letter in used}
@@ -51,7 +51,6 @@ def letter_clashes(
 def _integrated_coordinates(
     problem: Problem, known: Mapping[str, Quantity], coordinates: Collection[Symbol]
 ) -> list[Complaint]:
-    """Return an error for each coordinate whose symbol is also the variable of integration of a step."""
     named = {as_printed(q): q for q in coordinates}
     own = [
         (q, quantity.key)
@@ -99,7 +98,6 @@ def meanings(step: Step, letters: Iterable[Symbol] = ()) -> Iterator[tuple[Any, 
 
 
 def _named_by(step: Step) -> Iterator[tuple[Any, str]]:
-    """Yield the symbol of a step's result, and the symbols of its components or entries."""
     symbol, result = step.symbol, f"the step `{step.key}` also uses this symbol for its result"
     if isinstance(symbol, Symbol):
         yield symbol, result
@@ -135,7 +133,7 @@ def _clash(problem: Problem, letter: Symbol, name: Any, what: str) -> Complaint:
 
 
 def _place(problem: Problem, letter: Symbol) -> Place | None:
-    """Return where the symbol is declared, or else the place of the input that contains it."""
+    """Return the place where the symbol is declared or used."""
     given = next((given.name for given in problem.givens if letter in given.letters), "")
     keys = (f"define.{letter.name}", f"symbols.{letter.name}", f"given.{given}", "symbols", "given")
     return next((problem.places[key] for key in keys if key in problem.places), None)

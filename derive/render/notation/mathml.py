@@ -42,7 +42,7 @@ def _going_on(formula: str, inline: bool) -> Html:
 
 @cache
 def of_latex(formula: str, inline: bool = False) -> Html:
-    """Return the MathML of a formula that `latex` has written; such a formula can always be converted.
+    """Return the MathML of a formula that `latex` has written.
 
     The extra height of rows in a column is removed: only TeX needs it, since a browser fits rows to their contents.
     """
@@ -55,7 +55,8 @@ def of_latex(formula: str, inline: bool = False) -> Html:
     return Html(converted.replace(APPLIED, unescape(APPLIED)))  # XML does not define the name of this character
 
 
-_DECIMAL_COMMA = re.compile(r'<mn>(\d+)</mn><mo rspace="0">,</mo><mn>(\d+)</mn>')  # the converter reads 1{,}5 so
+# The converter writes 1{,}5 in this form.
+_DECIMAL_COMMA = re.compile(r'<mn>(\d+)</mn><mo rspace="0">,</mo><mn>(\d+)</mn>')
 APPLIED = "&ApplyFunction;"
 
 

@@ -2,9 +2,7 @@
 
 The engine, which checks the lines, decides which terms are collected, which are one fraction, and what is multiplied
 out (`derive.algebra.tidy`, `derive.algebra.collect`). This module, with `products` and `binding`, decides the printed
-form of a line, once for all formats: the order of terms and factors, the factor in front of a vector or a bracket,
-roots under one root sign or in the denominator, signs, fractions, brackets and dots. `latex` and `text` write the
-layout.
+form of a line for all formats, such as the order of terms and factors. `latex` and `text` write the layout.
 
 `Notation` contains the only data that depend on a problem: the dimensions, which determine the order of symbols.
 """
@@ -205,9 +203,8 @@ class Notation:
         return row(number, *(within(each, Binding.OPEN) for each in behind)) if letters else number
 
     def _is_letter_before_functions(self, letters: list[Expr]) -> bool:
-        """Return whether the factors are one letter without dots, with or without functions. Divided by 2, such factors
-        are written a/2 or a/2 sin x, and other factors 1/2 M a^2 or 1/2 x_dot. Before functions, a letter that is not a
-        length is a factor of its own: 1/2 g sin x, to match 2/3 g sin x."""
+        """Return whether the factors are one letter without dots, with or without functions. Divided by 2, these
+        factors are written a/2 or a/2 sin x, and other factors 1/2 M a^2 or 1/2 x_dot."""
         first, *others = (self.layout(letter) for letter in letters)
         is_function = all(isinstance(other, Applied) for other in others)
         dimension = self.known_dimensions.get(letters[0])
@@ -230,8 +227,7 @@ class Notation:
         return side_by_side([*(self._as_factor(f, Binding.DOTTED) for f in before), self._as_factor(last)])
 
     def _as_factor(self, expr: Any, most: Binding = Binding.OPEN) -> Layout:
-        """Return a factor for use next to others. It is in brackets if it binds less strongly than `most`, or if it is
-        a number with a unit."""
+        """Return a factor for use next to others, in brackets if it binds less strongly than `most`."""
         inner = self.layout(expr)
         return Fenced(inner) if binding(inner) is Binding.MEASURED else within(inner, most)
 
@@ -311,9 +307,7 @@ class Notation:
         return signed(sign, row(*items)) if sign else row(*items)
 
     def _operand(self, inner: Layout, *, leads: bool, ends: bool) -> Layout:
-        """Return a factor of a product of vectors or tensors, in brackets if needed; w x L as the last factor has no
-        brackets.
-        """
+        """Return a factor of a product of vectors or tensors, in brackets if needed."""
         if not leads and begins_with_number(inner):
             return Fenced(inner)
         return within(inner, Binding.OPEN if ends else Binding.PRODUCT)
@@ -342,7 +336,7 @@ class Notation:
         return self._differentiated("partial", expr.args[0], self.layout(expr.args[1]))
 
     def _differentiated(self, sign: str, what: Any, by: Layout, order: int = 1) -> Layout:
-        """Return dL/dt for a name, d|L|^2/dt for a norm, d/dt (...) for anything longer, and d^2U/dx^2 for order 2."""
+        """Return dL/dt for a name, and d/dt (...) for a long expression."""
         inner = self.layout(what)
         above, by = (each if order == 1 else Raised(each, Digits(str(order))) for each in (Upright(sign), by))
         below = row(Upright(sign), by)
@@ -352,12 +346,11 @@ class Notation:
         return row(Fraction(above, below), THIN_SPACE, behind)
 
     def _slope(self, expr: ex.Slope) -> Layout:
-        """Write U'(x) as dU/dx, and similarly for higher orders."""
         f, x, order = expr.args
         return self._differentiated("d", f, self.layout(x), order)
 
     def _at(self, expr: ex.At) -> Layout:
-        """Write the values of all variables behind one bar; variables with the same value form a chain, x = y = 0."""
+        """Write the values of all variables behind one bar."""
         names: dict[Any, list[Layout]] = {}
         f: Any = expr
         while isinstance(f, ex.At):
@@ -389,7 +382,6 @@ class Notation:
     # --- integrals ---
 
     def _integral(self, expr: Integral) -> Layout:
-        """Return an integral: its signs, outermost first; the integrand; the differentials, innermost first."""
         signs = [IntegralSign(self.layout(lower), self.layout(upper)) for _, lower, upper in reversed(expr.limits)]
         inside: list[Layout] = [self._as_factor(expr.function)] if expr.function != 1 else []
         for x, *_ in expr.limits:

@@ -1,8 +1,7 @@
 """The order in which terms and factors are written.
 
-Terms with accelerations and rates come first; then plain terms, fractions with symbols, and functions of angles.
-Factors have this order, which `Place` states in full: coefficients of friction, masses, accelerations of gravity,
-lengths, sums, numbers, roots, rates of coordinates, functions.
+Terms with accelerations and rates come first. The order of factors is in `Place`: for example, masses come before
+lengths.
 """
 
 from __future__ import annotations
@@ -38,9 +37,7 @@ def ordered_terms(expr: Add, moving: Mapping[str, int]) -> list[Expr]:
 def plain_first(terms: list[Any]) -> list[Any]:
     """Sort terms so that plain terms come first: 1 + cos a, 2 + sqrt(2), l + m g/k, R^2 + a^2 - 2 R a cos a.
 
-    A term with both signs comes last: -beta +- i omega. So does a displacement from an equilibrium: r_0 + eta. Plain
-    terms come before fractions, roots and functions. A number comes before a term with the time, as in 1 + omega_0 t,
-    and before a coefficient, as in 1 + e.
+    A term with both signs comes last: -beta +- i omega. A displacement from an equilibrium comes last, too: r_0 + eta.
     """
 
     is_timed = any(term.has(ex.TIME) for term in terms)
@@ -74,8 +71,7 @@ def _has_root(term: Expr) -> bool:
 def motion_first(terms: list[Any], moving: Mapping[str, int]) -> list[Any]:
     """Sort terms: first those with accelerations, then those with rates, by the order of the coordinates and by powers.
 
-    Among the other terms, those with a coordinate come before constants: m y_ddot + k y - m g. If no term has an
-    acceleration or a rate, the order is unchanged.
+    Among the other terms, those with a coordinate come before constants: m y_ddot + k y - m g.
     """
     rates = sorted(
         {s for term in terms for s in term.free_symbols if s.name.endswith(RATE_ENDS)},
@@ -139,8 +135,7 @@ def _cyclic(factors: list[Expr], dimension_of: Callable[[Any], Dimension | None]
 
 
 def rank_of_factor(factor: Expr, dimension_of: Callable[[Any], Dimension | None]) -> tuple[int, int, int, str]:
-    """Return the rank by which factors are sorted: first symbols, sums, roots and exponentials in the order of `Place`,
-    then functions, then groups."""
+    """Return the rank by which factors are sorted: first symbols in the order of `Place`, then functions."""
     is_root = isinstance(factor, ex.Root) or isinstance(factor, Pow) and factor.exp.is_Rational and factor.exp.q == 2
     base = factor.base if isinstance(factor, Pow) and factor.exp.is_Rational else factor
     if is_root and not base.has(Function):
@@ -161,21 +156,17 @@ def rank_of_factor(factor: Expr, dimension_of: Callable[[Any], Dimension | None]
 
 
 def _place_of_letter(letter: Expr, dimension_of: Callable[[Any], Dimension | None]) -> Place:
-    """Return the `Place` of a letter; the letters mu and e, if they are pure numbers, are coefficients of friction and
-    of restitution."""
     dimension = dimension_of(letter)
     is_coefficient = _is_coefficient(letter) and dimension is not None and dimension.is_number
     return Place.COEFFICIENT if is_coefficient else rank_of_dimension(dimension)
 
 
 def _is_coefficient(letter: Any) -> bool:
-    """Whether a letter is the usual one for a coefficient of friction or of restitution."""
     return isinstance(letter, Symbol) and letter.name.partition("_")[0] in COEFFICIENTS
 
 
 def _place_of_term(term: Expr, dimension_of: Callable[[Any], Dimension | None]) -> Place:
-    """Return the `Place` of a product by its dimension; factors other than symbols and powers of symbols are
-    ignored."""
+    """Return the `Place` of a product by its dimension."""
     found = [factor.as_base_exp() for factor in Mul.make_args(term)]
     powers = [(letter, n) for letter, n in found if isinstance(letter, Symbol | ex.Amount) and n.is_Rational]
     dimensions = [(dimension_of(letter), n) for letter, n in powers]

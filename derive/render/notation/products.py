@@ -55,7 +55,6 @@ def decimal(number: Rational, point: str = ".") -> Layout:
 
 
 def _places(denominator: int) -> int | None:
-    """Return the number of decimal places of 1/denominator, or None if the decimals do not end."""
     found = {}
     for prime in (2, 5):
         found[prime] = 0
@@ -65,7 +64,6 @@ def _places(denominator: int) -> int | None:
 
 
 def _point_before(places: int, number: Rational) -> str:
-    """Return all digits of a decimal, with the point before the last `places` digits."""
     digits = str(number.p * 10**places // number.q).rjust(places + 1, "0")
     return f"{digits[:-places]}.{digits[-places:]}" if places else digits
 
@@ -84,11 +82,8 @@ def rounded_number(text: str, point: str = ".") -> Layout:
 
 
 def _power_of_ten(number: Rational) -> tuple[int, Rational]:
-    """Split a number below 10^-4, or a round number from 10^7 on, into a power of ten and a factor from 1 to 10.
-
-    For any other number the power is 0, and the factor is the number. A number is round if at most four digits precede
-    its final zeros, or if fewer digits precede them than there are zeros.
-    """
+    """Split a very small or a large round number into a power of ten and a factor from 1 to 10. For any other number,
+    the power is 0."""
     power = 0
     while number and number * Integer(10) ** -power < 1:
         power -= 1
@@ -182,7 +177,7 @@ def number_and_letters(expr: Expr) -> tuple[list[Expr], list[Expr]]:
 
 
 def root_cancelled(above: list[Expr], below: list[Expr]) -> tuple[list[Expr], list[Expr]]:
-    """Write sqrt(14)/14 as 1/sqrt(14), sqrt(14)/7 as 2/sqrt(14), sqrt(14)/168 as 1/(12 sqrt(14)); keep sqrt(42)/28."""
+    """Write sqrt(14)/14 as 1/sqrt(14), sqrt(14)/7 as 2/sqrt(14), sqrt(14)/168 as 1/(12 sqrt(14))."""
     if len(below) != 1 or not below[0].is_Integer:
         return above, below
     root = next((f for f in above if isinstance(f, Pow) and f.exp == Rational(1, 2) and f.base.is_Integer), None)
@@ -197,8 +192,7 @@ def root_cancelled(above: list[Expr], below: list[Expr]) -> tuple[list[Expr], li
 
 
 def under_one_root(number: Expr) -> list[Expr]:
-    """Write 7 sqrt(2779)/397 as the factors 7 and sqrt(7/397). Return no factors if a number has no such form, or if
-    this form has more digits, or the same number of digits and a fraction before the root."""
+    """Write 7 sqrt(2779)/397 as the factors 7 and sqrt(7/397). Return no factors if a number has no shorter form."""
     square = number**2
     if number.is_Rational or not square.is_Rational or square.q == 1 or square < 0:
         return []
@@ -212,7 +206,6 @@ def under_one_root(number: Expr) -> list[Expr]:
 
 
 def _digits(*numbers: Expr) -> int:
-    """Return the number of digits that rational numbers or their square roots have in print; a 1 is not counted."""
     fractions = [number**2 if number.is_Pow else number for number in numbers]
     return sum(len(str(n)) for number in fractions for n in (number.p, number.q) if n != 1)
 
@@ -233,8 +226,7 @@ def gathered(expr: Expr) -> Expr:
 def roots_together(expr: Expr) -> Expr:
     """Combine square roots: sqrt(M) sqrt(g)/sqrt(I + M a^2) as the root of a fraction, 1/(sqrt(L) sqrt(C)) as 1/root.
 
-    Fourth roots of numbers and of sums become square roots under the combined root. A single root is unchanged, and so
-    is a product of roots of numbers.
+    A single root is unchanged.
     """
     factors = Mul.make_args(expr)
     roots = [f for f in factors if isinstance(f, Pow) and (abs(f.exp) == Rational(1, 2) or _is_fourth_root(f))]
@@ -259,10 +251,7 @@ def _below_under_root(number: Rational, inside: Rational) -> tuple[Rational, Rat
 
 
 def higher_roots_together(expr: Expr) -> Expr:
-    """Write J^(2/3)/(M^(1/3) g^(1/3)) as (J^2/(M g))^(1/3), and M^(4/3) g^(1/3) as M (M g)^(1/3).
-
-    A product is unchanged if it has only one root, only square roots, or only roots of numbers.
-    """
+    """Write J^(2/3)/(M^(1/3) g^(1/3)) as (J^2/(M g))^(1/3), and M^(4/3) g^(1/3) as M (M g)^(1/3)."""
     factors = Mul.make_args(expr)
     roots = [f for f in factors if isinstance(f, Pow) and f.exp.is_Rational and not f.exp.is_Integer]
     if len(roots) < 2 or not any(root.free_symbols and root.exp.q > 2 for root in roots):
@@ -270,7 +259,7 @@ def higher_roots_together(expr: Expr) -> Expr:
     index = ilcm(*(root.exp.q for root in roots))
     square = [root for root in roots if abs(root.exp) == Rational(1, 2)]
     if index == 4 and square and all(root in square or _is_fourth_root(root) for root in roots):
-        return expr  # `roots_together` combines these roots
+        return expr
     wholes = [int(root.exp) if root.exp > 0 else 0 for root in roots]
     inside = [Pow(root.base, index * (root.exp - n)) for root, n in zip(roots, wholes, strict=True)]
     outside = [Pow(root.base, n) for root, n in zip(roots, wholes, strict=True)]
@@ -332,7 +321,7 @@ def rank_of_dimension(dimension: Dimension | None) -> Place:
 
 
 def rank_of_sum(places: Iterable[Place]) -> Place:
-    """Return the place of a sum; sums of masses or accelerations come early: (M + m) r_dot^2, m (g + a) l."""
+    """Return the place of a sum. Sums of masses or accelerations come early: (M + m) r_dot^2, m (g + a) l."""
     return {frozenset({Place.MASS}): Place.SUM_OF_MASSES, frozenset({Place.ACCELERATION}): Place.ACCELERATION}.get(
         frozenset(places), Place.SUM
     )
@@ -361,8 +350,7 @@ def _would_be_argument(before: Layout, item: Layout) -> bool:
 
 
 def between_factors(before: Layout, after: Layout) -> Layout | None:
-    """Return the mark between two adjacent factors: none between different letters, as in
-    1/2 M R^2 phi, otherwise a dot or a thin space."""
+    """Return the mark between two adjacent factors, such as a dot; None if no mark is needed."""
     if begins_with_number(after):
         return DOT
     if isinstance(first_of(after), Applied):

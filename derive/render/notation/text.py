@@ -156,7 +156,6 @@ def _holds_matrix(layout: Any) -> bool:
 
 
 def _on_one_line(layout: Any) -> Any:
-    """Return the layout with every matrix on one line, as needed within roots and fractions."""
     if isinstance(layout, Array) and len(layout.rows[0]) > 1:
         lines = [_in_brackets(line) for line in layout.rows]
         return _in_brackets([_on_one_line(line) for line in lines])
@@ -216,7 +215,7 @@ def _line(layout: Layout) -> str:
 
 
 def _tight(layout: Layout, *, is_above: bool = False) -> str:
-    """Return an operand of `/`, in brackets if it would be misread; a product before `/` needs no brackets."""
+    """Return an operand of `/`, in brackets if it would be misread."""
     text = plain(layout)
     last = last_of(layout)
     if isinstance(last, Applied) and not isinstance(last.argument, Fenced):
@@ -240,20 +239,18 @@ def _row(items: tuple[Layout, ...]) -> TextBox:
 
 
 def _piece(before: Layout | None, item: Layout) -> TextBox:
-    """Return the text of an item in a row; a sign at the beginning of a sum is not followed by a space."""
     leads = before is None or isinstance(before, Operator) and before.kind not in ("plus", "minus", "space", "close")
     return TextBox((LEADING_SIGNS[item],)) if leads and item in LEADING_SIGNS else text_box(item)
 
 
 def _gap(before: tuple[Layout, ...], item: Layout, piece: TextBox) -> str:
-    """Return the text between two factors: a dot before a digit, except after a differential."""
+    """Return the text between two factors, such as a dot before a digit."""
     begins = len(piece.lines) == 1 and piece.lines[0][:1].isdigit() and not isinstance(first_of(item), Name)
     behind_differential = len(before) > 1 and is_differential(before[-2])
     return "·" if begins and not behind_differential else " "
 
 
 def _needs_space(before: Layout, item: Layout) -> bool:
-    """Return whether two items need a space between them: `13/12 M a²`, but `2a` and `3(x + y)`."""
     if isinstance(before, Operator | IntegralSign | Sign) or isinstance(item, Operator | Sign):
         return False
     if item == DEGREE_SIGN or is_differential(before):

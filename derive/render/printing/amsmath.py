@@ -32,8 +32,7 @@ def display_latex(display: Display, notation: Notation, numbered: bool = False) 
 def display_rows(
     display: Display, notation: Notation, limit: float = LINE_WIDTH, ending: Callable[[Printed], str] | None = None
 ) -> list[Row]:
-    """Return the rows of a display. Each row ends with its `ending`, if given; in the last row of a step, punctuation
-    precedes the ending and is within the frame, if the row has one."""
+    """Return the rows of a display. Each row ends with its `ending`, if given."""
     return [
         _row(lines, stop if lines is rows[-1] else "", ending(lines[-1]) if ending else "")
         for group, stop in zip(display.groups, display.stops, strict=True)
@@ -60,7 +59,6 @@ def _number(line: Printed) -> str:
 
 
 def _row(lines: Sequence[Printed], stop: str, ending: str) -> Row:
-    """Return the row for one line, or for several lines in a common frame."""
     first, *others = lines
     left = latex(first.left) if first.left else ""
     if first.frames_all:

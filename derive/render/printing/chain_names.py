@@ -1,9 +1,8 @@
 """The names in the lines of a step: the value of each name, and its text as plain SymPy.
 
-A symbol is written as its own name if that identifier is free in every chain that contains the symbol. Otherwise the
-identifier is changed: the vector `omega` becomes `omega_` if a scalar omega also occurs. The identifier of a formula
-such as dV/dtheta is the key of its step. Such a formula is written out, `Derivative(V, theta(t))`, if it gives the
-right value after its names are substituted.
+A symbol is written as its own name if this identifier is free. Otherwise the identifier is changed: the vector `omega`
+becomes `omega_` if a scalar omega also occurs. The identifier of a formula such as dV/dtheta is the key of its step, or
+the formula is written out: `Derivative(V, theta(t))`.
 """
 
 from __future__ import annotations
@@ -42,8 +41,7 @@ class Page:
 
     @cached_property
     def moving(self) -> frozenset[str]:
-        """Return the coordinates that are functions of time: those whose rate occurs, or with respect to which an
-        expression is differentiated."""
+        """Return the coordinates that are functions of time."""
         coordinates = {q for step in self.steps for q, _ in step.coordinates}
         parts = {part for step in self.steps for expr in _exprs(step) for part in preorder_traversal(expr)}
         along = {
@@ -119,7 +117,7 @@ class StepNames:
     def factor(self, i: int) -> Any:
         """Return the factor f for which the residual of line i - 1 is f times the residual of line i.
 
-        Names, and for `because: motion` also the rates, are substituted first.
+        Names are substituted first.
         """
         puts = dict(self.step.names)
         before, here = (explicit(bound(self.step.chain[n].expr, puts)) for n in (i - 1, i))
@@ -149,8 +147,7 @@ class StepNames:
 
     @cached_property
     def lines(self) -> list[Written]:
-        """Return the texts of all lines, and of the left side if it is a formula of names. Then follow the texts of the
-        values of names, of the rates, and of the values of the rates."""
+        """Return the texts of all lines, and of the values of names and rates."""
         shown = [*(form.expr for form in self.step.chain), *([self.step.symbol] if self.has_formula else [])]
         lines = [written(expr, self._with_names[0]) for expr in shown]
         used = {name for line in lines for name in line.used}
@@ -159,7 +156,6 @@ class StepNames:
 
     @cached_property
     def _with_names(self) -> list[Setting]:
-        """Return the `Setting` for writing the lines, or one for each of two roots."""
         own = {self.step.symbol} if self.has_formula else set()
         return self._for_each_root({name: self.identifiers[name] for name in self.values if name not in own})
 
@@ -203,8 +199,7 @@ def says(formula: Any, value: Any, known: Mapping[Any, Any]) -> bool:
 
 
 def factor_between(before: Any, here: Any) -> Any:
-    """Return the factor f for which `before` is f times `here`: 1 or -1 if possible, otherwise the quotient, simplified
-    if possible."""
+    """Return the factor f for which `before` is f times `here`, simplified if possible."""
     for sign in (Integer(1), Integer(-1)):
         if equal(before, sign * here):
             return sign

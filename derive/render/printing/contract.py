@@ -141,8 +141,8 @@ def _symbol(step: Step, notation: Notation) -> str:
 
 
 def number_told(value: Any) -> dict[str, Any] | None:
-    """Return a number as data; for a relation, return the number on its right side. The result is None if the number
-    contains symbols, and for a relation whose left side is not a symbol."""
+    """Return a number as data; for a relation, return the number on its right side. The result is None if there is no
+    number."""
     shown, unit = value.right if isinstance(value, ex.Relation) else value, ""
     if isinstance(value, ex.Relation) and not isinstance(value.left, Symbol):
         return None  # a comparison of two numbers
@@ -183,8 +183,8 @@ def _step(named: StepNames, notation: Notation) -> dict[str, Any]:
 
 
 def _whole(step: Step, notation: Notation) -> str | None:
-    """Return, in LaTeX, the symbol of which the result is a limit or series; for an equation, which has no symbol, its
-    key. The result is None if the step records neither."""
+    """Return the LaTeX of the symbol, or the key of the equation, of which the result is a limit or series; None if
+    there is none."""
     whole = step.approximates
     return None if whole is None else whole.name if isinstance(whole, Str) else latex(notation.layout(whole))
 
@@ -207,7 +207,7 @@ def _form(named: StepNames, i: int, notation: Notation) -> dict[str, Any]:
 
 
 def _to_the_line_before(named: StepNames, i: int) -> dict[str, Any]:
-    """Return how a line may differ from the line before: a rounding, a factor of a relation, the rest of a series."""
+    """Return how a line may differ from the line before, such as by a rounding or by the factor of a relation."""
     form = named.step.chain[i]
     if form.because == "rounded":
         return {"within": named.text_of_value(_half_units(form.expr))}

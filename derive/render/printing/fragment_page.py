@@ -70,8 +70,7 @@ class FragmentPage(LatexPage):
         return [Tex(label) for label in (*equations, *map(self._figure, figures))]
 
     def drawing(self, drawing: Illustration) -> Tex:
-        """Return the drawing. If it has a figure number, its caption follows, with the next figure number of the
-        surrounding document."""
+        """Return the drawing, with its caption if it has a figure number."""
         natural = rf"\includegraphics{{{drawing.stem}.pdf}}"
         fitted = r"\ifdim\wd0>\linewidth\resizebox{\linewidth}{!}{\usebox0}\else\usebox0\fi"
         shown = rf"\sbox0{{{natural}}}{fitted}"

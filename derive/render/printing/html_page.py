@@ -113,7 +113,7 @@ class HtmlPage:
         return self.words.number(points_text(credit.points))
 
     def result_of(self, credit: Credit) -> Html:
-        """Return the results of a step; the browser may break a formula between two sides, or within one side."""
+        """Return the results of a step."""
         return Html(", ".join(self._sides_of(line) for line in credit.results))
 
     def _sides_of(self, line: ChainLine) -> str:
@@ -191,12 +191,9 @@ class HtmlPage:
         raise TypeError(f"nothing prints {type(node).__name__}")
 
     def _number(self, number: Number) -> Html:
-        """Return the number of an equation in parentheses; on a page of several problems, the number of the problem is
-        later put before it."""
         return Html(f"({'' if self.standalone else OF_PROBLEM}{number})")
 
     def _anchor(self, number: Number) -> str:
-        """Return the anchor of an equation, which is unique on a page of several problems."""
         return f"{self._within}eq-{number}"
 
     def place(self, part: PartPage) -> str:
@@ -204,7 +201,7 @@ class HtmlPage:
         return f"{self._within}part-{part.label}" if part.label else f"{self._within}limits"
 
     def contents(self) -> Sequence[PartPage]:
-        """Return the entries of the table of contents; only a separate page of at least `LISTED` parts has one."""
+        """Return the entries of the table of contents, which only a long separate page has."""
         return self.sections() if self.standalone and len(self.document.parts_shown) >= LISTED else ()
 
     def listed(self, part: PartPage) -> Html:
@@ -235,7 +232,7 @@ class HtmlPage:
         return display_latex(display, self.notation)
 
     def _row(self, line: Printed, stop: str, follows: bool = False, leads: bool = False) -> str:
-        """Return a row; it shows the number of the equation only if no earlier row shows this number.
+        """Return a row, with the number of the equation unless an earlier row shows it.
 
         follows, leads     whether the row shares its frame with the row above, and with the row below
         """
@@ -252,7 +249,7 @@ class HtmlPage:
         return f'<div class="row{joined}"{anchor}>{"".join(cells)}{beside}</div>'
 
     def _is_first(self, number: Number) -> bool:
-        """Return whether a number appears for the first time; only in this case does the row show it."""
+        """Return whether the number appears for the first time."""
         known = number in self._placed
         self._placed.add(number)
         return not known
@@ -284,8 +281,7 @@ class HtmlPage:
 
 
 def _sides(line: Printed, stop: str) -> str:
-    """Return the relations and right sides of a line as HTML. A result at the end is framed, unless the frame includes
-    the whole line. The browser may start a new row before each side."""
+    """Return the relations and right sides of a line as HTML. The browser may start a new row before each side."""
     at = len(line.sides) - (0 if line.frames_all else line.framed)
     shown: list[str] = []
     for relation, side in line.sides[:at]:
@@ -302,7 +298,6 @@ def _sides(line: Printed, stop: str) -> str:
 
 
 def _ending(sides: Sequence[str], stop: str) -> str:
-    """Add punctuation to the last side."""
     begin, formula = sides[-1].removesuffix(CLOSED).split(">", 1)
     return "".join([*sides[:-1], f"{begin}>{_ended(formula, _stop(stop)) if stop else formula}{CLOSED}"])
 
@@ -321,7 +316,7 @@ CLOSED = "</span>"
 
 
 def _side(relation: str, side: Layout) -> str:
-    """Return a side of an equation; in a wide side a line may end before each term."""
+    """Return a side of an equation. In a wide side a line may end before each term."""
     if relation == "on":
         return f'<span class="side on">{_scrolling_pieces(in_pieces(side, goes_on=True))}</span>'
     sign = TEX_OPERATORS[relation]
@@ -331,8 +326,7 @@ def _side(relation: str, side: Layout) -> str:
 
 
 def _scrolling_pieces(pieces: Sequence[tuple[float, Html]], said: str = "", room: float = WIDE) -> str:
-    """Join pieces so that a line may end between two of them. A single piece that is too wide can be scrolled, also by
-    keyboard."""
+    """Join pieces so that a line may end between two of them. A piece that is too wide can be scrolled."""
     label = f' role="group" aria-label="{escape(said)}"' if said else ""
     return "<wbr>".join(
         f'<span class="wide" tabindex="0"{label}>{formula}</span>' if characters > room else formula
@@ -341,7 +335,7 @@ def _scrolling_pieces(pieces: Sequence[tuple[float, Html]], said: str = "", room
 
 
 def _numbers_of(blocks: Sequence[Block]) -> Iterator[Number]:
-    """Yield the numbers of the equations in the blocks, folded or not."""
+    """Yield the numbers of the equations in the blocks."""
     for block in blocks:
         if isinstance(block, Folded):
             yield from _numbers_of(block.blocks)

@@ -169,8 +169,8 @@ class LatexPage:
         return any(first[-1] is block and self.has_answer(second) for first, second in pairs)
 
     def is_continuation(self, block: Paragraph) -> bool:
-        """Return whether words continue the sentence of the display before them. A note in the margin needs a line of
-        text, so with such notes the answer is false."""
+        """Return whether words continue the sentence of the display before them. The answer is false if there are notes
+        in the margin, because a note needs a line of text."""
         return continues_sentence(block.nodes) and not self.has_margin()
 
     def kind(self, block: Any) -> str:
@@ -223,11 +223,8 @@ class LatexPage:
         return passages_of(part.blocks)
 
     def display(self, display: Display) -> Tex:
-        """Return the rows of a display; a page may end between steps, or within a step of more than three rows.
-
-        A page does not end within a few equations of one row each, such as Euler's equations. The last row of a step,
-        which has its result and its number, is never alone at the top of a page.
-        """
+        """Return the rows of a display. A page may end between two steps, but not within a few equations of one row
+        each, such as Euler's equations."""
         printed = [printed_lines(group, self.notation) for group in display.groups]
         between = r"\samestep" if all(map(_is_low, printed)) and len(printed) <= FEW_ROWS else r"\nextstep"
         steps: list[str] = []
@@ -238,8 +235,7 @@ class LatexPage:
         return Tex(f"\n{between}\n".join(steps))
 
     def _list(self, steps: Sequence[Sequence[Printed]], stop: str) -> str:
-        """Return answers in one frame; the steps of a list have a row, a reason and a number each. The
-        punctuation at the end is outside the frame."""
+        """Return answers in one frame. The steps of a list have a row, a reason and a number each."""
         stops = [","] * (len(steps) - 1) + [""]
         rows = [
             rf"\listrow{{{latex(line.left) if line.left else ''}}}{{{_sides(line)}{end}}}{{{self._reason(line)}}}"
@@ -256,8 +252,7 @@ class LatexPage:
         return "\n".join([set_rows[0], *(f"{at}\n{row}" for at, row in zip(breaks, set_rows[1:], strict=True))])
 
     def _row(self, lines: Sequence[Printed], stop: str) -> str:
-        """Return a row: left side, right sides, punctuation, reason and number. In a framed row the frame includes the
-        left side; the punctuation is outside the frame."""
+        """Return a row: left side, right sides, punctuation, reason and number."""
         first, last = lines[0], lines[-1]
         left = latex(first.left) if first.left else ""
         if first.sides[0][0] == "start" and len(lines) == 1 and not first.frames_all:
@@ -276,13 +271,11 @@ class LatexPage:
         return rf"\why{{{self.inline(line.reason)}}}" if line.reason else ""
 
     def _number_of(self, line: Printed) -> str:
-        """Return the number of a line, if no earlier line shows it."""
         is_new = line.number is not None and line.number not in self._placed
         return self._numbered(line.number) if line.number is not None and is_new else ""
 
     def _numbered(self, number: Number) -> str:
-        """Return the number of an equation, which a page shows once, even if later hints show further lines of the
-        equation."""
+        """Return the number of an equation, which a page shows once."""
         self._placed.add(number)
         return rf"\anchor{{{_anchor(self.document.id, number)}}}{equation_number(number)}"
 
@@ -303,7 +296,7 @@ class LatexPage:
         return rf"{escaped(self.words.labels['figure'])}{space}\figureno{{{number}}}"
 
     def margin(self, display: Display, before: Sequence[Inline] = ()) -> Tex:
-        """Return the note next to a display and its words: the grade, and the first route or check that has room."""
+        """Return the note next to a display and its words: the grade, and a route or check that has room."""
         lines = [escaped(self.words.grades[display.grade])]
         said = second_ways(display, self.words)
         fitting = [route for route in said if _note_height(route) <= self._height(display, before)]
@@ -350,13 +343,11 @@ def passages_of(blocks: Sequence[Block]) -> list[Passage]:
 
 
 def _is_low(lines: Sequence[Printed]) -> bool:
-    """Return whether the lines are a single row, and no side of this row ends in a vector or tensor."""
     return len(lines) == 1 and not any(isinstance(last_of(side), Array) for _, side in lines[0].sides)
 
 
 def _sides(line: Printed) -> str:
-    """Return relations and right sides. The result at the end is framed, and its relation is before the frame, unless
-    the frame includes the whole line."""
+    """Return relations and right sides. The result at the end is framed."""
     shown = [(TEX_OPERATORS[relation].strip(), latex(side)) for relation, side in line.sides]
     at = len(shown) - (0 if line.frames_all else line.framed)
     plain = [f"{sign} {side}" for sign, side in shown[:at]]

@@ -29,7 +29,7 @@ MOST_SIDES = 4  # greatest number of right sides on one line of a chain
 class Printed:
     """One printed line: the left side (if the line begins a chain), then relations and right sides, then the reason.
 
-    `framed` is the number of final right sides in a frame; if all are framed, the frame includes the left side.
+    `framed` is the number of final right sides in a frame.
     """
 
     left: Layout | None
@@ -104,8 +104,8 @@ def framed_together(lines: Sequence[Printed]) -> list[list[Printed]]:
 
 
 def answers_together(steps: Sequence[Sequence[Printed]]) -> list[list[int]]:
-    """Group the steps of a display: consecutive answers share a frame if each has one row. Return the positions of the
-    steps of each group."""
+    """Group the steps of a display: consecutive answers share a frame. Return the positions of the steps of each
+    group."""
     groups: list[list[int]] = []
     for i, lines in enumerate(steps):
         if groups and _is_one_answer(lines) and _is_one_answer(steps[i - 1]):
@@ -116,15 +116,12 @@ def answers_together(steps: Sequence[Sequence[Printed]]) -> list[list[int]]:
 
 
 def _is_one_answer(lines: Sequence[Printed]) -> bool:
-    """Return whether the lines are one row, of one equation, that is framed as a whole."""
     return len(lines) == 1 and lines[0].frames_all and all(relation != "next" for relation, _ in lines[0].sides)
 
 
 def _with_answer(packed: Sequence[Printed], answer: Printed, relation: str, apart: bool, limit: float) -> list[Printed]:
-    """Add the result of a chain, which is framed: T = ... = [7/24 M a^2], on a line of its own if the row has no room.
-
-    If only a law in letters precedes the result, L = T - U, the frame includes the whole line. A result that means
-    little without its left side, zero or a bound, is framed with the left side.
+    """Add the result of a chain, which is framed: T = ... = [7/24 M a^2]. A result that means little without its left
+    side, such as zero, is framed with the left side.
 
     relation  the sign between the left side and the result
     apart     whether the result is never framed with the formula before it
@@ -146,7 +143,7 @@ def _with_answer(packed: Sequence[Printed], answer: Printed, relation: str, apar
     indent = width(answer.left) if answer.left is not None and last.left is None else 0
     fits = indent + row.width + reason_width(reason) <= limit and len(row.sides) <= MOST_SIDES
     if limit <= TEXT_WIDTH and any(_has_vector(side) for _, side in row.sides):
-        fits = False  # text shows a vector as a row (a, b, c), which is wider than the column
+        fits = False  # text shows the column (a, b, c) as a row, which is wider
     if not last.sides or fits and not (last.reason and answer.reason):
         return [*others, row]
     return [*others, last, replace(row, left=None, sides=((sign, result),), reason=answer.reason)]
@@ -163,30 +160,28 @@ def _is_zero(result: Layout) -> bool:
 
 
 def _joined(relations: Sequence[str]) -> str:
-    """Return the relation between the left side and the last right side of a chain: from S > a and a = b follows
-    S > b. The rounded value of a bound keeps the sign of the bound."""
+    """Return the relation between the left side and the last right side of a chain: from S > a and a = b follows S >
+    b."""
     others = [each for each in relations if each != "equals"]
     return next((each for each in others if each in INEQUALITIES), others[0] if others else "equals")
 
 
 def _has_room(last: Printed, left: Layout, right: Layout, reason: tuple[Inline, ...], limit: float) -> bool:
-    """Return whether another equation fits on the row after a gap."""
     return last.width + GAP + width(left) + 2 + width(right) + reason_width(reason) <= limit
 
 
 def _alike(first: Layout, second: Layout) -> bool:
-    """Return whether two layouts are equal or contain the same terms in another order."""
     terms, others = terms_of(first), terms_of(second)
     return first == second or len(terms) == len(others) and _as_read(terms) == _as_read(others)
 
 
 def _as_read(terms: list[Layout]) -> list[str]:
-    """Return the terms as sorted texts without spaces, so that order and spacing do not matter in a comparison."""
+    """Return the terms as sorted texts, so that order and spacing do not matter in a comparison."""
     return sorted("".join(plain(term).split()) for term in terms)
 
 
 def _fitted(line: Printed, limit: float) -> list[Printed]:
-    """Break a line that is too long into several, if possible; the last of them has the reason."""
+    """Break a line that is too long into several, if possible."""
     if line.width <= limit or len(line.sides) > 1:
         return [line]
     ((relation, side),) = line.sides

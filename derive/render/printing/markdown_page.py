@@ -141,7 +141,6 @@ class MarkdownPage:
         return f"$$\n{formula_markdown(aligned(rows))}\n$$"
 
     def _ending(self, line: Printed) -> str:
-        """Return the reason and the number of a line, separated from its formula."""
         number = "" if line.number is None else rf"\qquad\text{{({line.number})}}"
         reason = (Text("["), *line.reason, Text("]")) if line.reason else ()
         return (rf"\quad{self.told_in_formula(reason)}" if reason else "") + number

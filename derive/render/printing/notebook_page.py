@@ -56,7 +56,7 @@ def _of(part: PartPage, answers: dict[str, list[str]]) -> list[str]:
 
 
 def _gathered(page: MarkdownPage, pieces: Iterable[str | Illustration]) -> Iterator[dict[str, Any]]:
-    """Put the text between two drawings in one cell; each drawing has a code cell, with the caption below."""
+    """Put the text between two drawings in one cell; each drawing has a code cell."""
     said: list[str] = []
     for piece in pieces:
         if isinstance(piece, str):

@@ -103,7 +103,7 @@ class _PlainSymPy(StrPrinter):
         return str(super()._print(expr, **options))
 
     def _factor(self, expr: Any, variables: tuple[Any, ...] = ()) -> str:
-        """Return the text of a part of an expression, in brackets unless it is a single factor."""
+        """Return the text of a part of an expression, in brackets if necessary."""
         with self._within(variables):
             if self._is_name(expr):
                 return self._print(expr)

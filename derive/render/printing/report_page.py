@@ -61,7 +61,6 @@ class ReportPage:
         return [f"{escaped(self.words.labels['report_page']['made_from'])} {', '.join(found)}"] if found else []
 
     def _step(self, key: str) -> str:
-        """Return the symbol, the number or both of a step, or "" if the step has neither."""
         symbol, number = self.document.symbols.get(key), self.document.numbers.get(key)
         numbered = equation_number(number) if number is not None else ""
         if symbol is None:
@@ -88,7 +87,7 @@ class ReportPage:
         """Return prose whose formulas between dollar signs are written again with known commands only."""
         if "$" not in text:
             return Tex(escaped(text))
-        from derive.course.latex.quoting import quoted  # a late import, because few documents need it
+        from derive.course.latex.quoting import quoted  # imported late, because few documents need it
 
         pieces = quoted(text)
         return Tex("".join(self._formula(p.text, len(pieces)) if p.is_formula else escaped(p.text) for p in pieces))

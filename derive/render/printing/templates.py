@@ -55,8 +55,7 @@ def _filled(templates: Templates, kind: str, template: str, facts: Mapping[str, 
 
 
 def filled_above(templates: Templates, template: str, line: str, facts: Mapping[str, Any]) -> Tex:
-    """Fill the text of a template above a certain line. The result is empty if the line or a fact is missing, or if the
-    template cannot be read."""
+    """Fill the text of a template above a certain line; the result is empty if this fails."""
     with suppress(TemplateError, OSError, UnicodeError):
         above, found, _ = templates.file(f"{LATEX}/{template}").read_text(encoding="utf-8").partition(line)
         if found:
@@ -114,7 +113,7 @@ def _environment(templates: Templates, kind: str) -> Environment:
         trim_blocks=True,
         lstrip_blocks=True,
         keep_trailing_newline=True,
-        finalize=printed,  # so that every template escapes the values that it prints
+        finalize=printed,  # every template escapes the values that it prints
     )
     if kind == LATEX:
         made.filters["bookmark"] = bookmark_text
@@ -127,6 +126,5 @@ def bookmark_text(text: str) -> Tex:
 
 
 def _said(error: Exception) -> str:
-    """Return the message of an error on one line."""
     lines = str(error).strip().splitlines()
     return (lines[0] if lines else type(error).__name__).rstrip(".")

@@ -93,7 +93,6 @@ class _Page:
         return "\n".join(blocks) + "\n"
 
     def _headed(self, label: str, prose: Sequence[Inline]) -> list[str]:
-        """Return paragraphs, the first of which begins with the heading, or nothing if there is no text."""
         if not prose:
             return []
         found: list[list[Inline]] = [[Text(self.words.labels[label] + " ")]]
@@ -125,7 +124,6 @@ class _Page:
         return found
 
     def _drawing(self, illustration: Illustration) -> str:
-        """Return the description of a drawing with its caption below."""
         figure, described = self.words.labels["figure"], self.words.labels["described"]
         shown = self._wrapped((Text(f"[{described}: "), *illustration.alt, Text("]")))
         if illustration.number is None:
@@ -188,6 +186,5 @@ class _Page:
 
 
 def _filled(text: str) -> str:
-    """Return text in lines; no line ends between a number and its unit."""
     filled = textwrap.fill(unbroken(text), PAGE_COLUMNS, break_long_words=False, break_on_hyphens=False)
     return filled.replace(NO_BREAK, " ")

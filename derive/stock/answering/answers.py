@@ -127,8 +127,7 @@ class StockAnswers(Answers[W]):
         return None
 
     def solve(self, asked: Sequence[Word], drawings: Sequence[Placement] = ()) -> dict[str, object]:
-        """Return the answers by the requested names, and draw the requested plots. A subclass also draws the described
-        objects."""
+        """Return the answers by the requested names, and draw the requested plots."""
         found = self.by_name.answers(asked)
         shown = {quantity.key for quantity in returned_quantities(found)} if found else set[str]()
         for drawing in drawings:

@@ -68,7 +68,7 @@ class ByName:
         offered_first = sorted(asked, key=lambda name: self.offered(name) is None)
         try:
             found = dict(each([partial(self._answer, name) for name in offered_first]))
-        except Rejected as refused:  # an error that several answers share is reported once
+        except Rejected as refused:  # several answers may have the same error, which is reported once
             first = {(c.code, c.message): c for c in reversed(refused.complaints)}
             raise Rejected([c for c in refused.complaints if c is first[c.code, c.message]]) from None
         each([partial(self._check_own_key, result) for result in self.results.values()])
@@ -112,8 +112,7 @@ class ByName:
         return found
 
     def _derived_alone(self, name: str) -> tuple[Quantity, ...]:
-        """Derive the answer of a name; after an error, try again with an empty record, in which every symbol is
-        free."""
+        """Derive the answer of a name; after an error, try again with an empty record."""
         try:
             return self._derived(name, None)
         except DeriveError:
@@ -123,8 +122,7 @@ class ByName:
                 return self.again()._derived(name, None)
 
     def _copied_run(self) -> Run:
-        """Return a record without steps, for the same problem. It shares the store of calls, so that steps need not be
-        derived a second time."""
+        """Return a record without steps for the same problem."""
         run = current_run.get() or Run()
         memory = run.memory and run.memory.of_another_run()
         return Run(
@@ -147,7 +145,7 @@ class ByName:
         return self._known[name]
 
     def _by_number(self, name: Word) -> tuple[Quantity, ...]:
-        """Return the step that a name such as `frequency_2` denotes, by its key or by its number."""
+        """Return the step that a name such as `frequency_2` denotes."""
         numbered = _NUMBERED.fullmatch(name)
         own = self.offered(numbered[1]) if numbered else None
         if numbered is None or own is None:
@@ -166,7 +164,7 @@ class ByName:
         return found
 
     def _one_of(self, own: str, name: str, found: Sequence[Quantity]) -> Quantity | None:
-        """Return the step of the answer `own` that `name` denotes, by its key or by its number."""
+        """Return the step of the answer `own` that `name` denotes."""
         by_key = _called(name, {q.key: q for q in found})
         if len(by_key) == 1:
             return by_key[0]
@@ -200,15 +198,12 @@ class ByName:
         return None
 
     def _in_order(self, name: str, likely: bool) -> Iterator[str]:
-        """Yield the offered names that are likely to lead to `name` if `likely` is true, and the others if it is
-        false."""
         for own in self.asks:
             begins = name.startswith(f"{own}_") or own in ("lagrangian", "equations_of_motion")
             if begins == likely:
                 yield own
 
     def _check_free(self, name: Word) -> None:
-        """Check that a result does not have the name of an answer."""
         own = self.offered(name)
         if own is not None:
             as_one = "" if own == name else f", as `{own}`"
@@ -216,7 +211,6 @@ class ByName:
             rejected("name-clash", message, name.place, "give the result another name")
 
     def _check_own_key(self, result: Result) -> None:
-        """Check that no other step has the name of a result as its key."""
         run = current_run.get()
         if run is None or result.name not in self._known:
             return
@@ -227,7 +221,7 @@ class ByName:
 
 
 def _called(name: str, steps: Mapping[str, Quantity]) -> tuple[Quantity, ...]:
-    """Return the step with this key, or else the steps whose keys are this name with a number, such as `rest_2`."""
+    """Return the step with this key, or the steps whose keys are this name with a number, such as `rest_2`."""
     if name in steps:
         return (steps[name],)
     for form in (name, *_in_other_number(name)):

@@ -51,7 +51,7 @@ class Equilibria:
         return tuple(_branch(rest, self.coordinate, judged) for rest, judged in pairs)
 
     def keys(self, shown: Collection[str]) -> tuple[str, ...]:
-        """Return the keys of those steps that parts ask for, or of all equilibria if there are none."""
+        """Return the keys of the equilibria that parts ask for, or of all equilibria if parts ask for none."""
         every = [q.key for q in (*self.rests, *self.judged)]
         return tuple(key for key in every if key in shown) or tuple(q.key for q in self.rests)
 
@@ -117,7 +117,6 @@ class Parameter:
         return Branch(branch.label, self.put_in(branch.place), exists, stable, branch.key)
 
     def _condition(self, condition: Relation) -> Relation:
-        """Return a condition in terms of the parameter, without positive factors that would need numbers."""
         value = self.put_in(explicit(condition.residual))
         try:
             factors = Mul.make_args(factor(value))

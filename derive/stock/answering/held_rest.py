@@ -21,8 +21,7 @@ def rest_with_forces(
     coordinates   the coordinates by name, in the order of `motions`
     forces        the symbols of the constraint forces
 
-    If there are as many forces as equations, as with static friction, the result is the forces as functions of the
-    position.
+    With static friction, the result may be the forces as functions of the position.
     Errors: the static equations do not determine the unknowns.
     """
     still = [_still(name, motion, coordinates) for name, motion in zip(coordinates, motions, strict=True)]

@@ -91,7 +91,7 @@ class Marked:
             drawings[drawings.index(shown[name])] = own
 
     def _kept(self, marks: Sequence[Mark]) -> Iterator[Mark]:
-        """Yield the marks of a drawing without those whose labels the problem leaves out; a body keeps its outline."""
+        """Yield the marks of a drawing without those that the problem leaves out."""
         labels = {str(mark.label) for mark in marks if mark.label is not None}
         for word in self.drawing.without:
             if word not in labels:
@@ -154,7 +154,6 @@ class Marked:
         return Arrow(at, along, size or LONG[is_plane], bool(own_keys), label=label, keys=(*used, *own_keys))
 
     def _check_length(self, arm: MatrixBase, label: Any, keys: MarkKeys) -> None:
-        """Check that a dimension line is as long as its label says, if this is known."""
         known = {declared.symbol for declared in self._letters.letters.values()}
         if not isinstance(label, Expr) or not label.free_symbols or not label.free_symbols <= known:
             return
@@ -163,8 +162,7 @@ class Marked:
             rejected("wrong-argument", message, keys.places[""], "change an end of the line, or its label")
 
     def _curve(self, at: MatrixBase, keys: MarkKeys, label: Any, used: tuple[str, ...]) -> Mark:
-        """Return the curve of a point whose place is a formula in one letter."""
-        assert keys.against is not None and keys.between  # `_mark` rejects a curve without them
+        assert keys.against is not None and keys.between  # `_mark` rejects a curve without these keys
         letter, _ = read_expression(keys.against.scalar, self._letters.letters)
         if not letter.is_Symbol or not at.has(letter):
             message = f"`at` is the same for all values of `{keys.against}`"
@@ -173,14 +171,13 @@ class Marked:
         return WayMark(at, letter, lower, upper, "edge", label=label, keys=used)
 
     def _axis(self, node: Tree | None) -> tuple[MatrixBase, tuple[str, ...]]:
-        """Return the axis of a turn or a circle, and the keys of its steps."""
         return (COUNTERCLOCKWISE, ()) if node is None else self._way(node, "along", 3)[:2]
 
     def _ends(self, keys: MarkKeys, rows: int) -> tuple[MatrixBase, MatrixBase]:
         return self._place(keys.start, "from", rows), self._place(keys.end, "to", rows)
 
     def _place(self, node: Tree | None, name: str, rows: int) -> MatrixBase:
-        """Return a place of the drawing; the origin if none is written."""
+        """Return a place of the drawing, by default the origin."""
         if node is None:
             return ImmutableDenseMatrix([0] * rows)
         place = self.place_of(node, name, self._letters)
@@ -192,10 +189,7 @@ class Marked:
     def _way(
         self, node: Tree | None, name: str, rows: int, start: MatrixBase | None = None
     ) -> tuple[MatrixBase, tuple[str, ...], bool]:
-        """Return a direction, the keys of its steps, and whether it leads from `start` to a place.
-
-        A direction may be written as components, as an axis, or as the name of an answer or of a place.
-        """
+        """Return a direction, the keys of its steps, and whether it leads from `start` to a place."""
         if isinstance(node, SequenceNode):
             return self._components(node, name, rows), (), False
         if not isinstance(node, Scalar):
@@ -213,7 +207,6 @@ class Marked:
 
     @property
     def _steps(self) -> dict[str, Quantity]:
-        """Return the steps derived so far, by key."""
         run = current_run.get()
         return {quantity.key: quantity for quantity in run.established} if run is not None else {}
 
@@ -246,8 +239,7 @@ class Marked:
         return size
 
     def _label(self, written: Written | None) -> tuple[Any, tuple[str, ...]]:
-        """Return the label and the keys of the answers whose letters it contains. An unknown name is a letter of the
-        drawing."""
+        """Return the label and the keys of the answers whose letters it contains."""
         if written is None:
             return None, ()
         if str(written) in self._steps:

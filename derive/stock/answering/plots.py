@@ -113,7 +113,6 @@ class Plotted:
         run.drawings.append(replace(found, per=tuple(per), keys=tuple(dict.fromkeys(keys))))
 
     def _with_energies(self, found: Plot) -> Plot:
-        """Return the plot with the energies of its lines, which must be the curve of an energy."""
         written = self.drawing.energies
         shown = [self._shown(each.scalar) for each in written]
         energy = dimension_of_kind("energy")
@@ -127,7 +126,6 @@ class Plotted:
         return replace(found, energies=tuple(each.expr for each in shown), keys=keys)
 
     def _curves(self, answers: Sequence[Word], against: Word, ends: Range) -> None:
-        """Draw the curves of several answers, which must have the same unit."""
         quantities = [self._one(answer) for answer in answers]
         for i, (answer, quantity) in enumerate(zip(answers, quantities, strict=True)):
             if answer in answers[:i]:
@@ -159,13 +157,13 @@ class Plotted:
         run.drawings.append(replace(found, then=shown.expr, keys=tuple(dict.fromkeys((*found.keys, *shown.keys)))))
 
     def _unit(self, quantity: Quantity) -> str:
-        """Return the SI unit of an answer: the unit of its kind or, without a kind, of its dimension."""
+        """Return the SI unit of an answer, from its kind or its dimension."""
         if quantity.step.kind:
             return unit_of_kind(quantity.step.kind)
         return unit_of_dimension(dimension_of_answer(quantity, self._letters))
 
     def _letters_of_curve(self, answer: Word, quantity: Quantity, against: Word) -> tuple[set[Any], str]:
-        """Return the letters of an answer, and an error message for the case that `against` is not one of them."""
+        """Return the letters of an answer, and the message of the error if `against` is not one of them."""
         expr = explicit(quantity.value)
         message = f"`{answer}` does not depend on `{against}`, so there is no curve"
         return expr.free_symbols if isinstance(expr, Expr) else set(), message
@@ -192,7 +190,7 @@ class Plotted:
             )  # fmt: skip
 
     def _named(self, shown: list[Shown]) -> list[Shown]:
-        """Return the quantities of a path, named by `labels` if the problem states them."""
+        """Return the quantities of a path with their names."""
         for label in self.drawing.labels:
             if not _LETTER.fullmatch(label):
                 message = f"`{label}` is not a letter, so it cannot name an axis"
@@ -217,7 +215,6 @@ class Plotted:
         return Outline(str(name), expr, plane, corners)
 
     def _diagram(self, answer: Word, against: LetterOrRatio, ends: Range) -> None:
-        """Draw the equilibria of one coordinate against a letter or a ratio."""
         with told_at(answer.place):
             found = equilibria_of(answer, self.named(answer), self.named(Word.at("stability", answer.place)))
             q = found.coordinate
@@ -242,7 +239,7 @@ class Plotted:
             )  # fmt: skip
 
     def _parameter(self, against: LetterOrRatio, found: Equilibria) -> Parameter:
-        """Return the parameter of a diagram, on which the equilibria or their stability must depend."""
+        """Return the parameter of a diagram."""
         known = {symbol.name: symbol for branch in found.branches for symbol in letters_in(branch.drawn)}
         declared = self.drawing.letters.get(str(against))
         if declared is not None:
@@ -299,14 +296,13 @@ class Plotted:
         rejected("wrong-argument", message, names[0].place, help_line)
 
     def _one(self, answer: Word) -> Quantity:
-        """Return the one step of an answer."""
         quantities = self.named(answer)
         if len(quantities) != 1:
             rejected("wrong-argument", f"`{answer}` is several results, so it has no single curve", answer.place)
         return quantities[0]
 
     def _variable(self, against: Word, letters: set[Any], message: str) -> tuple[Symbol, str]:
-        """Return the symbol that varies, and its kind; reject a name that is not one of `letters`."""
+        """Return the symbol that varies, and its kind."""
         known = {symbol.name: symbol for symbol in letters}
         moving, declared = self.coordinates.get(str(against)), self.drawing.letters.get(str(against))
         kind = moving.kind if moving else "time" if against == TIME.name else declared.kind if declared else None
@@ -331,13 +327,12 @@ class Plotted:
         return Shown(label, explicit(expr), kind or "number", unit, tuple(q.key for q in found.values()))
 
     def _kind(self, expression: Expr, found: Mapping[Any, Quantity]) -> str | None:
-        """Return the kind of an answer or of a symbol; None for any other formula."""
         if expression in found:
             return found[expression].step.kind
         return next((letter.kind for letter in self._letters.values() if letter.symbol == expression), None)
 
     def _range(self, ends: Range, kind: str) -> tuple[list[Expr], tuple[str, ...]]:
-        """Return the two ends, which may contain symbols and answers, and the keys of these answers."""
+        """Return the two ends, and the keys of the answers in them."""
         found, keys = [], []
         for node in ends.ends:
             end, own = self._end(node.scalar, kind)

@@ -24,9 +24,7 @@ def state_static_friction(contact: Sequence[Constraint], answer: Callable[[str, 
     contact   the constraints that the friction of the contact enforces: one in a plane, one or two in space
     answer    a function of the name of an answer and of the key of one of its steps; it returns this step
 
-    Nothing is assumed if the derived forces are known to satisfy the condition. The condition is solved for mu_s if
-    possible.
-    Errors: the condition is known to be false.
+    The condition is solved for mu_s if possible. Errors: the condition is known to be false.
     """
     steps, limit, forces = established(), contact[0].limit, [each.force for each in contact]
     if limit is None or any(each.step.rule == SLIPS and forces[0] in _names(each) for each in steps):
@@ -83,8 +81,7 @@ def _assume_if_unknown(frictions: Sequence[Quantity], normal: Quantity, limit: S
 
 
 def _conditions(friction: Quantity, normal: Quantity, limit: StaticLimit) -> list[Relation]:
-    """Return the conditions for mu_s, one for each possible direction of the friction; none if they cannot be solved
-    for mu_s."""
+    """Return the conditions for mu_s; none if they cannot be solved for mu_s."""
     if changes(explicit(friction.value) - explicit(normal.value), named_coordinates()) or limit.coefficient.is_number:
         return []
     return [each.value for each in slips(friction, normal, limit.coefficient, key=f"{friction.key}_suffices")]

@@ -171,7 +171,7 @@ class DescribedBody:
     def body(self) -> Body:
         """Return the body; errors are reported where the body is described."""
         with told_at(self.place):
-            for part in self.parts:  # check again, because the numbers of the symbols are known now
+            for part in self.parts:  # checked again, because the numbers of the symbols are known now
                 body: Body = part.body if isinstance(part, PlacedPart) else part
                 if is_dataclass(type(body)):
                     body.check_sizes()
@@ -184,7 +184,7 @@ class DescribedBody:
 
     @property
     def other_centre(self) -> str:
-        """Return the point, other than the centre of mass, that `centre` could mean; empty if there is none."""
+        """Return a point, other than the centre of mass, that `centre` could mean; empty if there is none."""
         only: Any = self.parts[0]
         own: str = "" if self.is_made_of_parts else only.other_centre
         return Composite.other_centre if self.is_made_of_parts or own and self.points else own
@@ -352,7 +352,7 @@ class Bodies:
             return shape(position, limits, mass=mass, density=density)
 
     def _limits(self, written: Mapping[Word, tuple[Tree, ...]]) -> tuple[WithVariables, dict[Any, tuple[Expr, Expr]]]:
-        """Read the limits of each variable; they may contain the variables that are listed before it."""
+        """Read the limits of each variable; they may contain earlier variables."""
         known = WithVariables(self.letters, {})
         limits: dict[Any, tuple[Expr, Expr]] = {}
         for name, ends in written.items():
@@ -416,7 +416,7 @@ def _point_of(body: Body, name: Word) -> str:
 
 
 def _way_that_is_told(shape: type[Body], written: ShapeKeys, has_mass: bool, faults: Faults) -> tuple[str, ...]:
-    """Return the specified sizes of a shape; report missing and wrong keys."""
+    """Return the sizes that specify a shape; report missing and wrong keys."""
     ways = ways_to_tell(shape)
     given = [size for size in SIZES if size in written.values_at and size in ShapeKeys.__dataclass_fields__]
     way = max(ways, key=lambda w: (sum(s in given for s in w), -len(w)))

@@ -132,8 +132,7 @@ class SurfaceKeys(Record):
             rejected("unused-key", message, self.places["side"], "leave it out")
 
     def _curve(self, written: Tree, places: Places, letters: InLetters) -> tuple[Any, ...]:
-        """Return the arguments of `curve`: the symbol x, the formula, the place from which x is measured, and whether
-        the free side is below."""
+        """Return the arguments of `curve`."""
         for name in ("along", "normal", "centre", "radius"):
             if name in self.places:
                 message = f"`{name}` does not belong to a curve `y`"
@@ -201,8 +200,6 @@ FRICTION: Reader[Any] = Reader(
 
 
 def _named_contact(name: str, **given: Any) -> tuple[Any, ...]:
-    """Return the parts of a contact."""
-
     def with_name(part: Any) -> Any:
         limit = getattr(part, "limit", None)
         return replace(part, limit=replace(limit, slider=name)) if limit is not None else part
@@ -255,11 +252,11 @@ class ContactKeys(Record):
         return body.body, Deferred(point_of_contact, (body, self._surface(known)), place=self.places[""])
 
     def _name(self) -> str:
-        """Return the name of the body or place that touches the surface, `ladder` for `ladder.end`, if there is one."""
+        """Return the name of the body or place that touches the surface: `ladder` for `ladder.end`."""
         return (self.of.name or "").partition(".")[0].replace("_", " ")
 
     def _components(self, known: Connected) -> list[Word]:
-        """Return the symbols of the components of the friction without slipping in space; none in a plane."""
+        """Return the symbols of the components of static or rolling friction in space."""
         symbol = self.friction.symbol if isinstance(self.friction, FrictionKeys) else None
         if symbol is None or "z" not in known.places.axes_of_motion:
             return []
@@ -292,7 +289,6 @@ class ContactKeys(Record):
         return {**found, "sliding": known.letters.of_kind(own.sliding, "sliding", "number")}
 
     def _body(self, known: Connected) -> Any:
-        """Return the body, particle or point of a body that touches the surface, or a fixed corner."""
         name = self.of.name
         if name is not None and (name.partition(".")[0] in known.bodies or name not in known.places.written):
             return material(name, known)

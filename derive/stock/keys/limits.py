@@ -51,8 +51,7 @@ def limits_of(problem: Problem, known: Mapping[str, Quantity], run: Run) -> list
 def _is_of_another_case(
     given: LimitKeys, problem: Problem, known: Mapping[str, Quantity], letters: Mapping[str, Declared], run: Run
 ) -> bool:
-    """Return whether the limiting case does not apply to the current inputs: a symbol has no longer an independent
-    value, or another step replaces the step of the case."""
+    """Return whether the limiting case does not apply to the current inputs."""
     together = {key for quantity in known.values() if quantity.step.stands_for for key in quantity.step.stands_for}
     if given.of in together or (given.of in known and known[str(given.of)].step.stands_for):
         return True
@@ -92,7 +91,7 @@ def _case(given: LimitKeys, known: Mapping[str, Quantity], letters: Mapping[str,
 
 
 def _is_there(given: LimitKeys, known: Mapping[str, Quantity], letters: Mapping[str, Declared]) -> bool:
-    """Return whether the result contains the symbols of the case, since the inputs may have changed."""
+    """Return whether the result contains the symbols of the case; the inputs may have changed."""
     if given.of is None:
         return True
     told = _read(given.letter, letters).free_symbols if given.letter else {_letter(x, letters) for x in given.where}
@@ -130,8 +129,8 @@ def _read(formula: Formula, letters: Mapping[str, Declared]) -> Expr:
 def _as_stated(
     given: LimitKeys, case: Quantity, letters: Mapping[str, Declared], known: Mapping[str, Quantity], keys: set[str]
 ) -> list[Quantity]:
-    """Check the result that the file states for a case. If it contains symbols of other steps, return a step that
-    writes the result with these symbols."""
+    """Check the result that the file states for a case; return an additional step if the result contains symbols of
+    other steps."""
     if given.stated is None:
         return []
     stated, value = _read(given.stated, letters), explicit(case.value)

@@ -62,7 +62,7 @@ def drawn(answers: Any, about: str = "", is_named: bool = False, key: str = "", 
 
 
 def _masses(answers: Any, origin: Point) -> list[Mark]:
-    """Return the centres of the parts of a body, with their masses; parts that are cut out are left out."""
+    """Return the centres of the parts of a body, with their masses."""
     parts = [part for part in getattr(answers.body, "parts", ()) if part.sign > 0]
     return [point_mark(origin.seen(part.centre), part.body.mass) for part in parts]
 
@@ -78,7 +78,7 @@ def _principal(answers: Any, origin: Point) -> list[Mark]:
 
 
 def _direction(answers: Any, origin: Point) -> list[Mark]:
-    """Return the axis of `moment_about` through the point of the inertia tensor, with the angles in its components."""
+    """Return the axis of `moment_about`, with the angles in its components."""
     body, along = answers.body, answers.described.direction
     if along is None:
         return []
@@ -90,8 +90,7 @@ def _direction(answers: Any, origin: Point) -> list[Mark]:
 
 
 def _azimuth(components: Sequence[Expr]) -> list[Mark]:
-    """Return the projection of a direction on the plane of x and y, and the arc from the x axis to it, if this angle is
-    a symbol."""
+    """Return the projection of a direction on the plane of x and y, and the arc from the x axis to the projection."""
     x, y, _ = components
     angles = [f.args[0] for f in x.atoms(cos) if f.args[0].is_Symbol and is_zero(y * f - x * sin(f.args[0]))]
     if not angles:
@@ -125,8 +124,7 @@ def _has_known_centre(body: Body) -> bool:
 
 
 def _proportions(body: Body) -> dict[Expr, Expr]:
-    """Return values for the drawing: the radius of the section of a torus, or of a hole, is a fixed fraction of the
-    radius of the body."""
+    """Return values for the drawing, such as the radius of the section of a torus as a fraction of its radius."""
     match body.boundary:
         case Toroidal(radius, section):
             small, large = section, radius / 4
@@ -138,7 +136,7 @@ def _proportions(body: Body) -> dict[Expr, Expr]:
 
 
 def _inclination(components: Sequence[Expr]) -> list[Mark]:
-    """Return the arc from one of the body's axes to a direction, if the angle between them is a symbol."""
+    """Return the arc from one of the body's axes to a direction."""
     for k in (2, 0, 1):
         angle = next((f.args[0] for f in components[k].atoms(cos) if f.args[0].is_Symbol), None)
         if angle is None:

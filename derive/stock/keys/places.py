@@ -197,13 +197,13 @@ class Places:
         self.turns = turns
         self.letters = letters
         self.bodies = {str(name) for name in bodies}
-        self.contacts: dict[str, list[Deferred[PointOfBody]]] = {}  # for each body, the points where it touches
+        self.contacts: dict[str, list[Deferred[PointOfBody]]] = {}  # for each body, its points of contact
         self.on_the_way: list[str] = []
         self.first: tuple[int, str] | None = None  # number of components of the first place, and its name
 
     @property
     def axes_of_motion(self) -> str:
-        """The axes along which a force has components: without z if the places read so far are in a plane."""
+        """The axes along which a force has components."""
         return "xyz"[: self.first[0]] if self.first else "xyz"
 
     def all_named(self) -> dict[str, Location | Material]:
@@ -283,7 +283,6 @@ class Places:
         return self.letters.of_kind(node, f"a component of {name}", "length")
 
     def _check_size(self, found: Location, name: str) -> None:
-        """Check that all places of a description have two components, or all three."""
         size = len(found.components)
         first, by = self.first = self.first or (size, name)
         if size != first:

@@ -59,7 +59,6 @@ def _of_a_body(
     direction: Axis = None,
     symbol: str | None = None,
 ) -> Quantity:
-    """Return an answer of a body about a point or axis other than the given one."""
     if elsewhere is None:
         rejected("wrong-argument", "`answer` asks about another point of a body and needs `solve: body`", None)
     return elsewhere(answer, key, about, origin, direction, symbol)
@@ -170,7 +169,7 @@ def _symbol(verb: ResultVerb, key: ResultKey, node: Tree, letters: InLetters) ->
 
 
 def _functions(verb: ResultVerb, key: ResultKey, node: Tree, letters: InLetters) -> tuple[Word | Expr, ...]:
-    """Return each function: the name of an answer, or a formula in symbols, coordinates and momenta."""
+    """Return each function, as the name of an answer or as a formula."""
 
     def one(item: Tree) -> Word | Expr:
         is_name = isinstance(item, Scalar) and not item.empty and [*names_in(item)] == [item.text.strip()]
@@ -184,7 +183,6 @@ def _functions(verb: ResultVerb, key: ResultKey, node: Tree, letters: InLetters)
 
 
 def _one_answer(result: Result, key: ResultKey, found: tuple[Word, ...], around: Surroundings) -> Quantity:
-    """Return the one answer that the names denote."""
     of = [quantity for name in found for quantity in around.answers(name)]
     if len(of) > 1 and len(found) == 1:
         of = [quantity for quantity in of if quantity.key == found[0]] or of
@@ -267,7 +265,7 @@ SORTS: Mapping[Holds, Sort] = {
 
 
 def _meaning(name: str) -> str:
-    """Return the meaning of a key, from the hints of the verbs that use this key."""
+    """Return the meaning of a key from the hints of the verbs."""
     if name in RESULT_VERBS:
         return f"{RESULT_VERBS[name].own.hint}; finds {RESULT_VERBS[name].yields}"
     hints = [
@@ -288,7 +286,7 @@ ALIKE = {  # keys that mean the same for every verb
 
 
 def _every_key() -> Iterator[ResultKey]:
-    """Yield each key once; a key that names a verb replaces other keys of the same name."""
+    """Yield each key once."""
     verbs = sorted(RESULT_VERBS.values(), key=lambda verb: verb.name)
     every = [*(verb.own for verb in verbs), *(each for verb in verbs for each in verb.keys.values())]
     yield from {each.name: each for each in reversed(every)}.values()

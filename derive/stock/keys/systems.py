@@ -265,8 +265,7 @@ def read(written: SystemKeys, symbols: Mapping[str, Declared], faults: Faults) -
 
 
 def _parts(written: SystemKeys, places: Places, known: InLetters, faults: Faults) -> dict[str, Any]:
-    """Return the fields of `DescribedSystem` for the particles, the bodies, the surfaces and everything that acts on
-    them."""
+    """Return the fields of `DescribedSystem` for the parts of the system."""
 
     def of_each(keys: Sequence[Any], *more: Any) -> list[Any]:
         return attempted(faults, each, [partial(one.part, *more) for one in keys]) or []
@@ -302,14 +301,13 @@ def _parts(written: SystemKeys, places: Places, known: InLetters, faults: Faults
 
 
 def _landed_on(written: SystemKeys) -> set[str]:
-    """Return the names of surfaces on which a flight ends and with which no body is in contact."""
+    """Return the names of surfaces on which a flight ends."""
     named = {str(held["on"]) for result in written.results.values() if "on" in (held := written_in(result))}
     return named - {str(each.on) for each in written.contacts}
 
 
 def _check_surfaces_used(written: SystemKeys, faults: Faults) -> None:
-    """Report a surface that no contact and no flight names, unless one of them names something unknown, which may be a
-    misspelling."""
+    """Report a surface that no contact and no flight names."""
     used = {str(each.on) for each in written.contacts} | _landed_on(written)
     if used <= {str(name) for name in (*written.surfaces, *written.bodies)}:
         for name in written.surfaces:
@@ -351,7 +349,7 @@ def _lagrangian(written: SystemKeys, letters: InLetters) -> tuple[Expr, str | No
 
 
 def _without(written: SystemKeys, found: Sequence[str], impulses: Sequence[str]) -> tuple[tuple[Word, set[str]], ...]:
-    """Return, for some keys, the answers that do not depend on them."""
+    """Return some keys, each with the answers that do not depend on it."""
     of_each = ("motion", "momentum", "acceleration")
     one = {f"{name}_{q}" for name in of_each for q in written.coordinates}
     general = one | {*found, *INDIFFERENT_TO_STATES}
@@ -388,7 +386,7 @@ def _momenta(
 
 
 def _multipliers(keeping: Iterable[Deferred[Any]]) -> dict[str, Declared]:
-    """Return the symbols of constraint forces; results may be solved for these symbols."""
+    """Return the symbols of constraint forces."""
     names = [name for one in keeping for name in one.forces]
     return {name: FoundLetter(name, scalar(name), "force") for name in names}
 
@@ -404,8 +402,7 @@ def _brought(written: SystemKeys, axes: str) -> list[Word]:
 
 
 def _symbols(written: Mapping[Word, Tree]) -> dict[Word, tuple[Word, bool]]:
-    """Return, for each coordinate whose constant momentum has a symbol, this symbol and whether it is declared
-    positive."""
+    """Return the symbols of constant momenta, each with `True` if it is declared positive."""
     found = {}
     for q, node in written.items():
         word = node.word if isinstance(node, Scalar) else ""

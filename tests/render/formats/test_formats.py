@@ -1,4 +1,4 @@
-"""A module beside the other formats is a format: of `--format`, of what is rendered, and of the files of a build."""
+"""A new module in the folder of formats defines a format for `--format`, for rendering, and for builds."""
 
 from __future__ import annotations
 

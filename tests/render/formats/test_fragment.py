@@ -1,4 +1,4 @@
-"""The format of fragments: TeX to be read by somebody else's document."""
+"""Tests of fragments, which are TeX for other documents."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""The JSON read with nothing but SymPy: with its names put in, each line of every chain follows from the one before.
+"""SymPy alone reads the JSON: after the names are substituted, each line of a chain follows from the line before.
 
-The checks know nothing of `derive`: they take the text of a page and count what they compared.
+The checks do not use `derive`. They read the text of a page and count the compared lines.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from sympy.core.relational import Relational
 from tests.courses import course_in, rendered_once
 from tests.test_transcripts import PAGES
 
-# page -> at least so many pairs, and what there must be among them; none is left out
+# page -> the least number of compared pairs of lines, and the reasons that must occur among them
 PAIRS: dict[str, tuple[int, set[str]]] = {
     "block": (75, {"equal", "left side", "rounded"}),
     "cone": (70, {"equal", "relation"}),
@@ -105,7 +105,7 @@ def same(before: Any, here: Any, form: dict[str, Any], how: str, root: int) -> b
 
 
 def marks_fit(before: dict[str, Any], form: dict[str, Any], root: int) -> bool:
-    """Whether the mark of a relation is kept, or turned where an inequality was multiplied by something negative."""
+    """Whether the relation sign is unchanged, or reversed if an inequality was multiplied by a negative factor."""
     left, right = (roots(each["sympy"])[root % len(roots(each["sympy"]))][:3] for each in (before, form))
     if not {left, right} & {"Eq(", "Ne(", *TURNED}:
         return True
@@ -173,7 +173,7 @@ def test_one_altered_number_in_any_line_is_found(name: str) -> None:
     page, tried = json.loads(json_of(name)), 0
     for step in page["steps"]:
         if not list(pairs(step)):
-            continue  # one line, which no formula is set against
+            continue
         for form in step["chain"]:
             true = form["sympy"]
             for form["sympy"] in altered(true):

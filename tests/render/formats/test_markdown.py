@@ -1,4 +1,4 @@
-"""The format of Markdown: it says who wrote it, and its drawings stand beside it."""
+"""A Markdown page names derive as its author, and its drawings are in the same folder."""
 
 from __future__ import annotations
 

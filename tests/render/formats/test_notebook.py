@@ -1,4 +1,4 @@
-"""The format of notebooks: valid by Jupyter's own schema, and its cells derive what the page says."""
+"""A notebook satisfies Jupyter's schema, and its cells derive the results of the page."""
 
 from __future__ import annotations
 
@@ -15,10 +15,9 @@ from derive.render.formats.notebook import FORMAT
 from tests.courses import ROOT, course_in, rendered_once
 from tests.test_transcripts import PAGES
 
-SCHEMA = json.loads(Path(__file__).with_name("nbformat.v4.5.schema.json").read_text(encoding="utf-8"))  # of nbformat
+SCHEMA = json.loads(Path(__file__).with_name("nbformat.v4.5.schema.json").read_text(encoding="utf-8"))  # from nbformat
 
-# Runs the cells of a notebook as Jupyter does, each in the names that those before it have left, and tells what each
-# shows: the value of its last line.
+# Runs the cells of a notebook in order, as Jupyter does, and reports the value of the last line of each cell.
 RUN = """
 import ast, json, sys
 
@@ -68,7 +67,7 @@ def test_its_cells_derive_the_answers_of_the_page(tmp_path: Path, name: str) -> 
     shown = run(found.texts["notebook"], course / "problems")
     answers = {key: (sympy, number) for key, sympy, number, _ in (each for each in shown if each[0] != "drawing")}
     wanted = {key: (each["sympy"], (each["number"] or {"text": ""})["text"]) for key, each in page["answers"].items()}
-    extra = {key for part in page["parts"] if part["extra"] for key in part["answers"]}  # on full pages alone
+    extra = {key for part in page["parts"] if part["extra"] for key in part["answers"]}  # shown only on full pages
     assert answers.keys() >= wanted.keys() - extra
     assert answers == {key: wanted[key] for key in answers}
     assert all(said.startswith(r"$\displaystyle ") for *_, said in (each for each in shown if each[0] != "drawing"))

@@ -1,4 +1,4 @@
-"""The format of text: the page of a terminal, which nothing imports before a page is rendered."""
+"""Tests of the page for a terminal, whose module is imported only when a page is rendered."""
 
 from __future__ import annotations
 
