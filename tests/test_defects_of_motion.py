@@ -153,7 +153,7 @@ VALUES: dict[str, dict[str, str]] = {
 
 # problem -> the texts that its page contains, and the texts that it does not contain
 SAID: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
-    "acc_where": (("Provided that cos q ≠ 0, solving the equations of motion",), ()),
+    "acc_where": (("provided that cos q ≠ 0",), ()),
     "beats4": (("x_1 = A, x_2 = B, ẋ_1 = v, ẋ_2 = u at t = 0",), ("all else zero",)),
     "break_no_gravity": (("Terms of higher order, if there are any, decide",), ("that were neglected",)),
     "con_scaled": (("multiplier times the gradient", "whose length is √10"), ("give the force of",)),

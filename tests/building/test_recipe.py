@@ -13,7 +13,7 @@ from derive.building.recipe import DETAIL, EVIDENCE, MODULES, OWN, edited_since,
 def test_each_ingredient_has_its_name(tmp_path: Path) -> None:
     (tmp_path / "templates" / "latex").mkdir(parents=True)
     (tmp_path / "templates" / "latex" / "set.tex.j2").write_text("one")
-    found = recipe_of(tmp_path, "hw", "full", "none")
+    found = recipe_of(tmp_path, "full", "none")
     assert {MODULES, DETAIL, EVIDENCE, *PACKAGES, "templates/latex/set.tex.j2"} <= found.keys()
     assert any(name.startswith(f"{OWN}/phrases/en/") for name in found)
     assert (found[DETAIL], found[EVIDENCE]) == ("full", "none")
@@ -36,9 +36,9 @@ def test_an_edit_changes_one_ingredient_and_the_digest(tmp_path: Path) -> None:
     file = tmp_path / "templates" / "own.j2"
     file.parent.mkdir()
     file.write_text("one")
-    before = recipe_of(tmp_path, "hw", None, "none")
+    before = recipe_of(tmp_path, None, "none")
     file.write_text("two")
-    after = recipe_of(tmp_path, "hw", None, "none")
+    after = recipe_of(tmp_path, None, "none")
     assert {name for name in before if before[name] != after[name]} == {"templates/own.j2"}
     assert recipe_digest(before) != recipe_digest(after)
     assert recipe_digest(before) == recipe_digest(dict(reversed(before.items())))
