@@ -140,6 +140,7 @@ def contact(
                a round body rolls; this requires |F| <= mu_s N, for a rail |F| <= mu_s |N|, and in space
                sqrt(F_x^2 + F_y^2) <= mu_s N
     force      with `static`: the symbol of the friction F, in newtons, positive as for `rolling`
+
     Equal and opposite forces act on the material points of the body and of the surface. The distance of a round body
     from the surface is the distance of its centre from the surface, minus the radius of the body. In space, a disc, a
     hoop, a cylinder or a cone touches a plane at the lowest point of a rim. Let e be the unit vector along the axis of

@@ -44,6 +44,7 @@ def pin(of: Any, to: Any, force: str = "R") -> tuple[Pin | Constraint, ...]:
     of, to   the two points: points of bodies, bodies (at the centre of mass), particles, or places without coordinates
     force    the symbol R of the force on `of`, N; its components are R_x and R_y, in space also R_z. A component does
              not appear if the coordinates alone keep the two points together along its axis
+
     The opposite force acts on `to`.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 2.
     """
@@ -74,6 +75,7 @@ def weld(of: Any, to: Any, force: str = "R", torque: str = "C") -> tuple[Pin | C
     of, to   points of bodies, as for `pin`
     force    the symbol of the force on `of`, as for `pin`
     torque   the symbol of the couple on `of`, N m
+
     The angle keeps the value that it has where all coordinates are zero.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 2.
     """
@@ -110,6 +112,7 @@ def motor(on: Any, turns: Any, torque: str = "M") -> tuple[Motor, Constraint]:
     on      the angle: a coordinate, or a formula that contains coordinates
     turns   the value of the angle, a function of time such as `Omega*t`
     torque  the symbol of the torque of the motor, N m; positive in the direction in which the angle increases
+
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4.
     """
     require_no_coordinate("motor", "value of the angle", as_expr(turns))
@@ -169,6 +172,7 @@ def dashpot(constant: Any, start: Any, end: Any) -> tuple[Dashpot, Damper]:
 
     constant     the damping constant c, kg/s
     start, end   particles, bodies, points of bodies, or places
+
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, section 11.3.
     """
     if not all(map(is_end, (start, end))):

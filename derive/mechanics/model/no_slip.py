@@ -49,6 +49,7 @@ def no_slip(
     fixes    the coordinate whose rate is isolated; by default the coordinate of the last rotation. If the coefficient
              of this rate in the condition varies, a rate with a constant coefficient is isolated instead, if there is
              one
+
     Each independent condition isolates a different rate. A condition can be integrated if all its terms are constants
     times rates. It may then be a part of a `System`, where it expresses one coordinate by other coordinates.
     Second route: differentiate the place of the particle at the contact, whose position in the body is constant.
@@ -174,6 +175,7 @@ def velocity_at(of: Any, at: Location) -> Location:
     """Velocity of the material at a place, m/s.
 
     of   a body, axes, a place or a particle that moves with the material; None if the material is at rest
+
     For a body the result is v + omega x (r_place - r); for rotating axes it is R_dot R^T r, which is omega x r.
     """
     if of is None:

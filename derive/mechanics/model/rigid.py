@@ -55,6 +55,7 @@ def angular_velocity(
     axes    the rotating axes; each rotation is about one of the axes as they are after the previous rotations
     along   the axes of the components: `space`, or the axes after some of the rotations; by default the axes themselves
     body    the body that rotates with the axes, if it has a name
+
     Second route: the antisymmetric matrix R_dot R^T, where the rotation matrix R is differentiated as a function of t.
     Outcomes: body (components along the axes themselves), following (along the axes after some of the rotations), space
     (along fixed axes).

@@ -212,6 +212,7 @@ def string(
                  height of the particle must be constant; gravity acts on each piece of the rope
     drawn_tension   the symbol of the tension in force diagrams, if the coordinates keep the length of the string, so
                  that no equation contains the tension; for a rope with mass, the tension at its bends
+
     The tension is the same everywhere in a string without mass. The string pulls each end along the string, and each
     pulley along the two adjacent pieces of the string.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 3.
@@ -265,6 +266,7 @@ def massless_rod(start: Any, end: Any, length: Any = None, force: str = "") -> t
     length       the length of the rod, m
     force        the symbol of the force in the rod, N; positive in tension. The symbol and the length are required if
                  the coordinates allow the length to change
+
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 3.
     """
     return _of_length("massless_rod", (start, end), length, force)
@@ -403,6 +405,7 @@ def wound_string(end: Any, on: Any, tension: str = "T") -> tuple[Line, Constrain
     on       a round body in a plane: a yo-yo, or a pulley with a moment of inertia. The string touches the rim at the
              height of the axis, or straight above or below the axis
     tension  the symbol of the tension of this piece, N; positive if the string pulls
+
     Along the string, the rim at the point of contact and the string have the same velocity.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 7.
     """

@@ -296,6 +296,7 @@ def curve(
     below    whether the free side is below the curve; by default it is above
     of       the body or particle that carries the curve; the curve moves with this object, without rotation
     is_two_sided   as for `plane`
+
     The normal force N on a particle acts along the unit normal (-f', 1)/sqrt(1 + f'^2). The gradient of
     y - f(x) has the length sqrt(1 + f'^2), so the multiplier of the condition y - f(x) = 0 is N/sqrt(1 + f'^2).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4.
