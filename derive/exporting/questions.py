@@ -36,7 +36,7 @@ class Answer:
 
     @property
     def tolerance(self) -> float:
-        """Half a unit of the last printed figure; 0 without a number."""
+        """Half a unit of the last printed figure; 0 if there is no number or the number is 0."""
         if self.value is None or not self.value:
             return 0.0
         exponent = f"{self.value:.{(self.figures or 4) - 1}e}".partition("e")[2]
@@ -55,7 +55,7 @@ class Answer:
 
 @dataclass(frozen=True)
 class Part:
-    """A question with its answers; the texts are HTML with formulas in TeX between `\\\\(` and `\\\\)`."""
+    """A question with its answers; the texts are HTML with formulas in TeX."""
 
     label: str
     points: float | None
