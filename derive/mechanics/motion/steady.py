@@ -43,6 +43,7 @@ def steady_motion(
     key: str = "steady_motion",
 ) -> Quantity | tuple[Quantity, ...]:
     """Condition of a steady motion, dL/dq = 0 at q_dot = 0, for each coordinate q that is not cyclic.
+
     of      the Lagrangian, J, which must not contain the time; or the equation of motion of one coordinate, with the
             values of conserved momenta substituted
     rates   constant rates of cyclic coordinates, `{phi: Omega}`; a rate that is not given keeps its symbol
