@@ -1,12 +1,11 @@
-"""Find slow tests all of whose lines are run by other tests, and list them: the default run leaves them out.
+"""List slow tests whose lines are all run by other tests. The default run leaves these tests out.
 
     python -P -m tests.covered
 
 The tests of a default run are measured line by line, which takes about twice the time of a run. A test is listed if it
 takes more than `SLOW` seconds and if each line of `derive` that it runs is run by at least one test that is not listed.
-The slowest tests are listed first. Tests in the folders `PROCESSES` are not listed, because lines that other processes
-run are not measured. A test on the list fails no less often than others if the code that it tests is wrong, so run all
-tests (`DERIVE_ALL_TESTS=1 make test`) before a release.
+Tests in the folders `PROCESSES` are not listed, because lines that other processes run are not measured. A listed test
+may still find an error that the others do not find, so run all tests (`DERIVE_ALL_TESTS=1 make test`) before a release.
 """
 
 from __future__ import annotations
@@ -41,7 +40,7 @@ class Durations:
 
 
 def lines_by_test(file: Path) -> dict[str, set[tuple[str, int]]]:
-    """Return the lines that each test has run: source file and number."""
+    """Return the lines that each test has run, each with its file and number."""
     from coverage import CoverageData
 
     data = CoverageData(str(file))
@@ -56,7 +55,7 @@ def lines_by_test(file: Path) -> dict[str, set[tuple[str, int]]]:
 
 
 def superfluous(lines: dict[str, set[tuple[str, int]]], durations: Counter[str]) -> list[str]:
-    """Return tests whose lines are all run by tests that are not returned; slow tests are chosen first."""
+    """Return slow tests whose lines are all run by tests that are not returned."""
     runs = Counter(line for each in lines.values() for line in each)
     chosen = []
     for test in sorted(lines, key=lambda test: -durations[test]):
