@@ -171,7 +171,7 @@ class _Auditor:
         self.claims: list[Claim] = []
 
     def begin(self, scope: int) -> None:
-        """Begin a problem or section, in which no equations of earlier ones are known."""
+        """Begin a problem or section; the rows of earlier ones are not used."""
         self.scope = scope
         self.meaning.scope = scope
         self.known = self.scopes[scope] = self.assumptions()

@@ -39,7 +39,6 @@ class Surface:
     points: list[Numbers] = field(default_factory=list)
 
     def find(self, count: int) -> Surface:
-        """Find the points."""
         here = self.begin(0)
         for each in self.equations:
             found = self.moved(here, [*self.kept, each])

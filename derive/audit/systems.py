@@ -261,7 +261,6 @@ class System:
         self.connect()
 
     def choose(self, equations: Sequence[Equation]) -> list[Symbol]:
-        """Return the letters to eliminate."""
         if self.rates_only and self.letter is not None:
             both = self.wanted.free_symbols.union(*(each.value.free_symbols for each in equations))
             return sorted({each for each in both if self.known.is_rate(each)} | {self.letter}, key=str)
