@@ -1,4 +1,4 @@
-"""Find slow tests all of whose lines are run by other tests, and list them: the default run leaves them out.
+"""List slow tests whose lines are all run by other tests. The default run leaves these tests out.
 
     python -P -m tests.covered
 
@@ -41,7 +41,7 @@ class Durations:
 
 
 def lines_by_test(file: Path) -> dict[str, set[tuple[str, int]]]:
-    """Return the lines that each test has run: source file and number."""
+    """Return the lines that each test has run, each with its file and number."""
     from coverage import CoverageData
 
     data = CoverageData(str(file))
@@ -56,7 +56,7 @@ def lines_by_test(file: Path) -> dict[str, set[tuple[str, int]]]:
 
 
 def superfluous(lines: dict[str, set[tuple[str, int]]], durations: Counter[str]) -> list[str]:
-    """Return tests whose lines are all run by tests that are not returned; slow tests are chosen first."""
+    """Return slow tests whose lines are all run by tests that are not returned."""
     runs = Counter(line for each in lines.values() for line in each)
     chosen = []
     for test in sorted(lines, key=lambda test: -durations[test]):

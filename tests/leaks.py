@@ -1,5 +1,5 @@
-"""Every form in which a file for students could show an answer: values, formulas as text, TeX and MathML, in the pages
-of a PDF and in its hidden objects."""
+"""Search for answers in files for students: values and formulas as text, TeX and MathML, also in hidden objects of a
+PDF."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def plain(text: str) -> str:
 
 
 def forms_of_answers(texts: Mapping[str, str]) -> set[str]:
-    """Return every form of each answer on a page that was printed as JSON and, if wanted, HTML."""
+    """Return the forms of each answer on a page that was printed as JSON and, optionally, HTML."""
     found = set[str]()
     for answer in json.loads(texts["json"])["answers"].values():
         found |= {answer["sympy"], *(answer[form].rpartition(" = ")[2] for form in ("text", "latex"))}
@@ -30,7 +30,7 @@ def forms_of_answers(texts: Mapping[str, str]) -> set[str]:
 
 
 def texts_in(file: Path) -> Iterable[str]:
-    """Return all text in a file; in a PDF, that of its pages and of every object and stream."""
+    """Yield the text in a file; for a PDF, the text of its pages and of its objects and streams."""
     yield file.name
     if file.suffix != ".pdf":
         yield file.read_text()
@@ -47,7 +47,7 @@ def texts_in(file: Path) -> Iterable[str]:
 
 
 def leaks(folder: Path, texts: Mapping[str, str]) -> list[str]:
-    """Return each file of a folder with the form of an answer that it shows."""
+    """Return the names of files that show an answer, each with the form of the answer."""
     forms = forms_of_answers(texts)
     assert forms
     found = []

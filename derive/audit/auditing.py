@@ -1,4 +1,4 @@
-"""The audit of a whole document: each claim in its order, with what the claims before it gave."""
+"""The audit of a whole document, claim by claim."""
 
 from __future__ import annotations
 
@@ -94,7 +94,7 @@ def claims_of(document: Document) -> tuple[list[Claim], Facts, list[tuple[Row, s
             read = nodes[id(statement)]
             for index, relation in enumerate(statement.relations):
                 if any(isinstance(node, Text) and node.text == "?" for node, _ in read[index : index + 2]):
-                    continue  # a blank that the reader of the document fills in
+                    continue  # the document leaves a blank here
                 (left, left_fault), (right, right_fault) = read[index], read[index + 1]
                 claim = Claim(
                     len(claims), row, statement, index, relation, left, right,
@@ -118,7 +118,6 @@ def scope_of(document: Document, row: Row) -> int:
 
 
 def _head(statement: Statement) -> Statement:
-    """Return the statement with which a chain begins."""
     while statement.follows is not None:
         statement = statement.follows
     return statement
@@ -172,7 +171,7 @@ class _Auditor:
         self.claims: list[Claim] = []
 
     def begin(self, scope: int) -> None:
-        """Begin a problem or section, in which only the assumed equations are known at first."""
+        """Begin a problem or section; the rows of earlier ones are not used."""
         self.scope = scope
         self.meaning.scope = scope
         self.known = self.scopes[scope] = self.assumptions()
@@ -241,7 +240,7 @@ class _Auditor:
         self.late += max(0.0, process_time() - begun - USUAL_SECONDS)
 
     def remark(self, claim: Claim, verdict: Verdict) -> None:
-        """Point to a probable slip: a letter equal to itself, or one entry that breaks a symmetry."""
+        """Report a probable slip, such as an entry that breaks the symmetry of a matrix."""
         if (
             isinstance(claim.left, Letter)
             and isinstance(claim.right, Letter)
@@ -266,7 +265,6 @@ class _Auditor:
                 verdict.why_plausible, verdict.span = "the matrix is symmetric except for this pair", span
 
     def odd_entry(self, matrix: Mat) -> tuple[int, int, Span] | None:
-        """Return row, column and span of the only entry below the diagonal that makes a matrix unsymmetric."""
         if len(matrix.rows) != 3 or any(len(row) != 3 for row in matrix.rows) or matrix.determinant:
             return None
         try:
@@ -282,7 +280,7 @@ class _Auditor:
         return i + 1, j + 1, matrix.rows[i][j].span
 
     def best(self, claim: Claim) -> Verdict:
-        """Return the verdict for the reading that makes the claim hold, or for the likeliest reading."""
+        """Return the verdict for the best reading of a claim."""
         first: Verdict | None = None
         reason = ""
         seen: list[tuple[Value, Value]] = []
@@ -330,7 +328,6 @@ class _Auditor:
         return first
 
     def compare_repeated(self, claim: Claim, left_side: Node, verdict: Verdict) -> None:
-        """Blame a row that announces an earlier result if one change turns the row into this result."""
         assert claim.right is not None and verdict.repeated is not None
         right_node = readings(claim.right, self.facts)[0][0]
         until = process_time() + SECONDS_OF_SEARCH
@@ -339,7 +336,7 @@ class _Auditor:
             verdict.because = "the row repeats an earlier result with a change"
 
     def accuse_if_near(self, claim: Claim, verdict: Verdict) -> None:
-        """Blame a row that does not follow but would follow after one small change."""
+        """Report a row that does not follow, but would follow after one small change."""
         if claim.values is None or claim.relation not in ("=", ":="):
             return
         if claim.row.block.cues & {Cue.APPROXIMATE, Cue.INCORRECT}:
@@ -383,7 +380,6 @@ class _Auditor:
         return letters + [each for each in more if (each.identity, each.dots) not in known][:MOST_INDICES]
 
     def accuse_if_letters_agree(self, claim: Claim, verdict: Verdict) -> None:
-        """Blame an equation that contradicts the row above it in its block and contains no other letters."""
         rows = claim.row.block.rows
         at = rows.index(claim.row)
         if claim.is_step or claim.values is None or at == 0 or claim.row.statements[0] is not claim.statement:
@@ -405,7 +401,6 @@ class _Auditor:
             verdict.because, verdict.counterexample = "it does not follow from the row above it", example
 
     def fixes_before(self, claim: Claim) -> list[Fix]:
-        """Return changes of earlier rows, each of which follows from all other rows up to a claim that does not."""
         if claim.values is None or any(isinstance(each, MatrixBase) for each in claim.values):
             return []
         found: list[Fix] = []
@@ -427,7 +422,6 @@ class _Auditor:
         return found
 
     def may_be_changed(self, claim: Claim) -> bool:
-        """Whether a row was believed without a reason."""
         if claim.verdict is None or claim.verdict.outcome is not Outcome.DEFINES or claim.relation not in ("=", ":="):
             return False
         if claim.left is None or claim.right is None or claim.values is None:
@@ -441,7 +435,7 @@ class _Auditor:
         return found
 
     def known_without(self, earlier: Claim, claim: Claim) -> Known:
-        """Return what the rows up to a claim give if this claim is right and an earlier one is not read."""
+        """Return what the rows before a claim give if one of them is not read."""
         kept, self.known = self.known, self.assumptions()
         try:
             for each in self.claims[: claim.number + 1]:
@@ -472,7 +466,6 @@ class _Auditor:
         return None if edit is not None and claim.is_step and self.repeats_a_side(claim, edit.node) else edit
 
     def blame_earlier_rows(self) -> None:
-        """Blame an earlier row if one change of it makes several wrong claims hold, or one without a suggestion."""
         for earlier in {fix.earlier.number: fix.earlier for fix in self.fixes}.values():
             edits = Counter((fix.edit.was, fix.edit.meant) for fix in self.fixes if fix.earlier is earlier)
             chosen, _count = edits.most_common(1)[0]
@@ -496,7 +489,7 @@ class _Auditor:
                     fix.claim.verdict.because += f"; or the slip is in line {earlier.row.line}: {meant}"
 
     def blame_odd_dimensions(self) -> None:
-        """In each scope, blame the row whose terms contradict the dimensions that all other rows give."""
+        """Report rows whose terms contradict the dimensions that the other rows give."""
         by_scope: dict[int, list[Claim]] = {}
         for claim in self.claims:
             by_scope.setdefault(scope_of(self.document, claim.row), []).append(claim)
@@ -510,7 +503,7 @@ class _Auditor:
         return self.document.source.text[span.start : span.end].strip()
 
     def may_be_special(self, claim: Claim) -> bool:
-        """Whether words or formulas before a claim show that it may hold in a special case only."""
+        """Whether a claim may hold in a special case only."""
         if Cue.APPROXIMATE in claim.row.block.cues:
             return True
         for each in reversed(self.claims[: claim.number]):
@@ -529,7 +522,7 @@ class _Auditor:
         return terms_in(sides, self.shown)
 
     def repeats_a_side(self, claim: Claim, node: Node) -> bool:
-        """Whether a changed side is an earlier side of its chain: `a = b = a` says nothing, so it was not meant."""
+        """Whether a changed side repeats an earlier side of its chain: `a = b = a` says nothing."""
         value, before = self.meaning.of(node), claim.before
         while before is not None:
             if before.values is not None and value in before.values:
@@ -538,7 +531,6 @@ class _Auditor:
         return False
 
     def loses_letters(self, claim: Claim) -> bool:
-        """Whether letters of the left side are missing on the right."""
         assert claim.values is not None
         left, right = (self.expanded(each) for each in claim.values)
         return bool(left.free_symbols - right.free_symbols)
@@ -613,7 +605,7 @@ class _Auditor:
         return found[-1][0][0] if found else value
 
     def of_missing_differential(self, claim: Claim, left_side: Node) -> Verdict | None:
-        """Blame an integral without a differential if one change, such as `d x` for `x`, makes the claim right."""
+        """Report an integral without a differential if one change makes the claim right."""
         assert claim.right is not None
         if not any(isinstance(each, Int) for each in claim.right.walk()):
             return None
@@ -632,7 +624,7 @@ class _Auditor:
     def of_values(
         self, claim: Claim, left: Value, right: Value, meaning: Meaning, cues: frozenset[Cue], thorough: bool = True
     ) -> Verdict:
-        """Return the verdict; a claim that follows only from a wrong row inherits the slip of that row."""
+        """Return the verdict on a claim whose sides have these values."""
         verdict = Decision(claim, left, right, meaning, self.known, cues, thorough).verdict()
         if verdict.outcome in GOOD:
             return verdict
@@ -660,7 +652,6 @@ class _Auditor:
         cues: frozenset[Cue],
         verdict: Verdict,
     ) -> Verdict:
-        """Compare the right side also with the left side of the wrong claim before it."""
         assert wrong.values is not None
         again = Decision(claim, wrong.values[0], right, meaning, self.known, cues).verdict()
         if again.outcome in GOOD:
@@ -673,7 +664,7 @@ class _Auditor:
         return found[-1].value if found else None
 
     def last_good_side(self, claim: Claim) -> Node | None:
-        """Return the left side, or the side before it in its chain if the left side is not read or has no value."""
+        """Return the left side, or an earlier side of the chain if the left side has no value."""
         asked = claim
         while claim.before is not None and (
             claim.left is None or claim.before.right is None or claim.before.values is None
@@ -686,7 +677,6 @@ class _Auditor:
         return claim.left
 
     def sides(self, left: Node, right: Node, meaning: Meaning) -> tuple[Value, Value]:
-        """Return the values of two sides; a letter in its own list of components is a number in the list."""
         for letter, other, first in ((left, right, True), (right, left, False)):
             shape = shape_of(other)
             if isinstance(letter, Letter) and shape is not None and any(
@@ -704,7 +694,7 @@ class _Auditor:
         return meaning.of(left), meaning.of(right)
 
     def is_special_case(self, claim: Claim) -> bool:
-        """Whether a sentence sets a letter equal to a multiple of another letter in one case only: `if R = a/2`."""
+        """Whether a sentence gives a letter a value in one case only: `if R = a/2`."""
         assert claim.values is not None
         left, right = claim.values
         block = claim.row.block
@@ -712,7 +702,7 @@ class _Auditor:
         return bool(simple and not block.display and Cue.GIVEN in block.cues and right.as_coeff_Mul()[1].is_Symbol)
 
     def is_condition(self, claim: Claim, verdict: Verdict) -> bool:
-        """Whether a formula in a sentence, or a result of it, may hold in one case or at one instant only."""
+        """Whether a formula in a sentence may hold in one case or at one instant only."""
         if verdict.outcome in (Outcome.HOLDS, Outcome.APPROXIMATES):
             return bool(self.known.conditions & set(verdict.given))
         if claim.row.block.display:
@@ -725,7 +715,7 @@ class _Auditor:
         return any(letter in equation.free_symbols for equation, _ in self.known.equations)
 
     def remember(self, claim: Claim, believed: bool = False) -> None:
-        """Remember a definition or an equation for the rows that follow; a wrong one only if it is believed."""
+        """Remember a definition or an equation for the rows that follow."""
         if claim.values is None or claim.verdict is None:
             return
         if self.is_special_case(claim):
@@ -769,7 +759,6 @@ class _Auditor:
 
 
 def same_letters(side: Node | None) -> Node | None:
-    """Return a sum of which two terms are the same letter."""
     for each in side.walk() if side is not None else ():
         if isinstance(each, Add):
             letters = [(term.identity, term.dots) for _, term in each.terms if isinstance(term, Letter)]

@@ -21,7 +21,7 @@ class Definition:
     symbol: Symbol
     value: Expr
     claim: int
-    implied: bool = False  # not written, but needed by a step
+    implied: bool = False  # the document does not state this definition, but a step needs it
     part: int = -1  # the part of the document in which the letter got this value
     chain: int = -1  # the number of the first claim of the chain
 
@@ -59,14 +59,14 @@ class Claim:
     number: int
     row: Row
     statement: Statement
-    index: int  # which pair of sides of the statement
+    index: int  # the index of the pair of sides in the statement
     relation: str
     left: Node | None
     right: Node | None
     left_span: Span
     right_span: Span
     fault: str = ""
-    before: Claim | None = None  # the claim whose right side is this one's left side
+    before: Claim | None = None  # the claim whose right side is the left side of this claim
     verdict: Verdict | None = None
     values: tuple[Value, Value] | None = None
     decimals: tuple[tuple[Value, int], ...] = ()  # the decimals in its sides, with their digits after the point
@@ -75,5 +75,5 @@ class Claim:
 
     @property
     def is_step(self) -> bool:
-        """Whether the left side is the result of a calculation: the right side of the claim before it."""
+        """Whether the left side is the right side of the claim before it."""
         return self.before is not None and not self.from_head

@@ -1,10 +1,7 @@
 """The verdict on one claim: whether its right side follows from its left side and from what earlier rows gave.
 
-The tests go from the cheapest and strictest to the most generous: the sides are equal; they are equal after
-substituting definitions; they agree to the printed digits; they agree to the leading order in small letters; the
-equation follows from earlier equations. If no test succeeds, a step `differs` only if all letters are understood, the
-right side has no new letters, and numbers show that the sides are not equal. A few tests find an error themselves, such
-as a bound that was converted wrongly.
+A claim holds, for example, if its sides are equal after definitions are substituted, or if it follows from earlier
+equations. A claim `differs` if numbers show that its sides are not equal.
 """
 
 from __future__ import annotations
@@ -61,7 +58,7 @@ def _equal(left: Value, right: Value) -> bool:
 
 @dataclass
 class Decision:
-    """Decides one claim with one reading of its sides."""
+    """The decision on one claim with one reading of its sides."""
 
     claim: Claim
     left: Value
@@ -121,7 +118,7 @@ class Decision:
         return len(number.free_symbols) > 1
 
     def definition(self) -> Verdict | None:
-        """A letter that has no value yet gets one."""
+        """Judge a claim that gives a value to a letter without a value."""
         if self.claim.relation not in ("=", ":=", "~"):
             return None
         if isinstance(self.left, MatrixBase) and isinstance(self.right, MatrixBase) and not self.claim.is_step:
@@ -151,7 +148,7 @@ class Decision:
         return None
 
     def square(self) -> Verdict | None:
-        """A power of a letter that was not used before gets a value: `v^2 = ...`."""
+        """Judge a claim that gives a value to a power of a letter: `v^2 = ...`."""
         if self.claim.is_step or self.claim.relation not in ("=", ":="):
             return None
         if not (isinstance(self.left, sympy.Pow) and isinstance(self.left.base, Symbol) and self.left.exp == 2):
@@ -166,7 +163,7 @@ class Decision:
         return Verdict(Outcome.DEFINES, f"a value for {_word(letter)} squared")
 
     def of_known_form(self, letter: Symbol, value: Expr) -> Verdict | None:
-        """Blame a kinetic energy with a negative square, and a Lagrangian that is not T - U in its letters."""
+        """Report a kinetic energy with a negative square, or a Lagrangian that is not T - U."""
         named = self.meaning.symbols.get(letter)
         if named is not None and named.base in ("T", "K") and not named.dots and self.is_negative(value):
             return Verdict(Outcome.DIFFERS, "a kinetic energy does not fall when a speed grows")
@@ -187,7 +184,6 @@ class Decision:
         )  # fmt: skip
 
     def is_negative(self, value: Expr) -> bool:
-        """Whether a sum of squares of rates has a square with a negative factor."""
         rates = [each for each in value.free_symbols if self.known.is_rate(each)]
         doubled = value.subs({each: 2 * each for each in rates}, simultaneous=True)
         if not rates or sympy.expand(doubled - 4 * value) != 0:
@@ -196,7 +192,8 @@ class Decision:
         return any(number.real < 0 for numbers in squares if numbers is not None for number in numbers)
 
     def of_root(self, letter: Symbol, value: Expr) -> Verdict | None:
-        """A letter with an index names a root of an earlier equation for the letter without the index."""
+        """Judge a claim that gives a root of an earlier equation: the letter with an index names a root for the letter
+        without it."""
         if not self.claim.row.block.display or not self.thorough:
             return None
         found = root_equation(letter, self.meaning, self.known)
@@ -226,7 +223,7 @@ class Decision:
         return None
 
     def of_used_letter(self, letter: Symbol) -> Verdict | None:
-        """A letter of earlier equations gets a value, which either follows from them or contradicts them."""
+        """Judge a claim that gives a value to a letter of earlier equations."""
         if not any(letter in equation.free_symbols for equation, _ in self.known.equations):
             return None
         if (found := self.together()) is not None:
@@ -236,7 +233,6 @@ class Decision:
         return None
 
     def value_of_letter(self) -> list[complex] | None:
-        """Return the numbers that earlier rows give to the letter of this claim, or None."""
         for rates_only in (False, True):
             system = self.system(sure=True, rates_only=rates_only)
             values = system.value_of_letter() if system is not None else None
@@ -245,7 +241,6 @@ class Decision:
         return None
 
     def system(self, sure: bool, rates_only: bool = False) -> System | None:
-        """Return the earlier equations, prepared for this claim."""
         if not self.thorough or self.claim.relation not in ("=", ":=") or isinstance(self.difference, MatrixBase):
             return None
         letter = next((each for each in (self.left, self.right) if isinstance(each, Symbol)), None)
@@ -256,7 +251,6 @@ class Decision:
         return System(wanted, equations, self.meaning, self.known, letter, rates_only)
 
     def together(self) -> Verdict | None:
-        """The claim is a combination of several earlier equations."""
         for sure in (True, False):
             system = self.system(sure)
             used = system.follows() if system is not None else None
@@ -383,7 +377,7 @@ class Decision:
     # Conditions and equations
 
     def condition(self) -> Verdict | None:
-        """Decide a comparison of two numbers or a bound in other units; any other inequality is a condition."""
+        """Judge an inequality."""
         if self.claim.relation not in ("<", ">", "<=", ">=", "<<", ">>", "!="):
             return None
         difference = self.left - self.right if not isinstance(self.left, MatrixBase) else None
@@ -422,7 +416,7 @@ class Decision:
         return self.left - self.right
 
     def consequence(self) -> Verdict | None:
-        """An equation follows from earlier ones: by a factor, a sum, or the solution for a letter."""
+        """Judge an equation that may follow from earlier equations."""
         if self.claim.relation not in ("=", ":=") or isinstance(self.difference, MatrixBase):
             return None
         if sympy.count_ops(self.difference) > 2 * LARGEST_GOAL:
@@ -469,7 +463,7 @@ class Decision:
         return None
 
     def solution(self, recent: list[tuple[Expr, int]]) -> Verdict | None:
-        """A motion x(t) holds if it satisfies an earlier equation of motion."""
+        """Judge a motion x(t): it holds if it satisfies an earlier equation of motion."""
         if self.claim.is_step or not isinstance(self.left, Symbol) or isinstance(self.right, MatrixBase):
             return None
         letter = self.meaning.symbols.get(self.left)
@@ -488,7 +482,7 @@ class Decision:
         return None
 
     def lagrange(self, wanted: Expr) -> Verdict | None:
-        """An equation of motion follows from the Lagrangian, even if Lagrange's equation is not written."""
+        """Judge an equation of motion: it holds if it follows from the Lagrangian."""
         if not any((letter := self.meaning.symbols.get(each)) is not None and letter.dots
                    for each in wanted.free_symbols):  # fmt: skip
             return None
@@ -510,7 +504,7 @@ class Decision:
         return symbol in self.difference.free_symbols
 
     def implied(self) -> Verdict | None:
-        """A step that introduces one letter holds if a relation that the document does not state holds."""
+        """Judge a step that introduces one letter with the help of a relation that the document does not state."""
         if not self.claim.is_step or isinstance(self.difference, MatrixBase) or self.claim.relation != "=":
             return None
         left, right = self.expansions[-1][0] if self.expansions else (self.left, self.right)
@@ -531,7 +525,6 @@ class Decision:
         return Verdict(Outcome.UNDECIDED, f"this holds if {_word(new[0])} = {value}, which no earlier row states")
 
     def otherwise(self) -> Verdict:
-        """Blame only a step, or the value of a computed rate, whose sides are known completely."""
         left, right = self.expansions[-1][0] if self.expansions else (self.left, self.right)
         computed = isinstance(self.left, Symbol) and self.known.is_kinematic(self.left)
         display = self.claim.row.block.display
@@ -647,7 +640,6 @@ class Decision:
         return False
 
     def special_case(self, left: Value, right: Value) -> bool:
-        """Whether the text may have given values to letters of the left side."""
         if any((letter := self.meaning.symbols.get(each)) is not None and letter.dots
                for each in left.free_symbols - right.free_symbols):  # fmt: skip
             return True  # at rest
@@ -674,7 +666,6 @@ def _word(symbol: Symbol) -> str:
 
 
 def _solves(equation: Expr, letter: Symbol, value: Expr) -> bool:
-    """Whether a value, with both signs of ±, satisfies an equation."""
     for sign in (1, -1) if PLUS_MINUS in value.free_symbols else (1,):
         put_in = equation.subs(letter, value.subs(PLUS_MINUS, sign))
         if put_in != 0 and not _equal(put_in, Integer(0)):
@@ -702,14 +693,12 @@ def _combination(wanted: Expr, equations: list[tuple[Expr, int]]) -> tuple[int, 
 
 
 def is_multiple(wanted: Expr, equation: Expr) -> bool:
-    """Whether one equation is the other times a factor that is a product of numbers and letters."""
     if wanted == 0 or equation == 0:
         return False
     return any(_equal(wanted, ratio * equation) for ratio in _ratios(wanted, equation))
 
 
 def _ratios(wanted: Expr, equation: Expr) -> Iterator[Expr]:
-    """Yield possible factors between two equations: the first term of one divided by each term of the other."""
     first = _terms(wanted)[0]
     terms = _terms(equation)
     for term in terms:
@@ -732,7 +721,6 @@ def _points(symbols: set[Symbol], seed: int) -> Iterator[dict[Symbol, Rational]]
 
 
 def _relative_error(left: Expr, right: Expr) -> float | None:
-    """Return the greatest relative difference at a few points, or None if the sides have no values there."""
     worst = 0.0
     symbols = left.free_symbols | right.free_symbols
     for point in _points(symbols, 3):
@@ -799,7 +787,6 @@ def order_of_error(
 
 
 def _degree(value: Expr, letters: tuple[Symbol, ...]) -> int:
-    """Return the highest power of letters in a polynomial; zero for an expression that is not a polynomial in them."""
     poly = value.as_poly(*letters)
     return int(poly.total_degree()) if poly is not None else 0
 
@@ -822,7 +809,7 @@ def _approximate_multiple(wanted: Expr, equation: Expr, meaning: Meaning) -> boo
 
 
 def counterexample(left: Value, right: Value) -> str:
-    """Return as text the values of two sides where they are real and differ, and the values of the letters there."""
+    """Return an example with numbers, as text, in which two sides differ."""
     symbols = sorted(left.free_symbols | right.free_symbols, key=str)
     for point in _simple_points(symbols):
         for one, other in zip(_entries(left), _entries(right), strict=False):

@@ -1,8 +1,8 @@
 """The dimensions of the letters of a problem, found from its own equations, and the row that contradicts all others.
 
 Each equation says that its terms have one dimension. Together with what a few letters usually are (t is a time, m is a
-mass, g is an acceleration), the equations determine the dimensions of the other letters. A row is blamed only if all
-other rows agree with each other and with these letters, and do not agree with this row.
+mass, g is an acceleration), the equations determine the dimensions of the other letters. A row is reported if it
+contradicts the other rows, and these agree with each other.
 """
 
 from __future__ import annotations
@@ -30,12 +30,12 @@ Form = dict[str, Fraction]  # the exponents of the letters in a product
 
 
 class Unclear(Exception):
-    """A side has no form: it contains numbers that stand for lengths, or something else that is not a letter."""
+    """The error for a side whose dimension cannot be found."""
 
 
 @dataclass
 class Equation:
-    """A product of letters with its dimension: none if a claim gives it, or the usual dimension of a letter."""
+    """A product of letters with its dimension."""
 
     source: int  # the number of a claim, or -1
     form: Form

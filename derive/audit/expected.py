@@ -1,8 +1,7 @@
 """The comparison of a document with the results of a derivation, so that a wrong method is found, too.
 
 The results arrive as LaTeX and are read like the rows of the document, so that both are written in the same letters.
-Each problem is compared with the section that states most of its steps. Other sections are compared, too, if they state
-at least three steps, or at least one and are next to the best section.
+Each problem is compared with the sections that state steps of its derivation.
 """
 
 from __future__ import annotations
@@ -93,7 +92,7 @@ def compared(
     meaning_of: Callable[[int], Meaning],
     expected: Iterable[Expected],
 ) -> list[Compared]:
-    """Return what the document says about each answer, and set the verdict of the claims that contradict one.
+    """Return what the document says about each answer. Claims that contradict an answer get a new verdict.
 
     scopes       the scope of each claim
     known        what the rows of each scope gave
@@ -121,7 +120,7 @@ def compared(
 
 
 def _of(expected: Expected, sections: list[_Section]) -> Compared:
-    """Return where the sections state an answer, and blame the ends of chains that give its letter another value."""
+    """Return where the sections state an answer; report rows that contradict the answer."""
     found = Compared(expected, Status.UNREAD if all(expected.key not in each.results for each in sections) else
                      Status.MISSING)  # fmt: skip
     for section in sections:
@@ -134,7 +133,7 @@ def _of(expected: Expected, sections: list[_Section]) -> Compared:
 
 
 def _read(expected: Expected, facts: Facts, meaning: Meaning) -> _Result | None:
-    """Return a result with the values of its sides, or None if derive's own LaTeX is not read."""
+    """Return a result with the values of its sides; None if it cannot be read."""
     document = read_document(source_of(f"$${expected.latex}$$", Format.TEX))
     statements = [statement for row in document.rows for statement in row.statements]
     if len(statements) != 1 or len(statements[0].sides) != 2:
@@ -151,7 +150,6 @@ def _read(expected: Expected, facts: Facts, meaning: Meaning) -> _Result | None:
 
 
 def _is_equal(result: _Result, claim: Claim) -> bool:
-    """Whether a claim states a result, in the letters in which both are written."""
     if claim.values is None:
         return False
     return _states(result, claim, *claim.values, result.left, result.right)
@@ -186,7 +184,6 @@ def _comparable(one: Value, other: Value) -> bool:
 
 
 def _same_condition(relation: str, difference: Expr, wanted: str, other: Expr) -> bool:
-    """Whether two inequalities are the same up to a positive factor."""
     if relation[:1] not in "<>" or wanted[:1] not in "<>":
         return False
     signs = [1 if each[:1] == ">" else -1 for each in (relation, wanted)]
@@ -195,7 +192,6 @@ def _same_condition(relation: str, difference: Expr, wanted: str, other: Expr) -
 
 
 def _has_name(claim: Claim, name: Node) -> bool:
-    """Whether the first side of the chain of a claim is the letter of a result, whatever its marks are."""
     head = claim
     while head.before is not None:
         head = head.before
@@ -251,7 +247,6 @@ class _Section:
         return found
 
     def states(self, result: _Result, claim: Claim) -> bool:
-        """Whether a claim states a result after substituting definitions of the document, or to the printed digits."""
         if claim.values is None:
             return False
         if any(_states(result, claim, *values) for values in self.expanded(result, claim)):
@@ -273,7 +268,7 @@ class _Section:
         return decision.rounded() is not None
 
     def contradicts(self, result: _Result, claim: Claim, stated: int | None) -> bool:
-        """Whether the last value of a letter, in letters of the answers, differs from the derived value."""
+        """Whether the value that a section gives to a letter differs from the derived value."""
         if claim.values is None or claim.relation not in ("=", "~") or (stated is not None and claim.number <= stated):
             return False
         value = claim.values[1]

@@ -21,7 +21,7 @@ SMALL = 1e-12
 
 @lru_cache(maxsize=20_000)
 def number_of(name: str, point: int) -> float:
-    """Return the number of a letter at a point: 1 or -1 for ±, otherwise a number between 0.4 and 2."""
+    """Return the number of a letter at a point."""
     digest = blake2b(f"{name}|{point}".encode(), digest_size=6).digest()
     if name == "±":
         return 1.0 if point % 2 else -1.0
@@ -72,7 +72,7 @@ def at(value: Expr, number: Callable[[Symbol], complex]) -> complex:
 
 
 def size_at(value: Expr, number: Callable[[Symbol], complex]) -> float:
-    """Return the number of an expression in which nothing is subtracted."""
+    """Return the number of an expression with the sizes of its terms added."""
     if value.is_Add:
         return sum(size_at(each, number) for each in value.args)
     if value.is_Mul:

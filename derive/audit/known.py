@@ -69,7 +69,7 @@ class Known:
                 self.equations.append((each, claim))
 
     def with_slips(self) -> Known | None:
-        """Return the knowledge of a reader who believes the wrong rows, or None if no row is wrong."""
+        """Return the same knowledge with the wrong rows believed; None if no row is wrong."""
         if not self.slips:
             return None
         believed = {symbol: [definition] for symbol, definition in self.slips.items()}
@@ -142,7 +142,7 @@ class Known:
         return letter is not None and letter.dots > 0
 
     def is_kinematic(self, symbol: Symbol) -> bool:
-        """Whether a rate or derivative follows from a definition without rates, whatever the motion is."""
+        """Whether a rate or derivative follows from a definition without rates."""
         if self.computed(symbol) is None:
             return False
         letter = self.meaning.symbols.get(symbol)
@@ -210,7 +210,7 @@ class Known:
         return tuple(each.xreplace(put_in) for each in values), tuple(each.claim for each in found.values())
 
     def recent(self) -> list[tuple[Expr, int]]:
-        """Return the last equations; the last few also with zeros and the values of derivatives substituted."""
+        """Return the last equations, also with known values substituted."""
         last = self.equations[-LAST_EQUATIONS:]
         zeros = {symbol: each[-1].value for symbol, each in self.numbers.items() if each[-1].value == 0}
         put_in = (

@@ -10,8 +10,7 @@ from typing import NoReturn
 
 import sympy
 
-# SymPy raises these for expressions of a document or of an answer that it cannot handle. A claim is then undecided, and
-# an answer is not read, with the reason; so a defect of SymPy never becomes a verdict.
+# SymPy raises these errors for expressions that it cannot handle. A claim is then undecided, and an answer is not read.
 FAULTS = (
     ValueError,
     TypeError,
@@ -25,12 +24,12 @@ AGAIN = 0.5  # seconds of processor time after which the limit is enforced again
 
 
 class OutOfTime(BaseException):
-    """The limit is reached; not an `Exception`, so that no handler in SymPy catches it."""
+    """The limit is reached. This class is not an `Exception`, so that handlers in SymPy do not catch it."""
 
 
 @contextmanager
 def limited(seconds: float) -> Iterator[None]:
-    """Limit the time of the work in the `with` block; a time limit of an enclosing job keeps running."""
+    """Limit the time of the work in the `with` block."""
 
     def stop(*_: object) -> NoReturn:
         signal.setitimer(signal.ITIMER_PROF, AGAIN)  # the exception is lost if it is raised while a cache is cleared

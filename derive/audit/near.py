@@ -1,7 +1,7 @@
 """Whether a row that does not follow would follow after one small change: then the row is probably a slip.
 
-A change is tried with numbers, at points where the earlier equations hold. A row is accused only if one change makes
-it right at all points.
+A change is tried with numbers, at points where the earlier equations hold. A row is accused if one change makes it
+right at all points.
 """
 
 from __future__ import annotations
@@ -59,7 +59,7 @@ class Nearness:
 
     @cached_property
     def bare(self) -> Numbers:
-        """A point where no earlier row holds."""
+        """A point with numbers for the letters; earlier rows need not hold there."""
         return Numbers(self.meaning, lambda symbol: symbol, POINTS)
 
     def defined(self, letter: Symbol | None) -> Callable[[Symbol], Expr]:
@@ -73,7 +73,7 @@ class Nearness:
         return value
 
     def edits(self, side: Node, other: Node | None = None, complete: bool = True) -> list[Edit]:
-        """Return the changes of a side; terms are added or left out only if all letters of the row are known."""
+        """Return the possible changes of a side."""
         if isinstance(side, Num):
             return []
         easy = self.terms is not None and complete
@@ -193,7 +193,7 @@ def terms_of(side: Node) -> list[Node]:
 
 
 def terms_in(sides: Sequence[Node], shown: Shown) -> list[Node]:
-    """Return the terms of all sums, the sides that are not sums, both without derivatives, and the letters."""
+    """Return the terms and the letters of these sides."""
     found: dict[str, Node] = {}
     for side in sides:
         if not isinstance(side, Add | Num) and not any(isinstance(each, Der) for each in side.walk()):

@@ -1,4 +1,4 @@
-"""Numbers for expressions and nodes at a few fixed points: fast enough to try hundreds of changes of a row.
+"""Numbers for expressions and nodes at a few fixed points.
 
 A point gives a number to each letter. A letter that earlier rows define has the value of its definition there.
 """

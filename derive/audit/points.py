@@ -1,7 +1,7 @@
 """Points at which earlier equations hold, with numbers for all letters.
 
-A row that follows from the equations holds at each of these points. Newton's method moves all letters of the
-equations by the shortest step; the letters that change move most easily.
+A row that follows from the equations holds at each of these points. Newton's method finds the points; letters that
+change with time are moved more than others.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ Numbers = dict[Symbol, complex]
 
 @dataclass
 class Surface:
-    """The points at which the equations hold that do not contradict each other; the first equations come first."""
+    """The points at which the equations hold. Equations that contradict earlier ones are left out."""
 
     equations: Sequence[Equation]
     meaning: Meaning
@@ -39,7 +39,6 @@ class Surface:
     points: list[Numbers] = field(default_factory=list)
 
     def find(self, count: int) -> Surface:
-        """Find points, and leave out each equation that makes a letter zero or has no solution with those before."""
         here = self.begin(0)
         for each in self.equations:
             found = self.moved(here, [*self.kept, each])
@@ -97,7 +96,6 @@ class Surface:
         return value, found
 
     def is_general(self, here: Numbers, equations: Sequence[Equation]) -> bool:
-        """Whether no letter of the equations vanishes or grows without limit."""
         letters = set().union(*(each.value.free_symbols for each in equations)) if equations else set()
         return all(
             SMALLEST < abs(here[each]) < LARGEST and (here[each].real > 0 or not each.is_positive) for each in letters
@@ -106,7 +104,7 @@ class Surface:
 
 @lru_cache(maxsize=2000)
 def reduced(value: Expr) -> Expr:
-    """Return an expression without the letters that are factors of all its terms; they are not meant to vanish."""
+    """Return an expression without the letters that are factors of all its terms."""
     terms = factor_terms(expand(value))
     return Mul(*(each for each in Mul.make_args(terms) if not each.as_base_exp()[0].is_Symbol))
 
@@ -116,7 +114,6 @@ def _times(one: Numbers, other: Numbers, weights: dict[Symbol, float]) -> comple
 
 
 def _solved(matrix: list[list[complex]], right: list[complex]) -> list[complex]:
-    """Return the solution of linear equations; a small number on the diagonal makes it unique."""
     count = len(right)
     rows = [[*row, value] for row, value in zip(matrix, right, strict=True)]
     for i, row in enumerate(rows):

@@ -45,7 +45,6 @@ def as_text(audit: Audit, every: bool) -> str:
 
 
 def _not_read(audit: Audit, every: bool) -> Iterator[str]:
-    """Yield a line for each row that is not read: it may be misprinted. With `every`, these rows are shown anyway."""
     verdicts = ((claim.row.line, _verdict(claim)) for claim in audit.claims)
     unread = {line: verdict.because for line, verdict in verdicts if verdict.outcome is Outcome.UNREADABLE}
     if not every:
@@ -53,7 +52,6 @@ def _not_read(audit: Audit, every: bool) -> Iterator[str]:
 
 
 def _of_answers(audit: Audit, every: bool) -> Iterator[str]:
-    """Yield a line for each problem with which the document was compared, and the answers that it does not contain."""
     problems: dict[str, list[Compared]] = {}
     for each in audit.compared:
         problems.setdefault(each.expected.problem, []).append(each)
@@ -171,7 +169,7 @@ _MARKS = {Outcome.HOLDS: "\u2713", Outcome.APPROXIMATES: "\u2248", Outcome.DEFIN
 
 
 def as_html(audit: Audit) -> str:
-    """Return the text of the document with notes in its margin: what each row was read as, and the verdict on it."""
+    """Return the document as HTML, with notes in its margin."""
     notes: dict[int, list[str]] = {}
     marked: set[int] = set()
     for claim in audit.claims:
@@ -206,7 +204,6 @@ def _summary_as_html(audit: Audit, marked: list[int]) -> str:
 
 
 def _note(audit: Audit, claim: Claim) -> str:
-    """Return the note next to a row: first the reading, then the verdict in sentences."""
     verdict = _verdict(claim)
     noteworthy = _is_noteworthy(verdict)
     kind = "noted" if noteworthy and verdict.outcome is not Outcome.DIFFERS else str(verdict.outcome)
@@ -221,7 +218,7 @@ def _note(audit: Audit, claim: Claim) -> str:
 
 
 def sentences(audit: Audit, verdict: Verdict) -> list[str]:
-    """Return a verdict as sentences: what is wrong, an example, what was probably meant, and which slip it repeats."""
+    """Return a verdict as sentences."""
     found = [_sentence(verdict.because)]
     if verdict.counterexample:
         found.append(_sentence(f"for example {verdict.counterexample}"))

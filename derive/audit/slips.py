@@ -55,7 +55,7 @@ def nearest_edit(
 
 
 def edits_of_side(node: Node, letters: Sequence[Letter], shown: Callable[[Span], str]) -> Iterator[Edit]:
-    """Yield the single changes of a whole side; a lost sign before it is one of them."""
+    """Yield the single changes of a whole side."""
     if not isinstance(node, Add):
         was = shown(node.span)
         yield Edit(Add(node.span, (("-", node),)), node.span, was, f"-{was}", "sign", 1.0)
@@ -63,7 +63,7 @@ def edits_of_side(node: Node, letters: Sequence[Letter], shown: Callable[[Span],
 
 
 def with_term(node: Node, term: Node, shown: Callable[[Span], str]) -> Iterator[Edit]:
-    """Yield the changes that add a term to a side, or to a sum or bracket inside it, that lacks this term."""
+    """Yield the changes that add a missing term to a side."""
     was = shown(node.span)
     terms = node.terms if isinstance(node, Add) else (("+", node),)
     written = [shown(each.span) for _, each in terms]
@@ -194,7 +194,6 @@ def _of_sum(node: Add, shown: Callable[[Span], str]) -> Iterator[Edit]:
 
 
 def _other_numbers(text: str) -> Iterator[str]:
-    """Yield numbers with one digit changed or left out, or that differ by one or by a factor of two or ten."""
     seen = {text}
     for i, char in enumerate(text):
         if char.isdigit():

@@ -1,8 +1,8 @@
 """What earlier equations give together, and where a new equation contradicts them.
 
-An equation follows from others if, at a few points, its coefficients are a combination of theirs. The unknowns are the
-letters that are eliminated; their products are unknowns, too. Lagrange's and Hamilton's equations of a function that
-the document defines, and the time derivatives of constraints, belong to the equations that are known.
+An equation follows from others if, at a few points, its coefficients are a combination of theirs. The unknowns are
+products of the letters that are eliminated. Lagrange's and Hamilton's equations of a function that the document defines
+also belong to the known equations.
 """
 
 from __future__ import annotations
@@ -113,7 +113,6 @@ def expanded(
 
 
 def _is_solution(symbol: Symbol, value: Expr, known: Known) -> bool:
-    """Whether a letter that changes gets a value of letters that do not, as in x = A cos(w t) or r = R."""
     meaning = known.meaning
 
     def changes(each: Symbol) -> bool:
@@ -124,7 +123,7 @@ def _is_solution(symbol: Symbol, value: Expr, known: Known) -> bool:
 
 
 def rates(value: Expr, meaning: Meaning, known: Known) -> Iterator[Expr]:
-    """Yield the time derivatives of an equation without second rates; the second one only if it has no rates."""
+    """Yield time derivatives of an equation."""
     letters = [meaning.symbols[each] for each in value.free_symbols if each in meaning.symbols]
     if any(each.dots >= 2 for each in letters) or any(each in meaning.derivatives for each in value.free_symbols):
         return
@@ -190,10 +189,8 @@ def motion(known: Known, meaning: Meaning) -> Iterator[tuple[Expr, tuple[int, ..
 
 
 def root_equation(letter: Symbol, meaning: Meaning, known: Known) -> tuple[Symbol, Expr, int] | None:
-    """Return the letter without its index, and the last equation of which `letter` may name a root: w_1, x_0.
-
-    The equation has no rates and at least two terms, and none of the terms is the letter itself.
-    """
+    """Return the letter without its index, and the last equation of which `letter` may name a root, such as w_1 or
+    x_0."""
     named = meaning.symbols.get(letter)
     if named is None or not named.sub or named.dots or named.marks or named.base == "t":
         return None
@@ -231,7 +228,6 @@ def vanishes(equation: Expr, letter: Symbol, value: Expr, meaning: Meaning, know
 
 
 def _defines(value: Expr, letter: Symbol) -> bool:
-    """Whether an equation gives the letter itself: w = sqrt(k/m)."""
     return value.is_Add and any(each in (letter, -letter) for each in value.args)
 
 
@@ -268,7 +264,6 @@ class System:
         self.connect()
 
     def choose(self, equations: Sequence[Equation]) -> list[Symbol]:
-        """Return the letters to eliminate: those not in the wanted equation, rates, and the letter asked for."""
         if self.rates_only and self.letter is not None:
             both = self.wanted.free_symbols.union(*(each.value.free_symbols for each in equations))
             return sorted({each for each in both if self.known.is_rate(each)} | {self.letter}, key=str)
@@ -302,7 +297,6 @@ class System:
         return poly if poly.total_degree() <= HIGHEST_POWER else None
 
     def connect(self) -> None:
-        """Keep the equations that are connected with the wanted one by unknowns, the last ones first."""
         assert self.of_wanted is not None
         reached = {each for each in self.of_wanted.monoms() if any(each)}
         kept: list[int] = []
@@ -331,7 +325,7 @@ class System:
         return [values.get(each, 0j) for each in columns]
 
     def consistent(self, columns: Sequence[tuple[int, ...]], at: Numbers) -> list[int]:
-        """Return the equations that do not contradict each other, the last ones first."""
+        """Return equations that do not contradict each other."""
         kept: list[int] = []
         rows: list[list[complex]] = []
         constant = [0j] * (len(columns) - 1) + [1 + 0j]
@@ -366,7 +360,6 @@ class System:
             return None
 
     def is_absurd(self, rows: Sequence[Sequence[complex]], columns: Sequence[tuple[int, ...]]) -> bool:
-        """Whether the equations make a length or a mass zero, because they speak of different cases."""
         for i, monom in enumerate(columns):
             if sum(monom) == 1 and self.unknowns[monom.index(1)].is_positive:
                 if spanned(rows, [complex(j == i) for j in range(len(columns))]):

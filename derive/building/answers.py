@@ -1,4 +1,4 @@
-"""The names that the parts of a problem may ask for, each with its meaning and its value."""
+"""The names that the parts of a problem may ask for, with their meanings and values."""
 
 from __future__ import annotations
 
@@ -23,9 +23,9 @@ Rows = list[tuple[str, ...]]
 
 
 def answers_of(root: Path, problem_id: str) -> Rows:
-    """Return a row of headings and a row for each name.
+    """Return the table of these names: a row of headings, then a row for each name.
 
-    The answers come first, then the other steps on which these answers depend.
+    The answers come first, then the other steps.
     """
     problem = load_problem(root, problem_id)
     record = Run()
@@ -52,7 +52,8 @@ def _offered(problem: Problem) -> dict[str, tuple[Quantity, ...] | DeriveError]:
 
 
 def with_ancestors_of_each(found: dict[str, tuple[Quantity, ...]]) -> dict[str, tuple[Quantity, str]]:
-    """Return the answers and the steps on which they depend, by key, each with the name of an answer that needs it."""
+    """Return the answers and the steps on which they depend, by key, each with the name of one answer that needs the
+    step."""
     steps: dict[str, tuple[Quantity, str]] = {}
     for name, quantities in found.items():
         for key, quantity in with_ancestors(quantities).items():

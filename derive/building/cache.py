@@ -1,7 +1,7 @@
 """The results that builds store, such as steps, pages, drawings and PDFs: signed values in one folder.
 
 Most values are stored under a digest of everything on which they depend. They are never out of date, because a change
-of an input gives another digest. If the folder is too large, the least recently used values are removed.
+of an input gives another digest. If the folder becomes too large, old values are removed.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ NOT_KEPT = "not-kept"
 
 
 def digest(*parts: str | bytes) -> str:
-    """Return the digest of the parts, which also depends on their boundaries."""
+    """Return a digest of the parts; ("ab", "c") and ("a", "bc") have different digests."""
     sha = sha256()
     for part in parts:
         raw = part.encode() if isinstance(part, str) else part
@@ -87,7 +87,7 @@ class Cache:
     )  # warnings about values that could not be written
 
     def get(self, key: str) -> bytes | None:
-        """Return the content stored under that key, or None."""
+        """Return the content stored under the key, or None."""
         if self.folder is None or self.fresh:
             return None
         content = signed.read_signed(self.folder / key, key)
@@ -97,7 +97,7 @@ class Cache:
         return content
 
     def get_data(self, key: str) -> Any:
-        """Return the JSON data stored under that key, or None."""
+        """Return the JSON data stored under the key, or None."""
         return signed.data_of(self.get(key))
 
     def keep(self, key: str, content: bytes) -> None:
@@ -108,7 +108,7 @@ class Cache:
                 self.unkept.append(not_kept(refused.complaints[0], self.folder))
 
     def evict(self) -> None:
-        """Keep the most recently used values that fit within `limit`, and remove the others."""
+        """Remove old values if the folder is larger than `limit`."""
         if self.folder is None or not self.folder.is_dir():
             return
         room = self.limit

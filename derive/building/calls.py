@@ -1,7 +1,6 @@
 """Recorded calls of verbs, the functions that derive steps. All calls of a problem are stored as one value.
 
-The value contains the calls of the last build, and as many earlier calls as there is room for, in case an edit is
-undone.
+The value also contains some earlier calls, in case an edit is undone.
 """
 
 from __future__ import annotations
@@ -57,8 +56,7 @@ class Calls:
 
 @contextmanager
 def calls_of(problem_id: str, cache: Cache) -> Iterator[Memory | None]:
-    """Provide the memory of a problem's calls, and save it afterwards even if the script failed. Provide None without a
-    cache."""
+    """Provide the recorded calls of a problem, and save them after the `with` block. Without a cache, provide None."""
     if cache.folder is None:
         yield None
         return

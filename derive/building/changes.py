@@ -113,7 +113,6 @@ def _reference(page: Mapping[str, Any]) -> dict[str, str]:
 
 
 def _warnings(before: Mapping[str, Any], after: Mapping[str, Any]) -> Iterator[Change]:
-    """Return the new and the removed warnings."""
     old, new = ({(w["code"], w["message"]): None for w in page["warnings"]} for page in (before, after))
     yield from (Change("warning", code, "", message) for code, message in new if (code, message) not in old)
     yield from (Change("warning", code, message, "") for code, message in old if (code, message) not in new)
@@ -123,8 +122,7 @@ def _warnings(before: Mapping[str, Any], after: Mapping[str, Any]) -> Iterator[C
 
 
 def _paired(before: Sequence[Any], after: Sequence[Any]) -> Iterator[tuple[Any, Any]]:
-    """Pair each part with the most similar part of the earlier page; a new or removed part is paired with
-    `_NO_PART`."""
+    """Pair each part with the most similar earlier part; `_NO_PART` is the partner of a new or removed part."""
     alike = sorted(
         ((-_likeness(old, new), abs(i - j), i, j) for i, old in enumerate(before) for j, new in enumerate(after)),
     )
@@ -219,7 +217,6 @@ def _left_side(step: Mapping[str, Any]) -> str:
 
 
 def _grades(step: Mapping[str, Any]) -> str:
-    """Return the different grades of a step's claims."""
     return ", ".join(Counter(each["grade"] for each in step["evidence"]))
 
 
@@ -227,7 +224,6 @@ def _grades(step: Mapping[str, Any]) -> str:
 
 
 def _sentences(before: Mapping[str, Any], after: Mapping[str, Any], parts: Iterable[tuple[Any, Any]]) -> list[Change]:
-    """Compare all text of a page, beginning with the title; equation numbers are not compared."""
     places: list[tuple[str, Blocks, Blocks]] = [
         *((name, _plain(before[name]), _plain(after[name])) for name in ("title", "statement", "strategy")),
         *(place for old, new in parts for place in _of_part(old, new)),
@@ -239,7 +235,7 @@ def _sentences(before: Mapping[str, Any], after: Mapping[str, Any], parts: Itera
 
 
 def _of_part(old: Mapping[str, Any], new: Mapping[str, Any]) -> Iterator[tuple[str, Blocks, Blocks]]:
-    """Return the question and the solution of a part; the question is omitted for a new or removed part."""
+    """Return the texts of a part to compare. The question of a new or removed part is not compared."""
     if old is not _NO_PART and new is not _NO_PART:
         yield f"{_name(old, new)}, question", _plain(old["ask"]), _plain(new["ask"])
     yield f"{_name(old, new)}, solution", old["says"], new["says"]
@@ -258,8 +254,7 @@ def _plain(text: str) -> Blocks:
 
 @dataclass(frozen=True)
 class _Sentence:
-    """The words of a sentence, and the same words with the keys of equations in place of their numbers, for a
-    comparison."""
+    """The words of a sentence. For a comparison, the keys of equations replace the equation numbers."""
 
     words: tuple[str, ...]
     keys: tuple[str, ...]
@@ -290,7 +285,6 @@ def _edited(where: str, old: Sequence[_Sentence], new: Sequence[_Sentence]) -> I
             if known is None:
                 left.append(sentence)
                 continue
-            # The sentences before this pair have no counterpart.
             yield from (_sentence(where, each, None) for each in was[:known])
             yield from (_sentence(where, None, each) for each in left)
             yield _sentence(where, was[known], sentence)

@@ -1,8 +1,7 @@
 """The documents of a class: for each student a sheet, a key and solutions with the values of the student's variant.
 
-`students/` has the sheets and nothing else. `class/` has the files for the instructor only: the solutions, the keys and
-the table of all answers. The documents of each student are recorded, so a later run makes only documents whose inputs
-have changed.
+The folder `students/` contains the sheets. The folder `class/` contains the files for the instructor: the solutions,
+the keys and the table of all answers. A later run makes only documents whose inputs have changed.
 """
 
 from __future__ import annotations
@@ -36,12 +35,12 @@ from derive.errors import Complaint, DeriveError, Faults, Misused, Place, Reject
 from derive.grading.table import harmless
 
 CACHE, MADE = ".derived", ".made"
-MADE_FROM = ".inputs"  # the digest of the inputs that all documents of a class share, and the seed
+MADE_FROM = ".inputs"  # contains the digest of the inputs that the students share, and the seed
 ANSWERS = "answers"
 KINDS = (SHEET, KEY, SOLUTIONS)
 COLUMNS = ("student", "name", "problem", "part", "answer", "formula", "value", "unit", "figures")
 AT_ONCE = 10  # the number of students in one job
-LONGEST_ROSTER = 2_000_000  # bytes
+LONGEST_ROSTER = 2_000_000
 
 
 @dataclass(frozen=True)
@@ -54,7 +53,7 @@ class Student:
 
 @dataclass
 class ClassReport:
-    """The outcome of a run; `made` is the number of students whose documents were made."""
+    """The outcome of a run; `made` counts the students whose documents were made."""
 
     students: int = 0
     made: int = 0
@@ -69,8 +68,8 @@ class ClassReport:
 
 
 def read_roster(path: Path) -> tuple[Student, ...]:
-    """Return the students of a CSV file with a column `name` and, if wanted, a column `code`; raise `Rejected` with all
-    errors of the file."""
+    """Return the students of a CSV file with the column `name`, and optionally `code`; raise `Rejected` with the errors
+    of the file."""
     shown, faults = str(path), Faults()
     try:
         if path.stat().st_size > LONGEST_ROSTER:
@@ -151,13 +150,13 @@ class ClassDocuments:
         return digest(self.inputs, student.name, student.code)
 
     def answers(self, student: Student) -> list[list[str]] | None:
-        """Return the student's rows of the table of answers if the documents are up to date; otherwise None."""
+        """Return the student's rows of the table of answers; None if the documents are out of date."""
         try:
             known = json.loads(self.record(student).read_bytes())
             is_current = known["key"] == self.key(student)
             if is_current and known["files"] == [file_digest(file) for file in self.files(student)]:
                 return [[str(cell) for cell in row] for row in known["answers"]]
-        except (OSError, ValueError, KeyError, TypeError):  # there is no record, or derive did not write it
+        except (OSError, ValueError, KeyError, TypeError):  # there is no valid record
             pass
         return None
 
@@ -182,10 +181,11 @@ def made_class(
     tell: Callable[[str], None] = lambda _: None,
     scheduler: str = "",
 ) -> ClassReport:
-    """Make the documents of each student whose inputs have changed. An error in one variant does not stop the
+    """Make the documents of the students if their inputs have changed. An error in one variant does not stop the
     others.
 
-    scheduler   the address of a Dask scheduler, whose workers do the jobs; by default processes of this machine
+    scheduler   the address of a Dask scheduler, whose workers do the jobs; by default, processes of this machine do the
+                jobs
     """
     root = root.resolve()
     begun, chosen = time.monotonic(), chosen_engine(engine)
@@ -213,7 +213,7 @@ def made_class(
                 put(crew, unmade[start : start + AT_ONCE])
             for outcome in crew.outcomes():
                 group = waiting.pop(outcome.job)
-                if outcome.error is not None and len(group) > 1:  # the worker died: each student gets a separate job
+                if outcome.error is not None and len(group) > 1:  # the worker died, so each student gets a separate job
                     for student in group:
                         put(crew, [student])
                 elif isinstance(outcome.error, DeriveError):
@@ -235,7 +235,6 @@ def made_class(
 
 
 def _check_codes(students: Sequence[Student], heading: ProblemSet) -> None:
-    """Check that no sheet of a student would have the name of another file for students."""
     names = {INDEX, *(file.lower() for _, file in heading.documents)}
     for student in students:
         if student.code.lower() in names:
@@ -248,7 +247,7 @@ def class_is_older(root: Path, set_id: str, engine: Engine) -> list[Complaint]:
     try:
         made = json.loads((set_folder(root, set_id) / CLASS / MADE_FROM).read_bytes())
         inputs, seed = str(made["inputs"]), str(made["seed"])
-    except (OSError, ValueError, KeyError, TypeError):  # there is no class
+    except (OSError, ValueError, KeyError, TypeError):
         return []
     if inputs == _inputs(root, set_id, problem_set(root, set_id), engine, seed):
         return []
@@ -269,7 +268,6 @@ def _documents_of(shared: ClassDocuments, students: Sequence[Student]) -> list[M
 
 
 def _documents_of_one(shared: ClassDocuments, student: Student) -> Made:
-    """Make the documents of a student and record them, unless this was done before."""
     from derive.building.set_document import document_page, the_document
     from derive.building.solution import rendered
     from derive.course.problem import problem_and_faults
@@ -309,7 +307,6 @@ def _documents_of_one(shared: ClassDocuments, student: Student) -> Made:
 
 
 def _rows(student: Student, problem: str, page: Mapping[str, Any]) -> list[tuple[str, ...]]:
-    """Return a row of the table of answers for each answer of a page."""
     rows = list[tuple[str, ...]]()
     for part in page["parts"]:
         for key in part["answers"]:
@@ -322,7 +319,6 @@ def _rows(student: Student, problem: str, page: Mapping[str, Any]) -> list[tuple
 
 
 def _remove_others(shared: ClassDocuments, students: Sequence[Student]) -> None:
-    """Remove the documents of students who are no longer in the roster."""
     codes = {student.code for student in students}
     for record in sorted((shared.outputs / CLASS / MADE).glob("*.json")):
         if record.stem not in codes:
@@ -332,7 +328,6 @@ def _remove_others(shared: ClassDocuments, students: Sequence[Student]) -> None:
 
 
 def _write_answers(shared: ClassDocuments, students: Sequence[Student]) -> None:
-    """Write the table of all answers of all students whose documents are made."""
     table = io.StringIO()
     rows = csv.writer(table)
     rows.writerow(COLUMNS)
@@ -342,7 +337,6 @@ def _write_answers(shared: ClassDocuments, students: Sequence[Student]) -> None:
 
 
 def _write_page(shared: ClassDocuments, students: Sequence[Student]) -> None:
-    """Write the page with links to the documents of each student, for the instructor."""
     from derive.building.set_document import class_page
 
     folder = shared.outputs / CLASS

@@ -1,4 +1,4 @@
-"""Removal of files that builds wrote: the folders of sets, or only the data in these folders for later builds."""
+"""Removal of the files that builds wrote."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from derive.errors import Complaint, Misused, did_you_mean
 
 
 def cleaned(root: Path, sets: Sequence[str], cache: bool, waiting: Callable[[str], None]) -> list[tuple[Path, int]]:
-    """Remove folders and return each with its size in bytes, after the end of a running build.
+    """Remove folders, and return each with its size in bytes. If a build is running, wait for its end.
 
     sets      the sets whose folders are removed; if empty, every folder in `build`
-    cache     whether only the data stored for later builds are removed, and the documents stay
-    waiting   a function that is called with the name of a set before such a wait
+    cache     whether only the data stored for later builds are removed
+    waiting   a function that is called before the wait, with the name of the set
     """
     build = root / "build"
     folders = [path for path in sorted(build.glob("*")) if path.is_dir() and not path.is_symlink()]

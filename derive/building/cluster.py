@@ -1,8 +1,7 @@
 """Jobs on a cluster of Dask, in place of processes on this machine.
 
-The workers of the cluster need the same version of derive, and the folder of the course at the same path. Dask runs the
-job of a lost worker again on another one. A job on a cluster has no limits of time and memory of its own; Dask has such
-limits for its workers.
+The workers of the cluster need the same version of derive, and the folder of the course at the same path. Dask repeats
+the job of a lost worker on another worker. derive does not limit the time and the memory of these jobs.
 """
 
 from __future__ import annotations
@@ -21,7 +20,7 @@ PATIENCE = 15  # seconds to wait for the scheduler and its first worker
 
 
 class Cluster:
-    """The interface of `workers.Crew`, with the workers of a Dask scheduler such as `tcp://10.0.0.1:8786`."""
+    """The workers of a Dask scheduler such as `tcp://10.0.0.1:8786`; used like `workers.Crew`."""
 
     def __init__(self, address: str, tick: Callable[[Mapping[str, float]], None]):
         try:
@@ -63,7 +62,7 @@ class Cluster:
         self._ended.add(future)
 
     def outcomes(self) -> Iterator[Outcome]:
-        """Yield the outcome of each job as soon as the job ends; jobs may be added meanwhile."""
+        """Yield the outcome of each job when it ends; jobs may be added meanwhile."""
         while self._jobs:
             future = next(self._ended)
             job, begun = self._jobs.pop(future)

@@ -50,7 +50,7 @@ def since_build(root: Path, problem_id: str, detail: str | None, limit: float) -
 
 
 def since_revision(root: Path, problem_id: str, revision: str, detail: str | None, limit: float) -> Diff:
-    """Return the changes since a revision, both derived by the installed derive."""
+    """Return the changes since a revision of git. The installed derive derives both states."""
     path_of(root, problem_id)
     with course_at(root, revision, problem_id.partition("/")[0]) as old_root:
         if problem_id not in problem_paths(old_root):
@@ -82,7 +82,6 @@ def built_page(root: Path, problem_id: str) -> Page:
 
 
 def _job(root: Path, of: Path, problem_id: str, detail: str | None, limit: float) -> Job:
-    """Return the job that derives a page of the course in the folder `of`, with the cache below `root`."""
     return job_of(of, problem_id, partial(_page, root, of, problem_id, detail), limit)
 
 
@@ -98,7 +97,7 @@ def _page(root: Path, of: Path, problem_id: str, detail: str | None) -> Page:
 def _derived_at(
     revision: str, root: Path, old_root: Path, job: Callable[[], Job]
 ) -> tuple[Page, tuple[Complaint, ...]]:
-    """Return the page at a revision, with the present templates if those of the revision do not fit."""
+    """Return the page at a revision. If the templates of the revision do not fit, use the present templates."""
     try:
         return done(job()), ()
     except (DeriveError, Bug) as error:
@@ -116,7 +115,6 @@ def _derived_at(
 
 
 def _at(revision: str, error: DeriveError | Bug) -> DeriveError | Bug:
-    """Return an error of the author with a note that names the revision of the files; return a bug unchanged."""
     if isinstance(error, Bug):
         return error
     note = f"the error is about the files at `{revision}`, read by the installed derive"

@@ -76,7 +76,6 @@ def _tex(name: str | None) -> list[Finding]:
 
 
 def _test_page(name: str | None) -> Finding:
-    """Check that the engine can make a PDF on this machine, because an installed program may fail to run."""
     started = time.monotonic()
     try:
         with tempfile.TemporaryDirectory() as folder:

@@ -1,4 +1,4 @@
-"""The documents of a set: those listed in the set's file, and those requested with `--only`.
+"""The documents of a set: the documents that its file lists, and those that a command requests with `--only`.
 
 A document that was requested once is made again by later builds of the whole set, until you remove its PDF.
 """
@@ -22,7 +22,7 @@ def with_asked(documents: Documents, asked: Collection[str]) -> list[list[str]]:
 
 
 def still_there(documents: Documents, record: Manifest, asked: Collection[str]) -> list[list[str]]:
-    """Return the documents, except those that only an earlier `--only` requested and whose PDF has been removed."""
+    """Return the documents. A document that an earlier `--only` requested is left out if its PDF has been removed."""
     earlier = {*record.asked} - {*asked}
     return [list(pair) for pair in documents if pair[0] not in earlier or (record.folder / f"{pair[1]}.pdf").exists()]
 

@@ -101,7 +101,7 @@ def _files(
 
 
 def _within(data: str, known: Mapping[Any, Any]) -> list[tuple[str, Any]]:
-    """Return the entries of `known` for the symbols in a drawing, because other symbols must not change its digest."""
+    """Return the entries of `known` for the symbols in a drawing; other symbols must not change its digest."""
     return [
         (str(letter), of_it) for letter, of_it in known.items() if f'["Symbol", {json.dumps(str(letter))}, ' in data
     ]
@@ -116,9 +116,9 @@ def _drawn(
     alt: str,
     cache: Cache,
 ) -> tuple[Sheet, Sheet]:
-    """Return the drawing twice: with the font of a PDF, and with the font of formulas in a browser.
+    """Return the drawing twice: for a PDF, and for a browser. The fonts differ.
 
-    size   the given width, if there is one, and the height divided by the width
+    size   the width (None if it is not given), and the height divided by the width
     """
     width, shape = size
     from derive.render.drawing.lettering import PAPER, SCREEN
@@ -157,7 +157,6 @@ def _is_crowded(sheet: Sheet) -> bool:
 
 
 def _letters(cache: Cache, font: str, texts: Collection[str]) -> Mapping[str, Lettered]:
-    """Return each text as typeset letters, from the cache if possible."""
     keys = {text: digest("letters", engine_digest("matplotlib"), font, text) for text in texts}
     known = {text: kept for text, key in keys.items() if (kept := cache.get_data(key)) is not None}
     if new := keys.keys() - known:

@@ -1,4 +1,4 @@
-"""The results of a problem as LaTeX, with which `derive audit --problem` compares a document."""
+"""The results of a problem as LaTeX: `derive audit --problem` compares a document with them."""
 
 from __future__ import annotations
 

@@ -47,10 +47,6 @@ def explain(root: Path, problem_id: str, key: str | None, as_json: bool) -> str 
 
 
 def _wanted(key: str | None, steps: Mapping[str, Step]) -> Iterable[str]:
-    """Return the keys of the steps to explain: all steps if `key` is None, otherwise one step.
-
-    `key` may also be the name of a verb, for the first step that this verb made.
-    """
     if key is None:
         return steps
     of_verbs = {step.rule.rpartition(".")[2]: step.key for step in reversed(list(steps.values()))}
@@ -62,7 +58,6 @@ def _wanted(key: str | None, steps: Mapping[str, Step]) -> Iterable[str]:
 
 
 def _row(explanation: Explanation, words: Phrases, notation: Notation) -> tuple[str, ...]:
-    """Show a step in one line, with its symbol if its value takes several lines."""
     step, value = explanation.step, _value(explanation.step, notation)
     shown = plain(notation.layout(step.symbol)) if "\n" in value and step.symbol is not None else abridged(value, 60)
     return step.key, explanation.part, words.grades[step.grade], shown

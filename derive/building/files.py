@@ -1,6 +1,6 @@
-"""Files that derive writes: each is written completely or not at all, and only when its content has changed.
+"""Files that derive writes: each is written completely or not at all.
 
-A finished file gets its name by one rename, so a reader finds either the old or the new content, even if a build is
+A finished file gets its name by one rename. A reader therefore finds the old or the new content, even if a build is
 killed.
 """
 
@@ -57,7 +57,7 @@ def cannot_write(path: Path, error: OSError) -> BuildFailed:
 
 
 def of_system(error: OSError, what: str = "the system refuses") -> BuildFailed | None:
-    """Return an error that says which resource the system lacks, if this is the cause."""
+    """Return an error that names the resource that the system lacks; None if the error has another cause."""
     reason = _SHORT.get(error.errno or 0)
     return BuildFailed(Complaint("system", f"{what}: {reason}")) if reason else None
 

@@ -1,4 +1,4 @@
-"""Grades answers: a worker derives each problem and then judges the answers to this problem."""
+"""Grading of answers: workers derive the problems and judge the answers to them."""
 
 from __future__ import annotations
 
@@ -39,10 +39,10 @@ def grade_answers(
     tick: Callable[[int, Mapping[str, float]], None] = lambda *_: None,
     seed: str | None = None,
 ) -> dict[int, Result]:
-    """Return the result for each row, by its number. With a seed, each answer is compared with the variant of its
-    student.
+    """Return the result of each row by the number of the row. With a seed, each answer is compared with the variant of
+    the student.
 
-    If a worker fails, its answers are divided among new workers.
+    If a worker fails, new workers judge its answers.
     """
     found: dict[int, Result] = {}
     waiting: dict[Job, tuple[str, Sequence[Asked]]] = {}
@@ -111,7 +111,8 @@ def _graded(root: Path, problem_id: str, rows: Sequence[Asked], seed: str | None
 
 
 def unknown_part(problem_id: str, name: str, parts: Sequence[tuple[str, str]]) -> Complaint:
-    """Return the error about a part that a problem does not have; `parts` are its labels and what they ask for."""
+    """Return the error about a part that a problem does not have; `parts` are the labels of its parts, with what
+    they ask for."""
     shown = name if len(name) <= 40 else name[:40] + " ..."
     message = f"`{problem_id}` has no part `{shown}`" if shown else f"`{problem_id}` has several parts"
     notes = tuple(f"({label}) {ask}" for label, ask in parts)
@@ -119,7 +120,7 @@ def unknown_part(problem_id: str, name: str, parts: Sequence[tuple[str, str]]) -
 
 
 def check_part(root: Path, problem_id: str, name: str | None) -> str:
-    """Return the name of a part, or the only part of a problem; raise `Misused` if there is no such part."""
+    """Return the name of a part, by default of the only part; raise `Misused` if there is no such part."""
     from derive.course.problem import load_problem
     from derive.grading.key import label_in
 

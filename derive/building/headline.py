@@ -30,7 +30,6 @@ def headline(root: Path, problem_id: str, path: str = "") -> tuple[str, str]:
 
 
 def _at_a_glance(root: Path, path: str) -> tuple[str, str] | None:
-    """Return the points and the title; None if the whole file must be read."""
     faults = Faults()
     try:
         node = mapping_in(root, path, "a problem", quickly=True)

@@ -1,7 +1,7 @@
-"""The record of the inputs of each output of a set; the record decides which outputs must be made again.
+"""The record of the inputs of the outputs of a set. It decides which outputs must be made again.
 
-A problem is up to date if its input files and its recipe are unchanged; `derive.building.recipe` describes recipes. An
-output is up to date if, in addition, its own content is unchanged. Only content is compared, never times.
+A problem is up to date if its input files and its recipe are unchanged; the module `derive.building.recipe` describes
+recipes. An output is up to date if its own content is also unchanged. Contents are compared, not times.
 """
 
 from __future__ import annotations
@@ -135,7 +135,6 @@ class Manifest:
         return [*(file for _, file in self.documents), INDEX]
 
     def all_outputs(self) -> list[str]:
-        """Return the names of all outputs."""
         of_set = [output for kind, file in self.documents for output in outputs_of_document(kind, file)]
         return [*self._outputs_of_problems(), *of_set, *INDEX_PAGES]
 
@@ -160,7 +159,6 @@ def _record_of(folder: Path) -> str:
 
 
 def _is_record(recorded: Any) -> bool:
-    """Return whether data are a valid record of a manifest."""
     empty = Manifest(Path())
     names = {field.name for field in fields(Manifest)} - {"folder"}
     if not isinstance(recorded, dict) or set(recorded) != names:

@@ -53,7 +53,7 @@ class _Answer:
 
     @property
     def in_form(self) -> Place | None:
-        """The place in the file where the form of this answer asks for a number, if it does."""
+        """The place in the file where the form of this answer asks for a number; None if the form does not."""
         form = self.part.form_of(self.asked)
         if form.units:
             return form.units[0].place
@@ -65,8 +65,8 @@ def faults_of_numbers(
 ) -> list[Complaint]:
     """Return errors and warnings about the numbers of the answers.
 
-    It is an error if a form asks for a number that does not exist. Warnings concern answers that could have a number,
-    and numbers that the sheet does not state.
+    It is an error if a form asks for a number that does not exist. There is a warning if an answer could have a number,
+    or if the sheet does not state a number.
 
     values     the steps that evaluate answers numerically, by key
     drawings   the drawings of the problem
@@ -74,7 +74,7 @@ def faults_of_numbers(
     if not problem.every_amount:
         return []
     answers = list(_answers(problem, derivation, values))
-    # The form of a part may be meant only for those of its answers that have a number.
+    # The form of a part may be meant for some of its answers.
     served = [answer.part for answer in answers if answer.has_number]
     wanting = [a for a in answers if not a.has_number and (a.asked in a.part.forms or a.part not in served)]
     said = {(answer.key, answer.why): place for answer in wanting if (place := answer.in_form)}
@@ -113,7 +113,6 @@ def _plotted(drawings: Iterable[Recorded]) -> set[Symbol]:
 
 
 def _not_sufficient(problem: Problem, answers: Sequence[_Answer], plotted: set[Symbol]) -> Iterator[Complaint]:
-    """Warn of an answer without a number if the author may have forgotten a number."""
     own = {declared.symbol for declared in problem.symbols.values()} - {TIME}
     used = plotted.union(*(answer.letters for answer in answers if answer.has_number))
     found: dict[str, list[_Answer]] = {}
@@ -130,7 +129,7 @@ def _not_sufficient(problem: Problem, answers: Sequence[_Answer], plotted: set[S
 
 
 def _untold(problem: Problem, needed: set[Symbol]) -> Iterator[Complaint]:
-    """Warn of each number that the answers need, if the sheet does not mention it."""
+    """Warn of numbers that the answers need but the sheet does not mention."""
     texts = [problem.title, problem.statement, *(part.ask for part in problem.parts)]
     mentioned = {mention.name for prose in texts for mention in prose.mentions if not mention.of}
     told = {letter for given in problem.givens if given.name in mentioned for letter in given.letters}

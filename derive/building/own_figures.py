@@ -1,7 +1,7 @@
 """The figure of an author as the two files that every drawing has: a PDF for paper and an SVG for browsers.
 
-Typst, an optional package, converts the file. In the SVG the figure is an image inside the drawing: its styles and
-names do not affect the page, and a browser runs no script and loads no file in an image.
+Typst, an optional package, converts the file. In the SVG the figure is an image. Its styles and names therefore do not
+affect the page, and the browser runs none of its scripts.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ _SIZE = re.compile(rb'<svg [^>]*?\bwidth="([\d.]+)pt" height="([\d.]+)pt"')
 
 
 def own_files(figure: OwnFigure, alt: str, cache: Cache) -> tuple[bytes, bytes]:
-    """Return the PDF and the SVG of a figure, stored or converted now."""
+    """Return the PDF and the SVG of a figure."""
     key = digest("figure", figure.kind, figure.content, str(figure.width), alt)
     svg, zero, pdf = (cache.get(key) or b"").partition(b"\0")
     if not zero:
@@ -52,7 +52,6 @@ def _converted(figure: OwnFigure, alt: str) -> tuple[bytes, bytes]:
 
 
 def _page(figure: OwnFigure, folder: Path, form: str, width: float | None) -> bytes:
-    """Return a page with the figure alone; without a width, the figure has the size that its file states."""
     try:
         typst = import_module("typst")
     except ImportError:
@@ -66,6 +65,6 @@ def _page(figure: OwnFigure, folder: Path, form: str, width: float | None) -> by
     )
     try:
         return bytes(typst.compile(folder / "page.typ", root=folder, format=form, timestamp=0))
-    except Exception as error:  # Typst has a class of its own for errors
+    except Exception as error:
         message = f"`{figure.path}` cannot be read: {str(error).splitlines()[0][:200]}"
         raise Rejected(Complaint("figure", message, figure.place, help="save it again in this format")) from None

@@ -1,4 +1,4 @@
-"""The list of documents on the page of a set for a browser: the documents that exist, whichever command wrote them."""
+"""The list of documents on the page of a set for a browser."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _EXPORTED = re.compile(r"[\w-]+-(?:moodle|stack|qti|canvas|prairielearn|docx)\.(
 
 @dataclass(frozen=True)
 class Paper:
-    """A document with its name and its files, each as a pair: the address and the name of the format."""
+    """A document: its name, and for each of its files the address and the name of the format."""
 
     name: str
     files: tuple[tuple[str, str], ...]
@@ -36,7 +36,7 @@ def papers_of(root: Path, documents: Documents) -> list[Paper]:
 
 
 def there_of(outputs: Path, documents: Documents, made: Documents = ()) -> Documents:
-    """Return those of these documents that are being made or have a PDF in the folder of outputs."""
+    """Return the documents that are being made or have a PDF in the folder of outputs."""
     return [pair for pair in documents if pair in made or (outputs / f"{pair[1]}.pdf").is_file()]
 
 
@@ -59,9 +59,10 @@ def listed(root: Path, found: Sequence[Paper]) -> str:
 
 
 def list_again(root: Path, set_id: str) -> None:
-    """Update the list of documents on the page of a set after a command other than a build wrote or removed files.
+    """Update the list of documents on the page of a set. Commands other than a build call this after they wrote or
+    removed files.
 
-    Nothing is done if no build has made the page, or if the page was edited since.
+    The page is not changed if a user has edited it.
     """
     outputs = set_folder(root, set_id)
     page = outputs / f"{INDEX}.html"

@@ -1,9 +1,8 @@
 """The common beginning of documents as a TeX format, so that TeX reads classes and packages only once.
 
-A line of the template marks where documents begin to differ. The lines above this mark are the preamble. TeX loads the
-preamble and dumps a format, which is stored in the cache of the builds. In the source of a document, the lines of the
-preamble become comments, so that line numbers do not change. If TeX cannot dump a format, a document is typeset without
-it.
+A line of the template marks the end of the preamble, the common beginning. TeX loads the preamble and dumps a format,
+which is stored in the cache of the builds. In the source of a document, the lines of the preamble become comments, so
+that line numbers do not change. If TeX cannot dump a format, documents are typeset without one.
 
 Source: *The TeXbook*, ch. 24 (the command that dumps a format), and the package mylatexformat.
 """
@@ -50,14 +49,14 @@ def beginning(templates: Templates, detail: str | None, font_size: str | None = 
 
 @functools.cache
 def at_hand() -> Scratch:
-    """Return the folder of the formats that this process and its workers use."""
+    """Return the temporary folder for the formats of this process and its workers."""
     return Scratch()
 
 
 def without_preamble(
     tex: str, engine: str, identity: str, options: Sequence[str], cache: Cache, place: Path, environment: Environment
 ) -> str | None:
-    """Return a source with its preamble turned into comments, and put the preamble's format into `place`.
+    """Return a source whose preamble is turned into comments, and put the format of the preamble into `place`.
 
     The result is None if there is no format.
     """

@@ -1,6 +1,6 @@
 """The page of a derived problem, in every requested format and document.
 
-The result is plain data, so that a worker can send it to its parent.
+The result is plain data that a worker can send to its parent process.
 """
 
 from __future__ import annotations
@@ -46,11 +46,11 @@ from derive.steps.step import Level
 
 @dataclass(frozen=True)
 class Wanted:
-    """The requested formats and documents of a problem, and their level of detail.
+    """What a caller requests for a problem: formats, documents and the level of detail.
 
-    detail      how much algebra the page shows; default `standard`
+    detail      how much algebra the page shows; by default `standard`
     draws       whether the files of the drawings are also requested
-    only        the formats; default: all formats of a build
+    only        the formats; by default all formats of a build
     evidence    how much the page shows about its checks
     documents   other documents, such as the key, hints or a rubric
     width       the width of the reader's text in centimetres, for a fragment
@@ -88,7 +88,8 @@ def printed(
 
 
 def rubric_of(problem: Problem, solved: Solved) -> dict[str, dict[str, Fraction]]:
-    """Return the points of each step of the rubric, by the label of its part and by its key; {} without points."""
+    """Return the points of the steps of the rubric, by the label of the part and the key of the step; {} without
+    points."""
     if problem.points is None:
         return {}
     rubric = _Printing(problem, solved, Wanted(only=()), NO_CACHE, ()).points
@@ -96,8 +97,6 @@ def rubric_of(problem: Problem, solved: Solved) -> dict[str, dict[str, Fraction]
 
 
 class _Printing:
-    """The printing of one problem."""
-
     def __init__(
         self, problem: Problem, solved: Solved, wanted: Wanted, cache: Cache, failures: tuple[Complaint, ...]
     ) -> None:
@@ -151,7 +150,7 @@ class _Printing:
 
     @cached_property
     def heading(self) -> ProblemSet | None:
-        """The set of the problem, if its prose refers to other problems by their numbers."""
+        """The set of the problem; None if the prose does not refer to other problems by number."""
         mentions = (mention for prose in self.problem.texts for mention in prose.mentions)
         refers = any(mention.of == PROBLEM for mention in mentions)
         return problem_set(self.problem.root, self.problem.set_id) if refers else None
@@ -165,7 +164,6 @@ class _Printing:
         return self.document if self.level is Level.FULL else self._page(Level.FULL, self.document)
 
     def _page(self, level: Level, like: Document | None = None) -> Document:
-        """Return the page at a level of detail, if given with the equation numbers of the page `like`."""
         solved, others = self.solved, self.heading.numbers if self.heading else {}
         document, faults = document_of(
             self.problem,
@@ -241,7 +239,7 @@ class _Printing:
 
     @cached_property
     def points(self) -> dict[str, tuple[Credit, ...]]:
-        """The points of the steps of each part, by its label."""
+        """The points of the steps, by the label of the part."""
         values = self.solved.values.values()
         steps = [*self.solved.derivation.steps, *values]
         tasks = {step.key: self.words.tasks.get(step.rule, "") for step in steps}  # a rule of a script has no task
@@ -253,7 +251,6 @@ class _Printing:
         return document_fragments(kinds, self._page_for, points, self.words, self.notation, self.templates, self.files)
 
     def _page_for(self, kind: str) -> Document:
-        """Return the page as this kind of document shows it."""
         solved = self.solved
         if kind == HINTS:
             return with_hints(self.document, self.problem, solved.derivation, solved.values, self.words)
@@ -264,7 +261,6 @@ class _Printing:
 def _notation(
     dimensions: tuple[tuple[Any, Dimension | None], ...], flat: bool, language: tuple[tuple[str, str], ...]
 ) -> Notation:
-    """Return the notation for these dimensions, which caches the layout of expressions."""
     return Notation(dict(dimensions), flat, dict(language))
 
 

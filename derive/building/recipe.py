@@ -32,7 +32,7 @@ def recipe_of(
 ) -> dict[str, str]:
     """Return the recipe of pages.
 
-    of_set   the entries that the files of the set and of the course state; options come first
+    of_set   the entries that the files of the set and of the course state; options have precedence
     """
     stated = of_set or {}
     options = {
@@ -66,8 +66,7 @@ def recipe_digest(recipe: Recipe) -> str:
 
 
 def edited_since(root: Path, time: int) -> bool:
-    """Return whether a module of derive, a template or a file of phrases was written since that time (in
-    nanoseconds)."""
+    """Return whether a module of derive, a template or a file of phrases was written since a time in nanoseconds."""
     below = [str(folder / "templates") for folder in _folders(root)]
     return any(_has_changed(top, time) for top in (FOLDER, *below) if os.path.isdir(top))
 
@@ -85,7 +84,6 @@ def _has_changed(folder: str, time: int) -> bool:
 
 
 def _folders(root: Path) -> list[Path]:
-    """Return the folders that may contain templates."""
     return list(dict.fromkeys(each.resolve() for each in (root, Path(FOLDER), Path(FOLDER).parent)))
 
 

@@ -45,7 +45,7 @@ def course_at(root: Path, revision: str, set_id: str) -> Iterator[Path]:
 
 
 def _files(root: Path, revision: str, commit: str, folders: Sequence[str]) -> list[tuple[bytes, bytes]]:
-    """Return the object name and the path of each plain file; links are left out."""
+    """Return the object name and the path of each plain file; symbolic links are left out."""
     found = _git(root, "ls-tree", "-r", "-z", commit, "--", *folders)
     if found.returncode:
         raise Misused(_unreadable(revision, found.stderr))
@@ -55,7 +55,7 @@ def _files(root: Path, revision: str, commit: str, folders: Sequence[str]) -> li
 
 
 def _contents(root: Path, revision: str, names: Sequence[bytes]) -> Iterator[bytes]:
-    """Yield the content of each object, in the order of `names`. git prints the size of each content before it."""
+    """Yield the contents of objects."""
     found = _git(root, "cat-file", "--batch", told=b"".join(name + b"\n" for name in names))
     said = BytesIO(found.stdout)
     for name in names:
@@ -68,8 +68,6 @@ def _contents(root: Path, revision: str, names: Sequence[bytes]) -> Iterator[byt
 
 
 def _commit(root: Path, revision: str) -> str:
-    """Return the full name of the commit of a revision; raise `Misused` if git, the repository or the revision does not
-    exist."""
     if not shutil.which("git"):
         message = "`--rev` compares with a revision of git, but git is not installed"
         raise Misused(

@@ -21,7 +21,7 @@ _NAME = re.compile(rf"{PREFIX}\w{{8}}")
 
 
 class Scratch:
-    """A new temporary folder with the path `name`, which is removed in the end."""
+    """A temporary folder with the path `name`."""
 
     def __init__(self) -> None:
         with writing(Path(tempfile.gettempdir())):
@@ -47,7 +47,7 @@ class Scratch:
 
 @cache  # once per process, even if it builds often
 def sweep(*folders: Path) -> None:
-    """Remove unfinished files in these folders, and the scratch folders of this user that no process has locked."""
+    """Remove unfinished files in these folders, and scratch folders of this user that no process uses."""
     for folder in folders:
         with suppress(OSError), os.scandir(folder) as entries:
             for entry in entries:

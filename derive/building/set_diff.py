@@ -23,7 +23,7 @@ Points = Mapping[str, Fraction | None]  # points of each problem of a set, in or
 
 @dataclass(frozen=True)
 class SetDiff:
-    """The changes of the set itself and of the problems that stay in it."""
+    """The changes of a set itself, and of its problems."""
 
     own: Diff
     problems: Mapping[str, Diff]
@@ -48,7 +48,7 @@ def set_since_build(root: Path, set_id: str, detail: str | None, limit: float) -
 
 
 def set_since_revision(root: Path, set_id: str, revision: str, detail: str | None, limit: float) -> SetDiff:
-    """Return the changes since a revision, both derived by the installed derive."""
+    """Return the changes since a revision of git. The installed derive derives both states."""
     after = _written(root, set_id)
     with course_at(root, revision, set_id) as old_root:
         before = _written(old_root, set_id)
@@ -77,6 +77,5 @@ def _changes(before: Points, after: Points) -> list[Change]:
 
 
 def _worth(points: Points) -> str:
-    """Return the sum of the points, as on the cover of the set."""
     known = [each for each in points.values() if each is not None]
     return points_text(sum(known, Fraction(0))) if len(known) == len(points) else "no points"

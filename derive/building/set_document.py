@@ -124,8 +124,7 @@ def index_page(
     papers: Sequence[Paper] = (),
     for_students: bool = False,
 ) -> str:
-    """Return the page of a set: its documents to print and its statements. The page for students has no link to a
-    solution."""
+    """Return the page of a set: its documents and its statements. The page for students has no link to a solution."""
     shown = {"papers": papers, "for_students": for_students}
     questions = numbered_in_a_row(each.card_html for each in problems)
     return _page(root, "index.html.j2", heading, _listed(problems), questions=questions, **shown)
@@ -143,7 +142,6 @@ def _page(root: Path, template: str, heading: ProblemSet, problems: Sequence[Lis
 
 
 def _standalone(problem: Rendered, heading: ProblemSet) -> Listed:
-    """Return a problem with its number in the set, if it has one."""
     return Listed(str(heading.numbers.get(problem.id.rpartition("/")[2], "")), problem)
 
 
@@ -180,7 +178,6 @@ def _facts(root: Path, heading: ProblemSet, problems: Sequence[Listed]) -> dict[
 
 
 def _rows(problems: Sequence[Listed], words: Phrases) -> list[tuple[str, dict[str, int]]]:
-    """Return the table of how the set was checked, with a line for each problem."""
     rows = [(f"{words.labels['problem']} {listed.number}", listed.problem.counts) for listed in problems]
     sums = {name: sum(counts[name] for _, counts in rows) for name in COUNTED}
     return [*rows, (words.labels["report_page"]["all"], sums)] if len(rows) > 1 else rows

@@ -77,11 +77,11 @@ class Options:
     engine: str | None = None
     detail: str | None = None
     force: bool = False
-    jobs: int = 0  # the number of jobs at a time; 0: as many as there are processors
+    jobs: int = 0  # the number of jobs at a time; 0 means the number of processors
     limit: float = TIME_LIMIT
     only: tuple[str, ...] = ()  # problems to build; empty: all problems of the set
-    documents: tuple[str, ...] = ()  # documents to make; empty: the documents of the set, see `building.documents`
-    evidence: str | None = None  # how much solutions show of their checks; default: as the set states
+    documents: tuple[str, ...] = ()  # documents to make; if empty, the documents of the set, see `building.documents`
+    evidence: str | None = None  # how much solutions show of their checks; by default as the set states
 
 
 class Superseded(Exception):
@@ -191,7 +191,6 @@ class _Build:
         return result
 
     def _of_class(self) -> list[Complaint]:
-        """Return a warning if the documents of a class are older than the set."""
         if not (self.outputs / "class").is_dir():
             return []
         from derive.building.classes import class_is_older
@@ -199,7 +198,6 @@ class _Build:
         return class_is_older(self.root, self.set_id, self.engine)
 
     def _keep(self, saved: Callable[[], None]) -> None:
-        """Save data that only the next build uses; an error does not stop this build."""
         try:
             saved()
         except DeriveError as error:
@@ -259,7 +257,6 @@ class _Build:
                 self.cache.evict()
 
     def _kinds_of_each_problem(self) -> str:
-        """Return the kinds of documents for which each problem prints fragments, joined by commas."""
         return ",".join(sorted(kind for kind, _ in self.documents if kind in ON_A_PAGE))
 
     def _wanted(self) -> list[list[str]]:
@@ -289,7 +286,7 @@ class _Build:
         return outcome.error is None
 
     def _pages(self, keys: Mapping[str, str]) -> None:
-        """Use the stored pages, and derive the problems of the other pages.
+        """Use the stored pages, and derive the other problems.
 
         keys   name of a problem -> key under which its page is stored
         """
@@ -322,7 +319,7 @@ class _Build:
         self.crew.start()
 
     def _prepare(self) -> None:
-        """Start, once, a job in which TeX reads the common beginning of all documents."""
+        """Start a job in which TeX reads the common beginning of the documents."""
         from derive.page.template import templates_of
 
         if self.prepares:
@@ -366,8 +363,8 @@ class _Build:
             self.result.complaints.append(Complaint("file-clash", message, help="give the drawing another name"))
 
     def _recipe(self) -> Recipe:
-        """Return the recipe of pages. `EDITED` replaces the digest of modules that were edited since the build
-        began."""
+        """Return the recipe of pages. If modules of derive were edited since the build began, `EDITED` replaces their
+        digest."""
         if edited_since(self.root, self.started):
             self.made_by[MODULES] = EDITED
         return self.made_by
@@ -376,8 +373,8 @@ class _Build:
         return file_digest(self.root / path)
 
     def _input_digest(self, path: str) -> str:
-        """Return the digest of a file, or `EDITED` if it was edited since the build began, so that the next build reads
-        it again."""
+        """Return the digest of a file. If the file was edited since the build began, return `EDITED`, so that the next
+        build reads the file again."""
         file = self.root / path
         is_edited = file.exists() and file.stat().st_ctime_ns > self.started  # a moved file may have an old mtime
         return EDITED if is_edited else self._digest(path)
@@ -422,7 +419,7 @@ class _Build:
             self._typeset(file, document, page, beside, rank, numbers if kind not in (SHEET, REPORT) else None)
 
     def _page(self, name: str, page: Callable[[], str]) -> dict[str, str]:
-        """Return the text of a page for a browser, by file name; an error is added to the report."""
+        """Return the text of a page for a browser, by file name; report an error."""
         try:
             return {f"{name}.html": page()}
         except DeriveError as error:
@@ -480,7 +477,7 @@ class _Build:
             self._was_made(name)
 
     def _for_students(self, name: str, pdf: bytes) -> dict[str, str | bytes]:
-        """Return the PDF of the sheet under its name in the students' folder; nothing for any other document."""
+        """Return the PDF of the sheet under its name in the students' folder; return nothing for other documents."""
         return {f"{STUDENTS}/{name}.pdf": pdf} if (SHEET, name) in map(tuple, self.documents) else {}
 
     def _was_made(self, name: str) -> None:
@@ -492,7 +489,6 @@ class _Build:
             self.edits.wrote(self.outputs / output)
 
     def _record(self, contents: Mapping[str, str | bytes]) -> bool:
-        """Write outputs, and return whether all were written; an error is added to the report."""
         try:
             for name, content in contents.items():
                 if write(self.outputs / name, content) and not name.startswith(f"{STUDENTS}/"):

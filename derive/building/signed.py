@@ -1,8 +1,7 @@
-"""Data stored between builds, signed with a key of this machine: only data that derive itself wrote are trusted.
+"""Data stored between builds. A signature with a key of this machine shows that derive wrote them.
 
-Stored content is only read as data, never executed. The key is in the user's state folder, so a person who can write
-only in the `build` folder of a course cannot sign. If no key can be stored, each process has a key of its own, and
-stored data are not used.
+Stored content is read as data, not executed. The key is in the state folder of the user, so other people who can write
+in the `build` folder of a course cannot sign. If no key can be stored, stored data are not used.
 """
 
 from __future__ import annotations
@@ -25,12 +24,12 @@ MAX_BYTES = 64 * 1024 * 1024
 
 
 def write_signed(file: Path, what: str, content: bytes) -> None:
-    """Write the content with a signature which says that derive wrote it as `what`."""
+    """Write the content with a signature for the use `what`."""
     write(file, _signature(what, content) + content)
 
 
 def read_signed(file: Path, what: str) -> bytes | None:
-    """Return the content that was signed as `what`, or None."""
+    """Return the content if it was signed for the use `what`, otherwise None."""
     try:
         raw = regular_content(file)
     except OSError:
@@ -48,7 +47,7 @@ def data_of(content: bytes | None) -> Any:
 
 
 def regular_content(file: Path, limit: int = MAX_BYTES) -> bytes:
-    """Return the content of a file within a size limit, without waiting for a pipe."""
+    """Return the content of a regular file that is not larger than `limit`."""
     with open(os.open(file, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC), "rb") as opened:
         facts = os.fstat(opened.fileno())
         if not stat.S_ISREG(facts.st_mode) or facts.st_size > limit:
@@ -93,7 +92,6 @@ def _read_key(file: Path) -> bytes | None:
 
 
 def _make_key(file: Path) -> None:
-    """Write a new key, unless there is one."""
     with suppress(OSError):  # no key can be stored, or another process was first
         file.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
         if os.path.lexists(file) and _read_key(file) is None:  # replace a key that is damaged or readable by others

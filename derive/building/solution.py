@@ -71,7 +71,7 @@ def rendered(
 ) -> Rendered:
     """Derive a problem and print it; raise `DeriveError` if there are errors.
 
-    cache    the steps and drawings of earlier builds, which are used and extended
+    cache    the store of the steps and drawings of earlier builds
     chosen   the choices of a variant; a variant is not compared with the reference of the problem
 
     The other parameters are the fields of `Wanted`.
@@ -105,7 +105,7 @@ def answer_key(root: Path, problem_id: str, cache: Cache = NO_CACHE, chosen: Cho
 
 
 def _solved(problem: Problem, cache: Cache, begun: int, faults: Faults) -> tuple[Solved, tuple[Complaint, ...]]:
-    """Return the steps, stored or derived now, and the disagreements with the reference.
+    """Return the steps and the disagreements with the reference.
 
     New steps are stored for later builds, unless there is an error or a file was edited after the time `begun`.
     """
@@ -132,7 +132,6 @@ def _edited(problem: Problem, begun: int) -> bool:
 
 @lru_cache(maxsize=4)  # one process may need the same steps more than once
 def _kept(cache: Cache, key: str) -> Solved:
-    """Return the steps stored under a key; raise `KeyError` if no steps are stored under it."""
     kept = Solved.from_data(cache.get_data(key))
     if kept is None:
         raise KeyError(key)
@@ -158,7 +157,7 @@ def derived(
     """Return the derivation, the steps that evaluate answers numerically, all results with their ancestors, and the
     record of the run.
 
-    faults   collects errors that do not affect any step; by default they are raised
+    faults   the errors that do not affect any step are added to it; by default they are raised
     """
     run = record.Run(memory=memory)
     try:
@@ -198,7 +197,7 @@ def derived(
 
 
 def _compared_before(step: Step, others: Iterable[Step]) -> bool:
-    """Return whether another answer has the same comparison of numbers, because a page prints it only once."""
+    """Return whether another answer has the same comparison of numbers; a page prints it once."""
     return step.rule == COMPARISON.name and step.chain in [other.chain for other in others]
 
 
@@ -220,8 +219,8 @@ def _check_answers(known: dict[str, Quantity], asked: list[dict[str, Word]]) -> 
 
 
 def _usual_unit(problem: Problem, kind: str | None, dimension: Dimension) -> tuple[str, Expr]:
-    """Return the first unit of the set's `form:` that fits. Without one, return degrees if a given angle is in degrees,
-    and otherwise the coherent SI unit."""
+    """Return the first fitting unit of the `form:` of the set. If there is none, return degrees for angles if a
+    given angle is in degrees, otherwise the coherent SI unit."""
     for unit in problem.units:
         read = read_unit(unit, unit.place)
         if misfit(read, kind, dimension) is None:
@@ -244,7 +243,8 @@ def _value(
 ) -> Quantity | None:
     """Return the number of an answer as the part asks for it; None if the answer has no number.
 
-    amounts, case   the numbers of one case of the part, and the label of the case; default: the numbers of the problem
+    amounts, case   the numbers of one case of the part, and the label of the case; by default the numbers of the
+                    problem
     """
     key = f"{answer.key}_in_case_{case}" if case else None
     numbers = problem.amounts if amounts is None else amounts

@@ -1,11 +1,11 @@
-"""A derivation as stored between builds, so that a page with new wording is not derived again.
+"""A derivation as stored between builds. A page with new wording uses the stored derivation.
 
 A stored derivation depends on derive's own modules, SymPy and mpmath, on the script and its modules, and on the
 reference. It also depends on these entries of the problem:
 
-    the given values, the description, the symbols and their numbers, the number of significant figures
+    the given values, the description, the symbols and their numbers, and the number of significant figures
     the answers, forms and cases that parts ask for, and the chosen observations
-    the limiting cases, with their `why:` and its line in the file
+    the limiting cases, with their `why:`
     the quantities, ranges, levels, surfaces, curves and labels of plots
 
 It does not depend on other prose or on templates.
@@ -54,7 +54,7 @@ class Solved:
 
     @classmethod
     def from_data(cls, data: Any) -> Solved | None:
-        """Return the object that `to_data` encoded, or None."""
+        """Return the object that `to_data` encoded; None if the data are not valid."""
         try:
             values = from_json(data["values"])
             told = tuple(

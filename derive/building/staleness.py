@@ -39,7 +39,7 @@ class Asked:
 
 @dataclass(frozen=True)
 class Staleness:
-    """The reasons why outputs would be made again, in words, and the commands that make them."""
+    """The reasons in words why outputs would be made again, and the commands that make them."""
 
     of: str
     reasons: tuple[str, ...]
@@ -90,7 +90,7 @@ def asked_about(root: Path, what: str) -> tuple[str, tuple[str, ...]]:
 
 
 def _below_build(root: Path, what: str) -> tuple[str, str, str] | None:
-    """Return the set, "/" and the file of a path below build/; None for any other path."""
+    """Split a path below build/ into the set, "/" and the file; return None for any other path."""
     found = [Path(os.path.relpath(os.path.normpath(base / what), root / "build")) for base in (Path.cwd(), root)]
     below = [path.parts for path in found if ".." not in path.parts and len(path.parts) <= 2]
     of_a_set = [parts for parts in below if parts and parts[0] in set_names(root)]
@@ -115,7 +115,6 @@ def staleness(asked: Asked) -> Staleness:
 
 
 def _reasons(asked: Asked, manifest: Manifest, outputs: Sequence[str]) -> Iterator[str]:
-    """Yield the reasons, first the changed files."""
     read: Callable[[str], str] = cache(lambda path: file_digest(asked.root / path))
     now = recipe_of(asked.root, asked.detail, asked.evidence, manifest.of_set)
     documents = _documents(manifest, outputs)
@@ -149,7 +148,6 @@ def _not_made(asked: Asked, manifest: Manifest, name: str) -> str:
 
 
 def _is_unlisted(asked: Asked, manifest: Manifest, name: str) -> bool:
-    """Return whether the set is known not to list this problem."""
     edited = any(file_digest(asked.root / path) != before for path, before in manifest.set_inputs.items())
     return not edited and name not in [*manifest.problems, *manifest.document_files, *DOCUMENTS]
 
@@ -230,7 +228,6 @@ def _fixes(asked: Asked, manifest: Manifest, outputs: Sequence[str]) -> Iterator
 
 
 def _built_by(asked: Asked, manifest: Manifest, outputs: Sequence[str]) -> str:
-    """Return the command that makes these outputs."""
     documents = _documents(manifest, outputs)
     kinds = [name for name in documents if name in DOCUMENTS and name not in manifest.document_files]
     only = ",".join(kinds) if kinds and manifest.pages else ""

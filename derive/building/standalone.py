@@ -16,7 +16,7 @@ from derive.render.rendered import Files, Rendered
 
 
 def typeset_standalone(outputs: Path, name: str, tex: str, files: Files, engine: str | None, limit: float) -> bytes:
-    """Return the PDF of a document."""
+    """Return the PDF of the document `name`."""
     with Scratch() as folder:
         target = Path(folder) / f"{name}.pdf"
         work = partial(typeset, tex, target, chosen_engine(engine), timeout=limit, log=outputs / "log", included=files)
@@ -25,7 +25,7 @@ def typeset_standalone(outputs: Path, name: str, tex: str, files: Files, engine:
 
 
 def reports(root: Path, solved: Mapping[str, Rendered], engine: str | None, limit: float) -> dict[str, bytes]:
-    """Return the report of each set, as path -> PDF; a report contains only the checked problems."""
+    """Return the report of each set as path -> PDF. A report contains the checked problems."""
     from derive.building.set_document import report_document
 
     found: dict[str, bytes] = {}

@@ -1,4 +1,4 @@
-"""From a TeX source to a PDF: the TeX engines that exist, the runs of an engine, and the meaning of its errors.
+"""The conversion of a TeX source to a PDF: the engines, their runs, and their errors.
 
 The default engine is part of a Python wheel, so no TeX installation is needed; `--engine` or `DERIVE_ENGINE` selects
 another engine. Shell escape is off, and access to files is restricted. A source marks its pieces with comment lines
@@ -175,7 +175,7 @@ def prepare(beginning: str, engine: Engine, formats: Cache) -> None:
 
 
 def _is_whole(content: bytes, log: Path) -> bool:
-    """Return whether the content is a complete PDF, as far as can be seen."""
+    """Return whether the content seems to be a complete PDF."""
     report = log.read_text(errors="replace").replace("\n", "") if log.is_file() else ""
     said = re.search(r"Output written on .{1,200}?\.pdf \((\d+) pages?, (\d+) bytes\)", report)
     written = said is None or (int(said[1]) > 0 and int(said[2]) == len(content))
@@ -183,7 +183,6 @@ def _is_whole(content: bytes, log: Path) -> bool:
 
 
 def _by_format(engine: Engine, source: Path, tex: str, timeout: float, formats: Cache, unnumbered: bool) -> str | None:
-    """Typeset with a format of the preamble. Return None or, if this fails, the engine's output or "no format"."""
     failed = "no format"
     if not engine.dumps:
         return failed
@@ -201,7 +200,7 @@ def _by_format(engine: Engine, source: Path, tex: str, timeout: float, formats: 
 
 
 def _passes(engine: Engine, source: Path, timeout: float, *options: str, most: int = PASSES) -> str | None:
-    """Run the engine as often as its log requests, at most `most` times; return the output of a failed run."""
+    """Run the engine until its log requests no further run; return the output of a failed run."""
     log = source.with_suffix(".log")
     for _ in range(most):
         try:
@@ -226,13 +225,13 @@ def _passes(engine: Engine, source: Path, timeout: float, *options: str, most: i
 
 
 def lacks_hyphenation(engine: Engine) -> bool:
-    """Return whether the engine is that of the wheel without patterns for languages other than English."""
+    """Return whether the engine hyphenates only English, as the engine of the Python wheel does."""
     patterns = engine.path.parents[2] / "texmf-dist" / "tex" / "generic" / "hyph-utf8"
     return engine.name == WHEEL and not patterns.is_dir()
 
 
 def by_the_clock(seconds: float) -> float:
-    """Return the limit of the wall-clock time for a limit of the processor time."""
+    """Return the wall-clock limit for a limit of processor time."""
     return seconds + BUSY
 
 
@@ -248,7 +247,7 @@ def _too_slow(engine: Engine, source: Path, seconds: float) -> BuildFailed:
 
 
 def _environment(engine: Engine) -> dict[str, str]:
-    """Return the environment of the engine. It sets long messages, a fixed date and restricted access to files."""
+    """Return the environment of the engine: long messages, a fixed date and restricted access to files."""
     kept = ("PATH", "HOME", "TMPDIR", "SYSTEMROOT")  # settings of another TeX would affect the wheel's TeX
     return {name: value for name, value in os.environ.items() if engine.name != WHEEL or name in kept} | {
         "openin_any": "p",
@@ -280,7 +279,6 @@ def _failure(tex: str, source: Path, output: str, engine: Engine, kept: Path) ->
 
 
 def _first_error(report: str, output: str, name: str) -> tuple[str, int | None, str]:
-    """Return the message, the number of the line of our source, and what TeX had read of that line."""
     text = report if _ERROR.search(report) else output
     found = _ERROR.search(text)
     if not found:
@@ -301,7 +299,6 @@ def _mark(tex: str, number: int | None) -> str | None:
 
 
 def _place(tex: str, path: str, number: int, before: str) -> Place:
-    """Return the line of our source, with a caret under the last word that TeX read."""
     lines = tex.splitlines()
     line = lines[number - 1] if number <= len(lines) else ""
     before = before.removeprefix("...").rstrip()

@@ -1,7 +1,7 @@
-"""The time limit of a worker, in seconds of processor time, so that no problem fails because the machine is busy.
+"""The time limit of a worker. It counts processor time, so that a problem does not fail because the machine is busy.
 
-At the limit, `OutOfTime` is raised inside the work. Work that only waits is stopped after the same wall-clock time. If
-the work does not end, the system ends the process a little later.
+At the limit, `OutOfTime` is raised inside the work. Work that waits without using the processor is stopped after the
+same wall-clock time.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
-"""Many draws of the variants of a problem: how its answers are distributed, and which draws are degenerate.
+"""Checks of many variants of a problem: the distribution of the answers, and degenerate draws.
 
-The derivation is made once for each structure, which is one choice of everything that varies except numbers. The
-numbers of a draw are then substituted. A few draws are also derived from the beginning, for a comparison.
+A structure is one choice of everything that varies except numbers. Each structure is derived once, and the numbers of a
+draw are substituted. For a comparison, a few draws are also derived completely.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from derive.steps.homogeneity import dimension_table
 from derive.steps.numeric import WholeSwing
 from derive.steps.step import Quantity
 
-COMPARED = 3  # number of draws that are also derived from the beginning
+COMPARED = 3  # number of draws that are also derived completely
 BARS = " ▁▂▃▄▅▆▇█"
 WIDTH = 24  # number of bars of a distribution
 CLOSE = 1e-9  # the greatest imaginary part, relative to the value, that counts as zero
@@ -51,9 +51,9 @@ class OfProblem:
     structures  the number of different derivations
     same        number of pairs of draws with the same choices
     equal       for each answer, the number of pairs of different variants with the same value
-    degenerate  what is wrong with a draw -> the draws, each in words
+    degenerate  a fault of draws -> the draws that have it, in words
     outcomes    for each answer, the outcomes of its rule, such as `oscillates`, each with the number of draws
-    compared    number of draws that were also derived from the beginning
+    compared    number of draws that were also derived completely
     """
 
     id: str
@@ -124,7 +124,7 @@ def _pairs(counted: Mapping[Any, int]) -> int:
 def _numbers_of(
     root: Path, problem_id: str, variations: Sequence[Variation], found: OfProblem
 ) -> dict[tuple[str, int], dict[Symbol, Any]]:
-    """Return the number of the letter for each choice of each variation, in the coherent SI unit."""
+    """Return the numbers of the choices of each variation, in the coherent SI unit."""
     numbers: dict[tuple[str, int], dict[Symbol, Any]] = {}
     for variation in variations:
         for choice in range(len(variation.choices)):
@@ -140,8 +140,6 @@ def _numbers_of(
 
 @dataclass(frozen=True)
 class _Structure:
-    """The derived answers of one structure, and the numbers of the letters that do not vary."""
-
     problem: Problem
     answers: Mapping[str, Quantity]
     units: Mapping[str, str]
@@ -149,7 +147,7 @@ class _Structure:
     assumed: Sequence[Any]
 
     def values(self, point: Mapping[Symbol, Any], draw: str, found: OfProblem) -> dict[str, float]:
-        """Return the values of the answers; record a degenerate draw."""
+        """Return the values of the answers in one draw; record the draw if it is degenerate."""
         with mp.workdps(30):
             at = Values(dict(point))
             for condition in self.assumed:
@@ -182,7 +180,6 @@ def _holds(condition: Relation, at: Values) -> bool:
 
 
 def _structure(root: Path, problem_id: str, given: Chosen, found: OfProblem) -> _Structure | None:
-    """Derive one structure, or report the errors."""
     try:
         problem = load_problem(root, problem_id, given or None)
         derivation, _, known, _ = derived(problem)
@@ -203,7 +200,7 @@ def _structure(root: Path, problem_id: str, given: Chosen, found: OfProblem) -> 
 
 
 def _has_number(quantity: Quantity, letters: set[Symbol]) -> bool:
-    """Whether an answer is a scalar whose letters have numbers, and not a series for a period."""
+    """Whether an answer is a scalar whose letters have numbers; a period as a series has none."""
     value = quantity.value
     if isinstance(value, MatrixBase | Relation) or quantity.fact(WholeSwing) is not None:
         return False
@@ -218,7 +215,7 @@ def _unit(quantity: Quantity, dimensions: Mapping[Any, Dimension | None]) -> str
 def _compare(
     root: Path, problem_id: str, draw: Chosen, values: Mapping[str, float], words: str, found: OfProblem
 ) -> None:
-    """Derive a draw from the beginning, and compare the printed numbers with the values from the derived formulas."""
+    """Derive a draw completely, and compare the printed numbers with the values from the formulas of its structure."""
     try:
         _, printed, _, _ = derived(load_problem(root, problem_id, draw))
     except DeriveError as error:
@@ -241,7 +238,7 @@ def _printed(value: Any) -> Iterator[tuple[float, int]]:
 
 
 def bars(values: Sequence[float]) -> str:
-    """Return the distribution of values as a row of bars, from the least to the greatest value."""
+    """Return the distribution of values as a row of bars."""
     least, greatest = min(values), max(values)
     if greatest == least:
         return BARS[-1]

@@ -1,7 +1,7 @@
 """Builds of sets after each edit, in one process that loads its modules only once.
 
-The times and sizes of the files that authors write are compared many times a second, which also detects edits on a
-network drive. An edit stops the build under way, but finished work is stored.
+The times and sizes of the files are compared many times a second, which also detects edits on a network drive. An edit
+stops the running build; finished work is kept.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ class Shown:
 
 
 def watch(root: Path, asked: Mapping[str, tuple[str, ...]], options: Options, shown: Shown) -> None:
-    """Build these problems of these sets , then again after each edit, until interrupted."""
+    """Build these problems of these sets, and build them again after each edit, until interrupted."""
     chosen_engine(options.engine)  # raises errors about the engine before anything is built
     for set_id, names in asked.items():
         check_asked(root, set_id, names)
@@ -59,8 +59,6 @@ def watch(root: Path, asked: Mapping[str, tuple[str, ...]], options: Options, sh
 
 
 class _Watch:
-    """Builds the requested sets and waits for edits."""
-
     def __init__(self, root: Path, asked: Mapping[str, tuple[str, ...]], options: Options, shown: Shown):
         self.root, self.asked, self.options, self.shown = root, asked, options, shown
         self.own = Path(FOLDER)
@@ -101,7 +99,6 @@ class _Watch:
         return seen_in(self.folders) != self.files
 
     def _check_edited(self) -> None:
-        """Raise `Superseded` if a file has changed since the build began."""
         if self._edited():
             raise Superseded
 

@@ -1,8 +1,7 @@
-"""Forked workers: each job runs in a child of one process with loaded modules, has a time limit, and can be killed at
-any time.
+"""Workers: each job runs in a forked child process, has a time limit, and can be killed.
 
-The result or the error of a job is sent to the parent. A child leads a process group of its own, so that killing the
-child also kills the TeX that it runs. The child ends itself if the parent is gone.
+The result or the error of a job is sent to the parent. A child has its own process group, so that killing the child
+also kills a TeX process that it started. A child ends if its parent ends.
 """
 
 from __future__ import annotations
@@ -73,7 +72,7 @@ class Job:
 
 
 def job_of(root: Path, problem_id: str, work: Callable[[], Any], limit: float = TIME_LIMIT) -> Job:
-    """Return a job for a problem. Problems with the longest files begin first."""
+    """Return a job for a problem. Problems with long files begin first."""
     from derive.course.problem_set import found_path
 
     path = found_path(root, problem_id) or f"problems/{problem_id}.yaml"
@@ -97,7 +96,7 @@ class _Worker:
     job: Job
     child: ForkProcess
     pipe: Connection
-    trace: int  # a pipe for the lines that a worker was running when it was stopped
+    trace: int  # a pipe: a worker that is stopped writes the lines that it was running
     started: float = field(default_factory=time.monotonic)
 
     @property
@@ -170,7 +169,7 @@ class Crew:
 
 
 def under_way(running: Mapping[str, float], set_id: str = "") -> str:
-    """Return text such as `block 2 s, pages of top 1 s`, the longest-running job first, without the name of the set."""
+    """Return text such as `block 2 s, pages of top 1 s`."""
     longest = sorted(running.items(), key=lambda each: -each[1])
     named = [(job.removeprefix("the ").replace(f"`{set_id}/", "`").replace("`", ""), s) for job, s in longest]
     return ", ".join(f"{name} {seconds:.0f} s" for name, seconds in named)
@@ -233,8 +232,7 @@ def _outcome(worker: _Worker) -> Outcome | None:
 
 
 def _stopped(job: Job, code: str, message: str, help_: str, trace: str, notes: Iterable[str] = ()) -> BuildFailed:
-    """Return the error about a worker without an answer. The place of the error is the running line of the script, the
-    reference file or the problem's file."""
+    """Return the error about a worker that stopped without an answer."""
     place = (_line_in(trace, job) or Place(job.shown_as, 1)) if job.file else None
     if place and place.path == job.shown_as and (reference := _reference_in(trace, job)):
         place, help_ = Place(reference, 1), f"check what this file states about {job.name}"
@@ -250,7 +248,7 @@ def _reference_in(trace: str, job: Job) -> str:
 
 
 def too_long(job: Job, trace: str, late: OutOfTime | None = None) -> BuildFailed:
-    """Return the error of a worker at its time limit, with what is known about its work."""
+    """Return the error of a worker at its time limit."""
     late = late or OutOfTime()
     asked = f", most recently for `{late.answers[-1]}`" if late.answers else ""
     took = f"{job.name} took over {job.limit:g} s of processor time{asked}"
@@ -345,7 +343,7 @@ def _child(job: Job, pipe: Connection, lifeline: tuple[int, int], trace: int, li
 def attempt(job: Job, trace: int) -> tuple[Any, DeriveError | Bug | str | None]:
     """Do the work of a job within its time limit, and return its value or its error.
 
-    At the limit of memory or of nesting, the error is only the code of that limit.
+    If a limit of memory or nesting is reached, the error is the code of this limit.
     """
     try:
         with limited(job.limit, trace):
@@ -398,7 +396,6 @@ def _limit_reached(trace: int, error: MemoryError | RecursionError) -> str:
 
 
 def _trail(error: BaseException) -> str:
-    """Return the lines through which an error propagated, innermost first, as `faulthandler` does."""
     trail, lines = error.__traceback__, []
     while trail:
         lines.append(f'  File "{trail.tb_frame.f_code.co_filename}", line {trail.tb_lineno} in x\n')

@@ -48,7 +48,8 @@ def root_of(arguments: argparse.Namespace) -> Path:
 
 
 def library_root(root: Path | None) -> Path | None:
-    """Return the folder whose `problems` contains the library: the course if it has its own, else derive itself."""
+    """Return the folder whose `problems` contains the library: the course if it has a library of its own, otherwise
+    derive itself."""
     package = Path(FOLDER).resolve()
     for folder in (root, package, package.parent):
         if folder is not None and (folder / "problems" / LIBRARY / "set.yaml").is_file():
@@ -69,8 +70,7 @@ def problem_id_of(text: str) -> str:
 
 
 def new_id_of(text: str) -> str:
-    """Return the id of a new problem from the id or path that the user wrote. Unlike in `problem_id_of`, no topic is
-    removed, because a new problem has none."""
+    """Return the id of a new problem from the id or path that the user wrote."""
     return text.removeprefix("./").removeprefix("problems/").removesuffix(".yaml").rstrip("/")
 
 

@@ -1,4 +1,4 @@
-"""The changes that `derive diff` prints, with the signs +, - and ~, and on a terminal also in colour."""
+"""The text of the changes that `derive diff` prints."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from derive.building.set_diff import SetDiff
 from derive.cli.terminal import WIDTH
 from derive.render.notation.text import columns
 
-# Each sort of change with its heading, and with its name in the singular and in the plural.
+# for each sort of change: its heading, and its name in the singular and the plural
 _SORTS = {
     "given": ("given", "given value", "given values"),
     "problem": ("problems", "problem", "problems"),
@@ -43,7 +43,7 @@ _FACETS = {
 _SIGNS = {ADDED: "+", REMOVED: "-", CHANGED: "~"}
 _COLOURS = {ADDED: "32", REMOVED: "31"}
 _AROUND = 6  # words of a sentence that are shown on each side of a change
-_MOST_LINES = 3  # the greatest number of changed lines before the result of a step that are shown
+_MOST_LINES = 3  # at most this many changed lines of a step are shown before its result
 
 
 def told(problem_id: str, diff: Diff, coloured: bool) -> str:
@@ -176,7 +176,7 @@ def _ended(runs: Sequence[tuple[str, str]]) -> Iterable[tuple[tuple[str, str], b
 
 
 def _marked(how: str, words: str, first: bool, last: bool) -> list[tuple[str, str]]:
-    """Return the words of a run; marks as in `git diff --word-diff` enclose a run that was removed or added."""
+    """Return the words of a run. Marks as in `git diff --word-diff` enclose a run that was removed or added."""
     marked = {EQUAL: _abridged(words, first, last), REMOVED: f"[-{words}-]", ADDED: f"{{+{words}+}}"}[how]
     return [(how, word) for word in marked.split(" ")]
 

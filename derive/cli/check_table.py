@@ -24,7 +24,7 @@ _OF_CLAIMS = ("lines", "routes", "checks")
 
 
 def check_table(outcomes: Iterable[tuple[str, Outcome]]) -> str:
-    """Return headings, a line for each problem, and a legend that says what the columns count."""
+    """Return the table of the checks, with a line for each problem and a legend of the columns."""
     return f"{table([HEADING, *(_row(problem, outcome) for problem, outcome in outcomes)])}\n\n{LEGEND}"
 
 

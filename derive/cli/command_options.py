@@ -1,4 +1,4 @@
-"""The operands and options of each command. `derive --help` only lists the commands, and does not load this module."""
+"""The operands and options of each command."""
 
 from __future__ import annotations
 
@@ -135,7 +135,7 @@ def _grade(grade: argparse.ArgumentParser) -> None:
 
 
 def _with_answer(grade: argparse.ArgumentParser) -> None:
-    """Let the answer follow the options, and begin with a minus sign: argparse would take `-omega^2` for an option."""
+    """Let the answer begin with a minus sign: argparse would take `-omega^2` for an option."""
     options = {name: action for action in grade._actions for name in action.option_strings}
     parse = grade.parse_known_args
 
@@ -273,8 +273,7 @@ _OPTIONS: dict[str, Callable[[argparse.ArgumentParser], None]] = {
 
 
 def named(action: argparse.Action, names: str) -> None:
-    """Let the shell complete an operand or option with names from the course, which `derive/cli/completing.py`
-    finds."""
+    """Let the shell complete an operand or option with names from the course."""
 
     def completer(prefix: str, parsed_args: argparse.Namespace, **_: object) -> Iterable[str]:
         from derive.cli.completing import offered
@@ -306,7 +305,6 @@ def _documents(text: str) -> tuple[str, ...]:
 
 
 def _width(text: str) -> float:
-    """Return a width in centimetres, from 4 to 40 cm."""
     found = re.fullmatch(r"([\d.]+)\s*(cm|mm|in|pt)", text)
     width = float(found[1]) * _IN_CM[found[2]] if found else 0.0
     if not 4 <= width <= 40:

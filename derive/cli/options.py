@@ -35,7 +35,7 @@ _COMMANDS = {
     "completion": ("print the script by which a shell completes names", "SHELL", "fish"),
 }
 
-# Commands that are rarely needed; the list of commands names them in one line, so that it fits a screen.
+# Commands that are rarely needed: one line of the list of commands names them, so that the list fits a screen.
 _ALSO = ("why", "schema", "doctor", "clean", "completion")
 
 _AFTERWARDS = """\

@@ -15,7 +15,7 @@ _WRITTEN_BY_HAND = {".py", ".yaml", ".yml", ".j2", ".toml", ".md"}
 
 
 def check_output(output: str | None, root: Path) -> None:
-    """Reject a target of `-o` before any work: an invalid name of a file, a link, or a file written by hand."""
+    """Reject a target of `-o` before any work, such as a link or a file that was written by hand."""
     if output in (None, "-"):
         return
     path = Path(output or "")

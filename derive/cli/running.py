@@ -1,5 +1,4 @@
-"""The run of a command: an error that stops the command is reported in a few lines; only DERIVE_DEBUG=1 adds a
-traceback."""
+"""The run of a command. An error that stops the command is reported in a few lines; DERIVE_DEBUG=1 adds a traceback."""
 
 from __future__ import annotations
 
@@ -109,8 +108,8 @@ ending = Ending()
 
 
 class _Interrupted(KeyboardInterrupt):
-    """The exception for Ctrl-C. If a KeyboardInterrupt passes through `exec` of a string, Python kills the process when
-    it exits, even if the exception was caught. Python does not do so for a subclass of KeyboardInterrupt."""
+    """The exception for Ctrl-C. After a KeyboardInterrupt in `exec` of a string, Python kills the process when it
+    exits, even if the exception was caught. A subclass of KeyboardInterrupt does not have this effect."""
 
 
 def _signaled(number: int, _: FrameType | None) -> NoReturn:

@@ -48,8 +48,8 @@ def silence(descriptor: int) -> None:
 
 
 def _open_streams() -> None:
-    """Occupy the descriptor of each closed standard stream, so that no other file gets this descriptor and is written
-    to by mistake. Also set the encoding of the output."""
+    """Open a substitute for each closed standard stream: otherwise another file could get its descriptor, and output
+    would be written to that file. Also set the encoding of the output."""
     for descriptor, mode in ((0, os.O_RDONLY), (1, os.O_RDONLY), (2, os.O_WRONLY)):
         try:
             os.fstat(descriptor)

@@ -53,8 +53,7 @@ def note(how: str, of: str, seconds: float) -> None:
 
 
 def faults_of_source(problem_id: str, faults: Sequence[Sequence[str]]) -> str:
-    """Return the errata and the remarks about a problem's source, each with its line, the text that the
-    source prints, the correction of an erratum, and the reason."""
+    """Return the errata and the remarks about the source of a problem."""
     sorts = [sort for sort, *_ in faults]
     words = {"erratum": ("erratum", "errata"), "remark": ("remark", "remarks")}
     counts = [f"{n} {words[sort][n > 1]}" for sort in words if (n := sorts.count(sort))]
@@ -68,8 +67,7 @@ def faults_of_source(problem_id: str, faults: Sequence[Sequence[str]]) -> str:
 
 
 def _wrapped(text: str, before: str) -> list[str]:
-    """Wrap a text without shortening it, because the error of the source may be at the end of the text. Replace control
-    codes by blanks."""
+    """Wrap a text, and replace control codes by blanks."""
     plain = "".join(c if c.isprintable() else " " for c in text)
     return textwrap.wrap(plain, WIDTH, initial_indent=before, subsequent_indent=" " * _INDENT) or [before.rstrip()]
 

@@ -1,11 +1,11 @@
 """A quiz of Canvas: a package of QTI 1.2 with the fields that Canvas reads.
 
-Canvas has one field in a numerical question, so each number of a part is a question of its own; any other part is an
-essay. A number is right within the tolerance that rounding to the printed figures allows. The worked solution is the
-general feedback of the question.
+A numerical question of Canvas has one field, so each number of a part becomes a separate question. Other parts become
+essays. A number is right within the tolerance of rounding to the printed figures. The worked solution is the general
+feedback of the question.
 
-Sources: IMS Global, *Question and Test Interoperability: ASI XML Binding Specification*, version 1.2; the fields of
-Canvas are those of its own exports.
+Sources: IMS Global, *Question and Test Interoperability: ASI XML Binding Specification*, version 1.2; for the fields of
+Canvas, files that Canvas exported.
 """
 
 from __future__ import annotations
@@ -23,13 +23,13 @@ from derive.render.printing.tex_in_html import formula_html
 QTI = "http://www.imsglobal.org/xsd/ims_qtiasiv1p2"
 CANVAS = "http://canvas.instructure.com/xsd/cccv1p0"
 PACKAGE = "http://www.imsglobal.org/xsd/imsccv1p1/imscp_v1p1"
-FILES = "%24IMS-CC-FILEBASE%24"  # Canvas puts the address of the imported files here
+FILES = "%24IMS-CC-FILEBASE%24"  # Canvas replaces this by the address of the imported files
 FOLDER = "drawings"
 HEAD = '<?xml version="1.0" encoding="UTF-8"?>\n'
 
 
 def canvas_package(set_id: str, title: str, questions: Sequence[Question]) -> bytes:
-    """Return the questions of a set as the bytes of a ZIP file; equal input gives equal bytes."""
+    """Return the questions of a set as a ZIP file; equal input gives equal bytes."""
     quiz, files = _ident(set_id), dict[str, bytes]()
     items, total = list[str](), 0.0
     for question in questions:
@@ -54,12 +54,10 @@ def canvas_package(set_id: str, title: str, questions: Sequence[Question]) -> by
 
 
 def _ident(*names: str) -> str:
-    """Return an identifier that depends on these names only."""
     return "g" + hashlib.sha256("/".join(names).encode()).hexdigest()[:32]
 
 
 def _items(question: Question, part: Part) -> list[tuple[str, float, list[str]]]:
-    """Return the items of a part, each with its points and the names of its drawings."""
     body, used = with_files(f"{question.statement}\n{part.question}", _address, question.files)
     solution, also = with_files(part.solution, _address, question.files)
     files = [*dict.fromkeys([*used, *also])]
@@ -105,7 +103,6 @@ def _item(ident: str, title: str, points: float, body: str, solution: str, answe
 
 
 def _graded(answer: Answer) -> str:
-    """Return the condition under which a number is right."""
     assert answer.value is not None
     low, high = (f"{answer.value + side * answer.tolerance:.12g}" for side in (-1, 1))
     return (

@@ -1,9 +1,8 @@
 """Moodle XML: a category with one question for each part of each problem.
 
-With `stack`, a part whose answers are formulas becomes a question of the plugin STACK, which decides with Maxima
-whether the student's formula is equal. A part whose answers all have numbers becomes a numerical question or, with
-several answers, a cloze question. Any other part becomes an essay. The general feedback of each question is the worked
-solution.
+With `stack`, a part whose answers are formulas becomes a question of the plugin STACK, which compares formulas with
+Maxima. A part whose answers are numbers becomes a numerical question or, with several answers, a cloze question. Other
+parts become essays. The worked solution is the general feedback of the question.
 
 Source of the formats: Moodle documentation, "Moodle XML format"; STACK documentation, "Authoring".
 """
@@ -29,7 +28,7 @@ def moodle_xml(course: str, title: str, questions: Sequence[Question], stack: bo
 
 
 def _path(name: str) -> str:
-    return name.replace("/", "//")  # a single slash would begin a category within the category
+    return name.replace("/", "//")  # in Moodle, a single slash separates a category from its subcategory
 
 
 def _question(question: Question, part: Part, stack: bool) -> str:
@@ -77,7 +76,6 @@ def _numerical(answer: Answer) -> str:
 
 
 def _gaps(answers: Sequence[Answer]) -> str:
-    """Return a line with a gap for each answer, in the notation of cloze questions."""
     return "\n".join(
         f"<p>{formula_html(answer.symbol or answer.latex)} = "
         f"{{1:NUMERICAL:={answer.value:.12g}:{answer.tolerance:.12g}}} {escape(answer.unit)}</p>"
@@ -93,7 +91,6 @@ def _inputs(answers: Sequence[Answer]) -> str:
 
 
 def _stack(answers: Sequence[Answer]) -> str:
-    """Return the rest of a question of STACK: the right answers, the fields, and a comparison for each."""
     numbered = list(enumerate(answers, 1))
     positive = all(answer.is_of_positive_letters for answer in answers)
     variables = "\n".join(f"ta{number}: {maxima(answer.sympy)};" for number, answer in numbered)
@@ -104,7 +101,7 @@ def _stack(answers: Sequence[Answer]) -> str:
             _element("questionvariables", _text(variables)),
             f'<specificfeedback format="html">{_text(feedback)}</specificfeedback>',
             "<questionnote><text></text></questionnote>",
-            # With positive letters STACK takes sqrt(x^2) for x, which is right only if no letter can be negative.
+            # With positive letters, STACK simplifies sqrt(x^2) to x. This would be wrong for a negative letter.
             f"<questionsimplify>1</questionsimplify><assumepositive>{int(positive)}</assumepositive><assumereal>1</assumereal>",
             *(_input(number) for number, _ in numbered),
             *(_comparison(number, len(numbered)) for number, _ in numbered),
@@ -128,7 +125,6 @@ def _input(number: int) -> str:
 
 
 def _comparison(number: int, count: int) -> str:
-    """Return a response tree with one node: is the student's formula algebraically equal to the right one?"""
     results = "".join(
         f"<{sort}scoremode>=</{sort}scoremode><{sort}score>{score}</{sort}score><{sort}penalty></{sort}penalty>"
         f"<{sort}nextnode>-1</{sort}nextnode><{sort}answernote>prt{number}-1-{sort[0].upper()}</{sort}answernote>"

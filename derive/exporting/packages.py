@@ -1,4 +1,4 @@
-"""Files in a ZIP file whose bytes depend on the files only."""
+"""ZIP files whose bytes depend only on the files that they contain."""
 
 from __future__ import annotations
 

@@ -1,8 +1,7 @@
 """Questions of PrairieLearn: a folder for each part, with `info.json`, `question.html` and `server.py`, in a ZIP file.
 
-A number has a field that compares significant figures. A formula in letters has a field for symbolic input if its
-letters are plain names; then PrairieLearn itself decides whether the student's formula is equal. Any other answer is a
-text that a person grades.
+A number has a field that compares significant figures. A formula has a field for symbolic input if its letters are
+plain names: PrairieLearn then compares the formulas. A person grades other answers.
 
 Source of the format: PrairieLearn documentation, "Question configuration" and "Elements".
 """
@@ -21,7 +20,7 @@ from derive.render.printing.tex_in_html import formula_html
 
 
 def prairielearn_package(set_id: str, title: str, questions: Sequence[Question]) -> bytes:
-    """Return the questions of a set as the bytes of a ZIP file; equal input gives equal bytes."""
+    """Return the questions of a set as a ZIP file; equal input gives equal bytes."""
     files: dict[str, bytes] = {}
     for question in questions:
         for part in question.parts:
@@ -61,12 +60,11 @@ def _folder(set_id: str, title: str, question: Question, part: Part) -> dict[str
 
 
 def _without_tags(html: str) -> str:
-    """Separate double braces of TeX, which Mustache would read as tags: `{{` becomes `{ {`."""
+    """Separate double braces of TeX, because Mustache would read them as tags: `{{` becomes `{ {`."""
     return re.sub(r"\}(?=\})", "} ", re.sub(r"\{(?=\{)", "{ ", html))
 
 
 def _field(number: int, answer: Answer) -> str:
-    """Return the field for an answer; empty if PrairieLearn cannot compare the answer."""
     label = f"<p>{_without_tags(formula_html(answer.symbol or answer.key))} =</p>"
     if answer.value is not None:
         unit = f' suffix="{escape(answer.unit)}"' if answer.unit else ""

@@ -1,8 +1,8 @@
 """A package of QTI 2.1: one assessment item for each part of each problem, a test, and a manifest, in a ZIP file.
 
-A part whose answers all have numbers becomes an item with a field for each number, graded with the tolerance that
-rounding to the printed figures allows; any other part becomes an item in which the student writes a text. The worked
-solution is the modal feedback of the item.
+A part whose answers are numbers becomes an item with a field for each number. A number is right within the tolerance of
+rounding to the printed figures. In the items of other parts, the student writes a text. The worked solution is the
+modal feedback of the item.
 
 Source of the format: IMS Global, *Question and Test Interoperability Assessment Test, Section and Item Information
 Model*, version 2.1.
@@ -24,7 +24,7 @@ HEAD = '<?xml version="1.0" encoding="UTF-8"?>\n'
 
 
 def qti_package(set_id: str, title: str, questions: Sequence[Question]) -> bytes:
-    """Return the questions of a set as the bytes of a ZIP file; equal input gives equal bytes."""
+    """Return the questions of a set as a ZIP file; equal input gives equal bytes."""
     files: dict[str, bytes] = {}
     items: list[tuple[str, list[str]]] = []
     for question in questions:
@@ -88,7 +88,6 @@ def _field(number: int, answer: Answer) -> str:
 
 
 def _processing(answers: Sequence[Answer], points: float) -> str:
-    """Return the rules that add the share of each number within its tolerance, and show the solution."""
     rules = "".join(
         "<responseCondition><responseIf>"
         f'<equal toleranceMode="absolute" tolerance="{answer.tolerance:.12g} {answer.tolerance:.12g}">'

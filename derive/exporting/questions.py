@@ -1,4 +1,4 @@
-"""The questions of a set for all exports, read from the format `questions` and the drawings of each problem."""
+"""The questions of a set for exports, read from the format `questions` of each problem and from its drawings."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from typing import Any
 from derive.render.printing.tex_in_html import IMAGE
 from derive.render.rendered import Rendered
 
-# Functions in formulas that learning platforms compare.
+# the functions that learning platforms know
 FUNCTIONS = {"sin", "cos", "tan", "asin", "acos", "atan", "exp", "log", "sqrt"}
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 
@@ -22,7 +22,7 @@ class Answer:
 
     sympy    the formula in plain SymPy text
     latex    the formula in TeX
-    value    the number, or None; `unit` is its unit, and `figures` the number of its significant figures
+    value    the number, or None; `unit` is its unit, and `figures` is the number of its significant figures
     """
 
     key: str
@@ -36,7 +36,7 @@ class Answer:
 
     @property
     def tolerance(self) -> float:
-        """Half a unit of the last printed figure, the greatest change by rounding; 0 without a number."""
+        """Half a unit of the last printed figure; 0 if there is no number or the number is 0."""
         if self.value is None or not self.value:
             return 0.0
         exponent = f"{self.value:.{(self.figures or 4) - 1}e}".partition("e")[2]
@@ -44,7 +44,7 @@ class Answer:
 
     @property
     def letters(self) -> set[str] | None:
-        """The letters of a formula without `t` of letters, numbers and common functions; otherwise None."""
+        """The letters of a formula that learning platforms can compare; None for other formulas."""
         names = set(_NAME.findall(self.sympy))
         if not re.fullmatch(r"[A-Za-z0-9_+\-*/(). ]+", self.sympy) or names & {"t", "Eq"}:
             return None
@@ -55,7 +55,7 @@ class Answer:
 
 @dataclass(frozen=True)
 class Part:
-    """A question with its answers; the texts are HTML with formulas in TeX between `\\\\(` and `\\\\)`."""
+    """A question with its answers; the texts are HTML with formulas in TeX."""
 
     label: str
     points: float | None
@@ -70,7 +70,7 @@ class Part:
 
 @dataclass(frozen=True)
 class Question:
-    """A problem: its statement, remarks and parts, and the files of its drawings by their names."""
+    """A problem with its statement, remarks, parts, and the files of its drawings by name."""
 
     id: str
     number: int
@@ -89,7 +89,7 @@ class Question:
 
 
 def questions_of(problems: Sequence[Rendered]) -> list[Question]:
-    """Return the questions of problems that were printed in the format `questions`."""
+    """Return the questions of problems; the problems must have been printed in the format `questions`."""
     return [_question(number, problem) for number, problem in enumerate(problems, 1)]
 
 
@@ -125,7 +125,7 @@ def _answer(told: dict[str, Any]) -> Answer:
 
 
 def with_files(html: str, address: Callable[[str], str], files: dict[str, bytes]) -> tuple[str, list[str]]:
-    """Return the text with an address for each of its files, and the names of these files."""
+    """Replace the names of files in a text by their addresses; return the text and the names."""
     used = [name for name in files if f"{IMAGE}{name}" in html]
     for name in used:
         html = html.replace(f"{IMAGE}{name}", address(name))

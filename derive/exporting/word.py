@@ -16,14 +16,14 @@ from derive.building.scratch import Scratch
 from derive.errors import BuildFailed, Complaint, Misused
 from derive.exporting.questions import Part, Question, with_files
 
-LONGEST = 120  # seconds that Pandoc may take
+LONGEST = 120  # time limit of Pandoc, in seconds
 DPI, SHARPNESS = 96, 3  # pixels per inch in a browser; pixels of a picture per pixel of a browser
 READS = "html+tex_math_single_backslash-raw_html"
 INSTALL = "install Pandoc and the converter of drawings: `pip install 'derive-mechanics[docx]'`"
 
 
 def word_document(title: str, questions: Sequence[Question], solutions: bool = True) -> bytes:
-    """Return a set as the bytes of a .docx file; without `solutions`, only its statements and questions."""
+    """Return a set as a .docx file; without `solutions`, the file contains only the statements and questions."""
     pandoc = _pandoc()
     pieces, pictures = [f"<h1>{escape(title)}</h1>"], dict[str, bytes]()
     for question in questions:
@@ -45,7 +45,7 @@ def word_document(title: str, questions: Sequence[Question], solutions: bool = T
             ran = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=LONGEST, check=False)
         except (OSError, subprocess.TimeoutExpired) as error:
             raise BuildFailed(Complaint("pandoc", f"Pandoc cannot be run: {error}", help=INSTALL)) from None
-        if ran.returncode or ran.stderr.strip():  # a warning means that a formula or a picture is not converted
+        if ran.returncode or ran.stderr.strip():  # Pandoc warns if it cannot convert a formula or a picture
             raise BuildFailed(Complaint("pandoc", f"Pandoc does not convert the set: {ran.stderr.strip()[:500]}"))
         return (folder / "set.docx").read_bytes()
 
@@ -72,7 +72,7 @@ def _part(part: Part, solutions: bool) -> str:
 
 
 def _pandoc() -> str:
-    """Return the path of Pandoc from its package or, if the package is not installed, its name."""
+    """Return the path of Pandoc from its package; if the package is not installed, return the name `pandoc`."""
     try:
         return str(import_module("pypandoc").get_pandoc_path())
     except (ImportError, OSError):

@@ -126,8 +126,7 @@ def dissipation_function(system: WithForces, symbol: str = "D", key: str = "diss
 
 
 def squares_of_velocity(damper: Damper, moving: Sequence[Symbol]) -> Expr:
-    """Return v^2 of the damped point. The components of the velocity are evaluated for a point of a body, and also if
-    each component is the rate of a coordinate: x_dot^2, not (d/dt (a + x))^2."""
+    """Return v^2 of the damped point. Simple components are evaluated: x_dot^2, not (d/dt (a + x))^2."""
     velocity = _velocity_of(damper.at, moving)
     if not damper.point.held and not all(v in {ZERO, *map(rate, moving)} for v in velocity):
         return squares_of_rates(damper.at, moving)
@@ -138,13 +137,13 @@ def squares_of_velocity(damper: Damper, moving: Sequence[Symbol]) -> Expr:
 
 
 def _velocity_of(place: Sequence[Expr], moving: Sequence[Symbol]) -> list[Expr]:
-    """Return the components of a velocity; the sign of each component is chosen so that no minus sign leads."""
+    """Return the components of a velocity, each with the sign that avoids a leading minus."""
     found = [explicit(TimeRate(c, *moving)) for c in place]
     return [-v if v.could_extract_minus_sign() else v for v in found]
 
 
 def squares_of_rates(place: Sequence[Expr], moving: Sequence[Symbol]) -> Expr:
-    """Return (dx/dt)^2 + (dy/dt)^2 + ... over the components that change; if none changes, only the first term."""
+    """Return (dx/dt)^2 + (dy/dt)^2 + ... over the components that change."""
     fast = [TIME, *moving]
     changing = [c for c in place if c.has(*fast)] or [*place][:1]
     squares = [Pow(TimeRate(c, *moving), 2) for c in changing]
@@ -172,8 +171,7 @@ def applied_force(of: Quantity, q: Coordinate, key: str | None = None) -> Quanti
     of   the Lagrangian, J, of a system with given forces, couples or damping
     q    one of the coordinates of the system
 
-    Second route: Q is the derivative of the power of all these forces, sum of F . v, with respect to q_dot, with F held
-    constant.
+    Second route: Q is the derivative of the power of these forces, sum of F . v, with respect to q_dot at constant F.
     Outcomes: generic, zero.
     Errors: all forces on the system have a potential energy; L contains neither q nor its rate.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 1.4 and 1.5.
@@ -213,8 +211,7 @@ def applied_force(of: Quantity, q: Coordinate, key: str | None = None) -> Quanti
 
 
 def _works(load: Load, q: Coordinate) -> list[Expr]:
-    """Return the terms F_i dr_i/dq; the derivatives are evaluated if the force acts on a point of a body, or if each of
-    them is 0 or 1."""
+    """Return the terms F_i dr_i/dq."""
     pairs = list(zip(load.force, load.place, load.slopes(q.symbol), strict=True))
     if (
         load.held
@@ -330,10 +327,7 @@ def forced_equation(of: Quantity, q: Coordinate, derivatives: Sequence[Quantity]
 
 
 def with_derivatives(derivatives: Sequence[Quantity], right: Expr, moving: Sequence[Symbol]) -> list[Form]:
-    """Return the line with the derivatives of L, d/dt (m r^2 theta_dot) + m g r sin(theta) = right.
-
-    The line is left out if it is as short as the equation.
-    """
+    """Return the line with the derivatives of L, d/dt (m r^2 theta_dot) + m g r sin(theta) = right."""
     if not derivatives:
         return []
     force, momentum, _ = (explicit(each.value) for each in derivatives)
@@ -344,8 +338,7 @@ def with_derivatives(derivatives: Sequence[Quantity], right: Expr, moving: Seque
 
 
 def difference(first: Expr, second: Expr) -> Expr:
-    """Return `first - second`. If `second` has several terms, they are written in brackets; if all of them are
-    negative, the brackets contain `-second`, with a plus sign in front."""
+    """Return `first - second`, with the terms of `second` in brackets."""
     terms = Add.make_args(second)
     if second == 0 or len(terms) == 1:
         return Terms(first, -second) if second != 0 else first
@@ -354,8 +347,8 @@ def difference(first: Expr, second: Expr) -> Expr:
 
 
 def _between(constraints: Sequence[Constraint]) -> str:
-    """Return the quantities that the constraints relate: "coordinates", "rates", or "both" if some relate coordinates
-    and some rates. For one constraint, "_once" is added."""
+    """Return the word for the quantities that the constraints relate: "coordinates", "rates" or "both". For one
+    constraint, "_once" is added."""
     in_rates = {c.in_rates for c in constraints}
     found = "both" if len(in_rates) > 1 else "rates" if True in in_rates else "coordinates"
     return f"{found}_once" if len(constraints) == 1 else found

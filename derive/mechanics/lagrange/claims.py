@@ -37,8 +37,8 @@ from derive.steps.trial_numbers import Point, as_rational, assumptions_about, ev
 
 
 def kept_momentum(facts: Judged, fact: KeptMomentum) -> bool:
-    """Whether the fact names the momentum and the coordinate of the step, and the rate that the fact states gives the
-    momentum its conserved value."""
+    """Whether the fact names the momentum and the coordinate of the step, and its rate gives the momentum its
+    conserved value."""
     momentum, value = value_of_role(facts, "momentum"), value_of_role(facts, "value")
     there = momentum.xreplace({rate(fact.coordinate): fact.turning})
     as_named = (fact.momentum, fact.coordinate) == (facts.quantities["momentum"].symbol, facts.inputs["coordinate"])
@@ -65,10 +65,7 @@ def _in_rates(facts: Judged) -> Expr:
 
 
 def _is_conserved(facts: Judged) -> bool:
-    """Whether the rate of the result along the motion vanishes. D'Alembert's principle eliminates the accelerations.
-
-    The terms lambda df/dt of the constraints f = 0 are also eliminated: they vanish along the motion.
-    """
+    """Whether the rate of the result along the motion vanishes. D'Alembert's principle eliminates the accelerations."""
     L = facts.quantities["lagrangian"]
     matter, kept = L.needed(Matter), L.fact(Constrained)
     along = [rate(q) * (matter.inertia_along(q) - matter.force_along(q)) for q in matter.coordinates]
@@ -187,7 +184,7 @@ def free_bodies(facts: Judged) -> int:
 
 
 def parts_of_the_kinetic_energy(facts: Judged, _: str) -> bool:
-    """Whether the word `made` fits the system."""
+    """Whether the word `made` fits the parts of the kinetic energy."""
     system, made = facts.subject.body, facts.words["made"]
     if made == "any":
         return True
@@ -205,8 +202,8 @@ def _rates_of(place: Any, system: Any) -> list[Expr]:
 
 
 def on_the_sides_that_are_assumed(facts: Judged) -> bool:
-    """Whether the energy is not zero, and the page assumes u > 0 for each distance |u| that a step replaces by u. The
-    sentence must mention stretched springs if and only if one of these assumptions is about a spring."""
+    """Whether the energy is not zero, and the page assumes u > 0 for each distance |u| that a step replaces by u.
+    The sentence must mention stretched springs exactly if such a distance is the length of a spring."""
     sides = [Relation(u, ">", 0) for u in facts.inputs["branches"]]
     of_springs = any(side in assumed_in_words() for side in sides)
     return lasts(facts) and set(sides) <= set(assumed()) and of_springs == (facts.words["seen"] == "stretched")
@@ -214,7 +211,7 @@ def on_the_sides_that_are_assumed(facts: Judged) -> bool:
 
 def equation_of(facts: Judged, q: Any) -> bool:
     """Whether the factors of the accelerations are proportional to the second derivatives of L with respect to q_dot
-    and each rate. If all these derivatives are zero, the equation must contain q or its rate."""
+    and each rate."""
     L, moving = value_of_role(facts, "lagrangian"), facts.quantities["lagrangian"].coordinates
     residual = explicit(facts.result).residual
     inertia = {s: diff(L, rate(q), rate(s)) for s in moving}
@@ -378,9 +375,8 @@ def constraint_rate_in_rates(facts: Judged) -> bool:
 
 
 def names_the_enforcer(facts: Judged, outcome: str) -> bool:
-    """Whether the object that the sentence names, such as a string, enforces the constraint; friction must enforce a
-    constraint on velocities, and the couple of a rigid joint acts at no point. A sentence with the word "formula"
-    names no object, so it is accepted."""
+    """Whether the object that the sentence names, such as a string, enforces the constraint. A sentence with the
+    word "formula" names no object, so it is accepted."""
     of, word = facts.inputs["of"], facts.words.get("enforcer")
     if word == "formula":
         return True
@@ -390,8 +386,7 @@ def names_the_enforcer(facts: Judged, outcome: str) -> bool:
 
 
 def _keeps_one_constant(facts: Judged) -> bool:
-    """Whether the left side of the result is the second rate of one coordinate, and the constraint does not contain the
-    time."""
+    """Whether the result is about the acceleration of one coordinate, and the constraint does not contain the time."""
     left, condition = explicit(facts.result).left, facts.inputs["condition"]
     return left in {rate(q, 2) for q in condition.free_symbols} and not depends_on_time(condition)
 
@@ -466,8 +461,8 @@ def _values_by_constraints(facts: Judged) -> dict[Symbol, Expr]:
 
 
 def follows_from_a_constraint(facts: Judged, told: Relation) -> bool:
-    """Whether one of the constraints that contain this coordinate holds identically for the values that the sentence
-    states for this and other coordinates. An acceleration must be the second derivative of such a value."""
+    """Whether a constraint that contains this coordinate holds for the values that the sentence states. An
+    acceleration must be the second derivative of such a value."""
     moving = facts.inputs["moving"]
     values = {s: v for s, v in _values_by_constraints(facts).items() if s in moving}
     accelerated = {rate(q, 2): q for q in values}
@@ -489,7 +484,7 @@ def isolated(facts: Judged) -> bool:
 
 
 def is_in_these_equations(facts: Judged, symbol: Symbol) -> bool:
-    """Whether an unknown that the sentence calls eliminated occurs in at least two of its equations."""
+    """Whether an unknown that the sentence calls eliminated occurs in at least two of the named equations."""
     equations = [q for role, q in facts.quantities.items() if role.startswith("equation_")]
     return len([q for q in equations if explicit(q.value).has(symbol)]) > 1
 
@@ -498,8 +493,7 @@ multiplier_generic: Predicate = both(lasts, negated(is_stretched))
 
 
 def multiplier_negative(facts: Judged) -> bool:
-    """Whether the symbol of the result is a force that is negative at trial numbers, and acts on the body in the stated
-    direction."""
+    """Whether the result is a force that is negative at trial numbers, and acts on the body in the stated direction."""
     x, y = facts.inputs["positive"]
     word, of_slope, _ = facts.words["sense"].partition("_slope")
     across, beside, wanted = {"up": (y, x, 1), "down": (y, x, -1), "right": (x, y, 1), "left": (x, y, -1)}[word]

@@ -156,9 +156,9 @@ def accelerations(*equations: Quantity) -> tuple[Quantity, ...]:
     Second route: the accelerations and constraint forces satisfy d'Alembert's principle, sum of (m a - F) . dr/dq = 0
     for every coordinate.
     Check: the accelerations satisfy the constraints, differentiated as functions of t.
-    Errors: an equation is missing or is given twice; the equations belong to different Lagrangians; there are more than
-    nine unknowns; the constraints contradict or repeat one another; a coordinate has no inertia; a surface would have
-    to pull, or a string would have to push.
+    Errors: an equation is missing or is given twice; the equations belong to different Lagrangians; there are too many
+    unknowns; the constraints contradict or repeat one another; a coordinate has no inertia; a surface would have to
+    pull, or a string would have to push.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4.
     """
     problem = _problem("accelerations", equations)
@@ -207,8 +207,7 @@ def _told(of: Constraint) -> Relation:
 
 
 def _fixed(of: Constraint, moving: Sequence[Symbol]) -> Relation | None:
-    """Return y = a for a constraint that gives one coordinate a constant value, such as a - y = 0; None for any other
-    constraint."""
+    """Return y = a for a constraint that gives one coordinate a constant value, such as a - y = 0; otherwise None."""
     contained = [q for q in moving if of.residual.has(q, rate(q))]
     if len(contained) != 1 or of.in_rates or depends_on_time(of.residual):
         return None
@@ -289,8 +288,7 @@ def constraint_rate(of: Quantity, number: int = 0, key: str | None = None) -> Qu
 
 
 def _steps(problem: _Problem, wanted: Sequence[Symbol]) -> tuple[Quantity, ...]:
-    """Return the steps of these unknowns. If the formula of an unknown contains other unknowns, the steps of the others
-    are established first, in the order of `isolated_in_order`."""
+    """Return the steps of these unknowns, and of the unknowns in their formulas."""
     rates = [constraint_rate(problem.lagrangian, i) for i in range(len(problem.constraints))]
     forces = {each.force: each for each in problem.constraints}
     order, every = _isolated(problem), [*problem.used, *rates]
@@ -313,7 +311,7 @@ def _steps(problem: _Problem, wanted: Sequence[Symbol]) -> tuple[Quantity, ...]:
 
 @dataclass(frozen=True)
 class _Isolation:
-    """An `Isolated` unknown with its equations, and the unknowns that were found before it, by name."""
+    """An `Isolated` unknown with its equations, and the unknowns that were found before it."""
 
     found: Isolated
     equations: Sequence[Quantity]
@@ -329,7 +327,7 @@ class _Isolation:
         return self.earlier if self.found.value is not None else {}
 
     def law(self, value: Expr) -> Callable[..., Expr]:
-        """Return the unknown as a function of the earlier unknowns, or the value if there is no such formula."""
+        """Return the unknown as a function of the earlier unknowns, or its value if there is no such formula."""
         formula = self.found.value
         if formula is None or not self.found.earlier:
             return lambda *_: value
@@ -337,7 +335,6 @@ class _Isolation:
 
     @property
     def pointed(self) -> dict[str, Quantity]:
-        """Return the equations, and the earlier unknowns if no formula shows them."""
         hidden = () if self.inputs else self.earlier.values()
         in_words = self._constant
         pointed = [each for each in self._in_use if each not in in_words]
@@ -346,8 +343,7 @@ class _Isolation:
 
     @property
     def _constant(self) -> dict[Quantity, Relation]:
-        """Return each equation q_ddot = 0 of a constraint q = constant, with this constraint. The sentence states both
-        in words, "with r = l and r_ddot = 0"."""
+        """Return each equation q_ddot = 0 of a constraint q = constant, with this constraint."""
         constraints = self.problem.constraints
         first = len(self.problem.used)
         numbers = [i - first for i in self.found.equations if i >= first]
@@ -361,9 +357,7 @@ class _Isolation:
 
     @cached_property
     def _substituted(self) -> tuple[Substitution, ...]:
-        """Return the substitutions that eliminate the other unknowns, with one equation for each unknown; empty if
-        there are too many.
-        """
+        """Return the substitutions that eliminate the other unknowns; empty if there are too many."""
         eliminated = self.found.eliminated
         if not 0 < len(eliminated) == len(self.equations) - 1 or len(eliminated) > MOST_SUBSTITUTED:
             return ()
@@ -378,7 +372,6 @@ class _Isolation:
 
     @property
     def formulas(self) -> dict[str, tuple[Relation, Relation]]:
-        """Return the substitutions for the sentence, each with the equation from which it follows."""
         found, rows = {}, self.problem.residuals_known
         done: dict[Symbol, Expr] = {}
         for n, each in enumerate(self._substituted, 1):
@@ -391,8 +384,7 @@ class _Isolation:
 
     @property
     def named(self) -> dict[str, Any]:
-        """Return the eliminated unknowns, and the relations q = value for the coordinates whose values are substituted
-        in the equations."""
+        """Return the eliminated unknowns, and the relations q = value that are substituted in the equations."""
         eliminated = {f"eliminated_{i}": each for i, each in enumerate(self.found.eliminated, 1)}
         present = {s for each in self.equations for s in explicit(each.value).free_symbols}
         known = self.problem.known
@@ -562,7 +554,6 @@ def _places(problem: _Problem) -> tuple[Expr, ...]:
 
 
 def _gathered(problem: _Problem, value: Expr) -> Expr:
-    """Collect a value by accelerations and by squares of rates, if some accelerations remain in it."""
     return by_accelerations(value, problem.moving) if problem.keeping else value
 
 
@@ -577,8 +568,8 @@ CONSTRAINT_FORCE = Rule(
 def constraint_force(
     forces: Sequence[Quantity], along: Mapping[Any, Expr], symbol: str = "N", key: str = "constraint_force"
 ) -> Quantity:
-    """Component of constraint forces along a displacement, N = sum of lambda df/dq dq, per unit of the displacement.
-    The constraints are f = 0.
+    """Component of constraint forces along a displacement, N = sum of lambda df/dq dq, per unit of the displacement,
+    where the constraints are f = 0.
 
     forces   results of `multipliers` for one system
     along    coordinate -> its change per unit of the displacement: `{x: sin(theta), y: cos(theta)}`
@@ -703,8 +694,8 @@ def _solved(problem: _Problem) -> dict[Symbol, Expr]:
 
 
 def _check_short(solved: Matrix, names: Mapping[Expr, Dummy]) -> None:
-    """Reject solutions of many terms with different roots of sums, such as the lengths of two oblique strings: SymPy
-    needs minutes to simplify them, and they fill a page."""
+    """Reject long solutions with different roots of sums, such as the lengths of two oblique strings: SymPy needs
+    minutes to simplify them."""
     roots = [f for f in names if isinstance(f, Pow) and isinstance(f.base, Add)]
     if len(roots) > 1 and max(value.count_ops() for value in solved) > MOST_WITH_ROOTS:
         message = f"the accelerations contain {roots[0]} and {roots[1]}, and have too many terms"
@@ -713,8 +704,7 @@ def _check_short(solved: Matrix, names: Mapping[Expr, Dummy]) -> None:
 
 
 def _in_a_field(matrix: ImmutableDenseMatrix) -> tuple[DomainMatrix, dict[Expr, Dummy]]:
-    """Return the matrix with symbols in place of sines, cosines and roots, and a mapping from the replaced functions to
-    these symbols. The entries of the result are rational functions."""
+    """Return the matrix with symbols in place of sines, cosines and roots, and the symbol of each replaced function."""
     found = sorted(matrix.atoms(Function), key=str)
     powers = sorted((p for p in matrix.atoms(Pow) if not p.exp.is_Integer), key=str)
     bases: dict[Expr, Expr] = {}  # a base is the same in factored and in expanded form

@@ -142,15 +142,13 @@ def _squared_speed(system: System, mover: Mover) -> Quantity:
 
 
 def _multiplied_out(velocity: Sequence[Expr]) -> list[Form]:
-    """Return the line with expanded squares, in which sines and cosines of one angle are not yet combined. The line is
-    left out if it is long, or if each square is a single term."""
+    """Return the line with expanded squares, in which sines and cosines of one angle are not yet combined."""
     terms = [term for v in velocity for term in Add.make_args(expand(v**2))]
     return [Form(Terms(*terms), "multiplied_out", Level.FULL)] if len(velocity) < len(terms) <= MANY else []
 
 
 def _differentiated(place: Iterable[Expr], moving: Sequence[Symbol]) -> list[Form]:
-    """Return the line with the squares of the components of the velocity; the line is left out if it is long, or if at
-    most one component changes."""
+    """Return the line with the squares of the components of the velocity."""
     velocity = [by_rates(explicit(TimeRate(c, *moving)), moving) for c in place]
     changing = [v for v in velocity if v != 0]
     many = sum(len(Add.make_args(v)) for v in changing) > MANY
@@ -158,8 +156,7 @@ def _differentiated(place: Iterable[Expr], moving: Sequence[Symbol]) -> list[For
 
 
 def _velocity(mover: Mover, moving: list[Symbol]) -> list[Quantity]:
-    """Return the rates of the components that change, if there are several of these and steps derive all of them;
-    otherwise an empty list."""
+    """Return the steps of the rates of several components that change; empty if a rate has no step."""
     known = dict(mover.at.found)
     changing = [k for k, c in enumerate(mover.place) if c.has(*moving) or depends_on_time(c)]
     return [rate_of(known[k]) for k in changing] if all(k in known for k in changing) and len(changing) > 1 else []
@@ -191,7 +188,7 @@ class Turning:
         return Factors(HALF, Dot(omega, applied(inertia, omega)))
 
     def written_out(self) -> Expr:
-        """Return the energy in components. If the axes are principal axes, terms with equal moments are combined."""
+        """Return the energy in components."""
         tensor, omega = value_behind(self.inertia), value_behind(self.omega)
         if self.is_plane or not tensor.is_diagonal():
             return explicit(self.energy(tensor, omega))
@@ -203,8 +200,8 @@ class Turning:
 
 
 def _half_of(factor_: Any, square: Expr) -> Expr:
-    """Return (1/2) I omega^2 or (1/2) m v^2. The numbers are multiplied, (1/4) M R^2 omega^2 and not (1/2) (1/2) M R^2
-    omega^2, unless a factor is a sum."""
+    """Return (1/2) I omega^2 or (1/2) m v^2, with one number in front: (1/4) M R^2 omega^2, not (1/2) (1/2) M R^2
+    omega^2."""
     is_product = not any(explicit(each).is_Add for each in (factor_, square))
     return Mul(HALF, explicit(factor_), explicit(square)) if is_product else Factors(HALF, factor_, square)
 
@@ -314,7 +311,7 @@ def kinetic_energy_of(system: System, symbol: str | None = None, key: str = "kin
 
 def _made_of(system: System, moved: Sequence[Mover], turnings: Sequence[Turning]) -> str:
     """Return the word for the parts of the kinetic energy of a single body: "both" for the motion of the centre of mass
-    and the rotation about the centre of mass, "axis" or "point" for the rotation about a fixed axis or point alone."""
+    and the rotation about it, "axis" or "point" for a rotation about a fixed axis or point."""
     if system.particles or len(system.bodies) != 1 or len(turnings) != 1:
         return "any"
     if moved:
@@ -325,8 +322,8 @@ def _made_of(system: System, moved: Sequence[Mover], turnings: Sequence[Turning]
 def _lines_of_kinetic_energy(
     law: Callable[..., Expr], inputs: Mapping[str, Any], turnings: list[Turning], arranged: Callable[[Expr], Expr]
 ) -> Lines:
-    """Return the lines of a kinetic energy. If the line with substituted values is already the result, it is not
-    written twice."""
+    """Return the lines of a kinetic energy. The line with substituted values is left out if it is already the
+    result."""
     level = _level_of_values(turnings)
     values = explicit(law(*(value_behind(each) for each in inputs.values()))) if level else ZERO
     if level is Level.STANDARD and (result := arranged(values)) == values:
@@ -335,8 +332,8 @@ def _lines_of_kinetic_energy(
 
 
 def _level_of_values(turnings: list[Turning]) -> Level | None:
-    """Return the lowest level that shows the line with substituted values; None if there are no rotations, and so no
-    such line. A line with columns or matrices appears only at full level."""
+    """Return the lowest level that shows the line with substituted values. A line with matrices appears at full
+    level."""
     if not turnings:
         return None
     return Level.STANDARD if all(turning.is_plane for turning in turnings) else Level.FULL
@@ -346,7 +343,7 @@ def _behind(system: System) -> list[Quantity]:
     return [lettered(value) for placed in system.bodies for value in getattr(placed.body, "values", ())]
 
 
-# An energy in which terms with the same coordinate are together may be longer by this number, measured by `length`.
+# Terms with the same coordinate are put together if this makes the energy longer by at most this number.
 LITTLE_LONGER = 2
 
 

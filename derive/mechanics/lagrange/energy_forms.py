@@ -72,7 +72,7 @@ def squared_below_roots(value: Expr, letters: Sequence[Symbol]) -> Expr:
 
 
 def kinetic_first(value: Expr, names: Sequence[Symbol]) -> list[Form]:
-    """Return the last line of an energy with its terms in order."""
+    """Return the last line of an energy, with the kinetic terms first."""
 
     def rank(term: Expr) -> tuple[bool, int, bool, bool, str]:
         first = next((i for i, name in enumerate(names) if term.has(name)), len(names))

@@ -79,8 +79,7 @@ def _constrained(of: Quantity) -> dict[str, str]:
 
 
 def _powers_of_conditions(of: Quantity) -> list[Expr]:
-    """Return -lambda df/dt for each moving constraint, where df/dt is the rate of f at constant coordinates; for a
-    constraint on rates, the terms without rates replace df/dt.
+    """Return -lambda df/dt for each moving constraint, where df/dt is the rate of f at constant coordinates.
 
     The force of a fixed constraint does no work.
     """
@@ -91,7 +90,7 @@ def _powers_of_conditions(of: Quantity) -> list[Expr]:
 
 
 def told_of_excess(value: Expr, of: Quantity, rates: Sequence[Symbol]) -> dict[str, tuple[Any, Any]]:
-    """Return T + U - h in two forms, the shorter one first; nothing if T + U = h, or if T and U are unknown.
+    """Return T + U - h in two forms; nothing if T + U = h, or if T and U are unknown.
 
     One form is the difference of energies; the other is T_1 + 2 T_0, where T_1 and T_0 are the parts of T of degree 1
     and 0 in the rates.

@@ -2,7 +2,7 @@
 
 Second routes use variations of L instead of bodies: momenta and forces are the first-order changes of L when a rate or
 a coordinate varies. The energy identity is dh/dt + dL/dt = sum of q_dot (d/dt dL/dq_dot - dL/dq), where dL/dt is a
-partial derivative. This identity checks an equation of motion without using a derivative of L with respect to the
+partial derivative. This identity checks an equation of motion without the derivative of L with respect to the
 coordinate.
 
 Source: Landau, Lifshitz, *Mechanics*, sections 2 and 6; Goldstein, Poole, Safko, *Classical Mechanics*, section 2.3.

@@ -107,8 +107,8 @@ def lagrangian(system: System, symbol: str | None = None, key: str = "lagrangian
 
 
 def _subtracted(energy: Expr, moving: Collection[Symbol]) -> list[Expr]:
-    """Return the terms of -U for a potential energy U; terms without coordinates are last. A difference of constants
-    before a coordinate changes its sign: -(M - m) g x is written (m - M) g x."""
+    """Return the terms of -U for a potential energy U. Signs are written without a minus in front: -(M - m) g x becomes
+    (m - M) g x."""
     terms = sorted(Add.make_args(energy), key=lambda term: not term.free_symbols & {*moving})
     return [_turned(term, moving) for term in terms]
 
@@ -216,8 +216,7 @@ def equation_of_motion(
 def _without_common_factor(left: Expr, moving: Sequence[Symbol]) -> Expr:
     """Divide by common positive factors: m l^2 theta_ddot + m g l sin(theta) becomes l theta_ddot + g sin(theta).
 
-    Factors that contain a coordinate and factors in a denominator remain. Numeric factors that are common to all terms,
-    also inside brackets, are divided out.
+    Factors that contain a coordinate remain.
     """
     terms = Add.make_args(left)
     factors = Mul.make_args(common_factor(list(terms)))
@@ -280,8 +279,7 @@ def equations_of_motion(of: Quantity, derivatives: bool = True) -> tuple[Quantit
 
 
 def _key_of(lagrangian: Quantity, name: str) -> str:
-    """Return the key of a step: the name, or the key of the Lagrangian and the name if the Lagrangian does not have the
-    default key."""
+    """Return the key of a step: the name. It follows the key of the Lagrangian, unless this is the default key."""
     own = getattr(lagrangian.subject.body, "called", "").replace(" ", "_")
     plain = f"{own}_lagrangian" if own else "lagrangian"
     return name if lagrangian.key == plain else f"{lagrangian.key}_{name}"

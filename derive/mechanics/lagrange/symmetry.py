@@ -201,7 +201,7 @@ def _ways(matter: Matter, xi: Mapping[Symbol, Expr]) -> list[tuple[Expr, Expr, E
 
 
 def _times(derivative: Expr, factor: Expr) -> Expr:
-    """Return the product. If a factor is a sum, its brackets are kept and not multiplied out."""
+    """Return the product, in which sums are not multiplied out."""
     both = factor != 1 and (factor.is_Add or derivative.is_Add)
     return Factors(factor, derivative) if both else factor * derivative
 

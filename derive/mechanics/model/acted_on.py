@@ -1,4 +1,4 @@
-"""Checks that the forces and constraints of a system act on its parts.
+"""Checks of what the forces and constraints of a system act on.
 
 The place of a force must be fixed, or move with a part of the system. The gradient of a constraint must not vanish,
 because the constraint force acts along this gradient. Friction between two bodies must act on both of them.
@@ -41,7 +41,7 @@ class WrongPart(Rejected):
 class WithParts(Protocol):
     """The interface of a system that these checks use.
 
-    `acting` lists the forces for which the script does not state the body on which they act. Each item contains a part
+    `acting` lists the forces for which the script does not state the body on which they act. An item consists of a part
     of the system, the name of its force, such as "drag", and the place where this force acts.
     """
 
@@ -90,8 +90,7 @@ def _check_gradients(system: WithParts) -> None:
 def _check_partners(system: WithParts) -> None:
     """Require that the second body is stated for a force that contains the symbol of a constraint force, such as mu N.
 
-    The second body exerts this force, and the opposite force acts on it. The second body need not be stated if the
-    system has only one mass, or if all such forces add up to zero.
+    The second body exerts this force, and the opposite force acts on it.
     """
     letters: set[Symbol] = {each.force for each in system.constraints}
     touching = [f for f in system.given_forces if any(c.free_symbols & letters for c in f.components)]

@@ -1,7 +1,7 @@
 """Connections of bodies with each other and with the ground, such as contacts, strings, massless rods and joints.
 
-The constraints and forces that a function returns with a connection affect the motion; the connection itself does not,
-except for the weight of a rope. For drawings, a connection records which forces act on which material points.
+Functions such as `contact` return a connection together with the constraints and forces that affect the motion. For
+drawings, the connection records which forces act on which material points.
 """
 
 from __future__ import annotations
@@ -62,7 +62,7 @@ class Connection(Part):
 
 
 def end_of(given: Any) -> tuple[Location, Any]:
-    """Return a place, and the body or particle to which the place belongs; for a place in space, None as the body."""
+    """Return a place, and the body or particle to which it belongs; None for a place in space."""
     if isinstance(given, PointOfBody):
         return Location(given.components), given.body
     if isinstance(given, PlacedBody):
@@ -73,9 +73,7 @@ def end_of(given: Any) -> tuple[Location, Any]:
 
 
 def require_bodies(verb: str, ends: Sequence[tuple[Location, Any]]) -> None:
-    """Require that each place that moves with coordinates belongs to a body or particle, because a force acts at this
-    place.
-    """
+    """Require each moving place to belong to a body or particle, because a force acts at the place."""
     for place, of in ends:
         if of is None and (moving := coordinates_in(ImmutableDenseMatrix(place.components))):
             where = ", ".join(map(str, place.components))

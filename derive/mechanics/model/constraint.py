@@ -32,7 +32,7 @@ class StaticLimit:
     normal        the symbol of the normal force of the same contact
     slider        the name of the body that would slip, if the author gave one: "block"
     of_rail       whether the normal force may have either sign
-    in_space      whether the friction has two components, and the limit is that of its magnitude
+    in_space      whether the friction has two components; the limit is then the limit of its magnitude
     """
 
     coefficient: Expr
@@ -57,8 +57,8 @@ class Constraint(Part):
     right     c, as written in the script
     force     the symbol of the multiplier; if `gradient` is not 1, the symbol of the force
     in_rates  whether the constraint is linear in the rates
-    forces    the forces on material points, if the constraint comes from a contact, a string, a rod or a hinge; second
-              routes use these forces in place of the derivatives of f
+    forces    the forces on material points, if they are known; second routes use these forces in place of the
+              derivatives of f
     enforcer  what enforces the constraint: "surface", "rail", "string", "rod", "friction", "joint" or "motor"; empty if
               the enforcer is unknown
     limit     for static friction with a known coefficient: the largest value of the friction
@@ -89,9 +89,7 @@ class Constraint(Part):
     def sense(self, side: int) -> str:
         """Return the direction of the force on the first body, if the symbol of the force has the sign `side`.
 
-        The result is "up" or "down" if the force has a vertical component of known sign, otherwise "right" or "left".
-        The result is empty if no force on a body is known, if the force is not in a plane, or if the signs of both
-        components are unknown.
+        The result is "up", "down", "right" or "left"; it is empty if the direction is unknown.
         """
         signs = [sign_known(side * c) for each in self.acting[:1] for c in each.direction]
         if len(signs) != 2 or not (signs[1] or signs[0]):
@@ -122,8 +120,8 @@ class Constraint(Part):
         """The residual divided by `gradient`.
 
         For a constraint on coordinates, the virtual work of the force is `force` times the differential of this
-        quotient, where the constraint holds. For a constraint on rates, the virtual work is the sum of `force` a_q dq,
-        where a_q is the coefficient of the rate of q in this quotient.
+        quotient. For a constraint on rates, it is the sum of `force` a_q dq, where a_q is the coefficient of the rate
+        of q in this quotient.
         """
         return self.residual / self.gradient
 
@@ -167,10 +165,7 @@ class Constraint(Part):
     def kind_of_force(self) -> str | None:
         """The kind of the multiplier, or None if the kind is unknown.
 
-        The kind is "force" if the forces on material points are known. Otherwise the kind follows from the first term
-        of f that is a number times a coordinate, or times a rate. The kind is then "force" for a length and "torque"
-        for an angle. For any other coordinate, the kind is the one with the dimension of an energy divided by the
-        coordinate.
+        For example, the kind is "force" if f is a length, and "torque" if f is an angle.
         """
         if self.forces:
             return "force"

@@ -140,6 +140,7 @@ def contact(
                a round body rolls; this requires |F| <= mu_s N, for a rail |F| <= mu_s |N|, and in space
                sqrt(F_x^2 + F_y^2) <= mu_s N
     force      with `static`: the symbol of the friction F, in newtons, positive as for `rolling`
+
     Equal and opposite forces act on the material points of the body and of the surface. The distance of a round body
     from the surface is the distance of its centre from the surface, minus the radius of the body. In space, a disc, a
     hoop, a cylinder or a cone touches a plane at the lowest point of a rim. Let e be the unit vector along the axis of
@@ -182,10 +183,7 @@ def point_of_contact(of: Any, on: Any) -> PointOfBody:
 
 def _check_carried(touch: Contact, rough: bool) -> None:
     """Require that a body carries a surface that moves with coordinates, on its own or with the axes in which it is at
-    rest.
-
-    The same is required if the contact has friction and the surface rotates with time, unless axes state this rotation.
-    """
+    rest."""
     surface = touch.surface
     turning = touch.normal.components if isinstance(surface, Plane) else ()
     axes = tuple(surface.moves.in_space) if isinstance(surface.moves, Axes) else ()
@@ -298,8 +296,8 @@ def _rolling(touch: Contact, rolling: str | bool, direction: Any) -> Sequence[Pa
 
 
 def _sticking(touch: Contact, symbol: str, direction: Any = None, limit: StaticLimit | None = None) -> list[Constraint]:
-    """Return the constraints on the rates that friction enforces: the material points in contact do not move over each
-    other. A constraint that all motions in these coordinates satisfy is left out."""
+    """Return the constraints on the rates that friction enforces: the material points in contact do not move over
+    each other. A constraint is left out if it always holds."""
     if not symbol:
         message = "static friction needs the symbol of its force"
         raise Rejected(Complaint("missing-key", message, help="give it as `force`, `{static: mu_s, force: F}`"))
@@ -337,8 +335,7 @@ def _ways_along(touch: Contact) -> dict[str, Location]:
     """Return perpendicular unit vectors along a surface in space, by the names of axes.
 
     If two axes are in the surface, the vectors are along these axes. Otherwise one vector is along a horizontal axis in
-    the surface, and the other vector is perpendicular to this axis. The other vector has the name of the other
-    horizontal axis; if the surface faces upwards, this vector points to the positive side of the axis.
+    the surface. The other vector is perpendicular to it, and has the name of the other horizontal axis.
     """
     n = touch.normal.components
     flat = {i: Location(tuple(Integer(int(i == k)) for k in range(3))) for i in range(3) if is_zero(n[i])}
@@ -381,7 +378,7 @@ def _sliding(touch: Contact, coefficient: Any, direction: Any, letter: str) -> G
         message = f"the normal force `{letter}` of a rail may have either sign, so the sign of mu {letter} is unknown"
         raise Rejected(Complaint("wrong-argument", message, help="describe a surface, without `side: both`"))
     slip = velocity_at(touch.of, touch.at) - velocity_at(touch.surface.ground, touch.foot)
-    slip = slip - dot(touch.normal, slip) * touch.normal  # the contact lasts, so no other component is left
+    slip = slip - dot(touch.normal, slip) * touch.normal  # no other component is left, because the contact lasts
     is_free = direction is None and len(slip.components) == 3
     along = _way_of_slip(slip) if is_free else _along_slip(touch, direction, slip)
     _check_rubbing(touch, along, is_free)
@@ -391,7 +388,7 @@ def _sliding(touch: Contact, coefficient: Any, direction: Any, letter: str) -> G
 
 
 def _way_of_slip(slip: Location) -> Location:
-    """Return the unit vector along a velocity of slip in space; assume that this velocity is not zero."""
+    """Return the unit vector along a velocity of slip in space, which is assumed not to be zero."""
     ways = [tidied(c) for c in slip.components]
     square = tidied(Add(*(c**2 for c in ways)))
     unsure = (each for each in Mul.make_args(square) if not each.is_positive)
@@ -400,8 +397,7 @@ def _way_of_slip(slip: Location) -> Location:
 
 
 def _check_rubbing(touch: Contact, along: Location, is_free: bool) -> None:
-    """Check by the velocities of the particles in contact that they slip along a unit vector, which `_way_of_slip`
-    gives if `is_free`, and in its sense."""
+    """Check that the velocity of slip has the direction of the given unit vector."""
     rubbing = Location(tuple(velocity_of_particle(touch.of, touch.at, touch.surface.ground, touch.foot)))
     rubbing = rubbing - dot(touch.normal, rubbing) * touch.normal
     speed = tidied(dot(along, rubbing))
@@ -413,7 +409,6 @@ def _check_rubbing(touch: Contact, along: Location, is_free: bool) -> None:
 
 
 def _along_slip(touch: Contact, direction: Any, slip: Location) -> Location:
-    """Return the unit vector along a given direction; assume that the body slips in this direction."""
     if direction is None:
         message = "sliding friction needs the direction in which the body slips over the surface"
         raise Rejected(Complaint("missing-key", message, help="give it as `direction`, for example `[1, 0]`"))

@@ -1,9 +1,9 @@
 """The mass points of a system and the forces on them, from which second routes start.
 
-A rigid body is equivalent to a few mass points: one with the whole mass at the centre of mass, and further points for
-the rotation. Each further point is the end of a vector that rotates with the body: the unit vector of a body axis, or
-the sum of two such unit vectors. The `mass` of such a point is a second moment, in kg m^2. Kinetic energy, momenta and
-the virtual work of inertial forces are then derived only from the positions of these points as functions of t.
+A rigid body is equivalent to a few mass points: one has the whole mass, at the centre of mass, and others describe the
+rotation. Each of these others is the end of a vector that rotates with the body: the unit vector of a body axis, or the
+sum of two such unit vectors. Its `mass` is a second moment, in kg m^2. Kinetic energy, momenta and the virtual work of
+inertial forces follow from the positions of these points as functions of t.
 
 Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.4 (d'Alembert's principle).
 """
@@ -38,10 +38,10 @@ class MassPoint:
 class Load:
     """A force, in N, at a place, in m; or a generalized force along a coordinate, such as a torque along an angle, N m.
 
-    place   the components of the place; for a generalized force, the coordinate, the angle, the distance or the time
-            along which it acts, as the only component
-    held    pairs of a symbol in `place` and its value; such a symbol, for example a component of the position of a
-            particle in its body, is constant in every displacement
+    place   the components of the place; for a generalized force, the coordinate along which it acts, as the only
+            component
+    held    pairs of a symbol in `place` and its value; the symbol is constant in every displacement, such as a
+            component of the position of a particle in its body
     multiplier   the symbol of a constraint force, which is a factor of the force; None for other forces
     """
 

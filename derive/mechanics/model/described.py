@@ -1,5 +1,4 @@
-"""The input of the witness, which is an independent numerical check: a description of the parts of a system, before
-conditions eliminate coordinates."""
+"""A description of the parts of a system for the witness, which is an independent numerical check."""
 
 from __future__ import annotations
 
@@ -76,8 +75,7 @@ def described(
     """Return the description that the witness uses: particles, bodies and forces, or a given Lagrangian and forces.
 
     bodies   those parts of the system that are bodies
-    known    coordinate -> its formula in other coordinates; the description contains the condition that the coordinate
-             is equal to this formula
+    known    coordinate -> its formula in other coordinates; the description contains this equation as a condition
     """
     found: dict[str, list[Any]] = {"conditions": [plain.Condition(q - function) for q, function in known.items()]}
     for part in parts:
@@ -93,11 +91,7 @@ def described(
 
 
 def places_that_move_alone(of: plain.Description, places: Sequence[plain.Vector]) -> list[int]:
-    """The indices of the places that move with coordinates, but do not move with any part of the system.
-
-    The parts are particles, bodies, and massless rods that end at a particle. The result is empty if the Lagrangian is
-    given as a formula, or if the witness cannot compute the places.
-    """
+    """The indices of the places that move with coordinates, but do not move with any part of the system."""
     moving = {q for q, _ in of.coordinates}
     asked = [i for i, place in enumerate(places) if any(explicit(c).free_symbols & moving for c in place)]
     if not asked or of.lagrangian is not None:
@@ -108,8 +102,7 @@ def places_that_move_alone(of: plain.Description, places: Sequence[plain.Vector]
 
 
 def conditions_that_nothing_keeps(of: plain.Description) -> list[plain.Condition]:
-    """The constraints whose gradients vanish in all states that the witness tests; these states satisfy all
-    constraints."""
+    """The constraints whose gradients vanish in all states that the witness tests."""
     if not any(each.multiplier is not None for each in of.conditions):
         return []
     from derive.witness.constraints import without_gradient

@@ -1,8 +1,7 @@
-"""Forces on a system other than weight and springs: given forces and torques, drag, charges in fields, and any
-potential energy as a function of coordinates and time.
+"""Forces other than weight and springs: given forces and torques, drag, charges in fields, and potential energies that
+are given as functions.
 
-A couple acts along an angle. Drag acts at a place or along a coordinate. A potential energy has a generalized force
-along each coordinate that it contains. All other forces act at places.
+A couple acts along an angle. A potential energy has a generalized force along each coordinate that it contains.
 """
 
 from __future__ import annotations

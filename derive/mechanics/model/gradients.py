@@ -24,8 +24,8 @@ from derive.steps.step import Quantity
 def gradient_length(kept: Constraint, lagrangian: Quantity) -> Expr | None:
     """The length of the gradient of a condition with respect to the position of a single particle.
 
-    The coordinates must allow every displacement of this particle, without redundant coordinates. The result is None if
-    they do not allow this, if the system is not a single particle, or if the condition is on rates.
+    The coordinates must allow every displacement of this particle, without redundant coordinates. In other cases the
+    result is None.
     """
     described = description_behind(lagrangian)
     description = described.description if described is not None else None

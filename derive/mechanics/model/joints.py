@@ -42,8 +42,9 @@ def pin(of: Any, to: Any, force: str = "R") -> tuple[Pin | Constraint, ...]:
     """A frictionless hinge, which keeps two points together; in space it is a ball joint.
 
     of, to   the two points: points of bodies, bodies (at the centre of mass), particles, or places without coordinates
-    force    the symbol R of the force on `of`, N; its components are R_x and R_y, in space also R_z. A component does
-             not appear if the coordinates alone keep the two points together along its axis
+    force    the symbol R of the force on `of`, N; its components are R_x and R_y, in space also R_z. If the coordinates
+             already keep the two points together along an axis, this component does not appear
+
     The opposite force acts on `to`.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 2.
     """
@@ -74,6 +75,7 @@ def weld(of: Any, to: Any, force: str = "R", torque: str = "C") -> tuple[Pin | C
     of, to   points of bodies, as for `pin`
     force    the symbol of the force on `of`, as for `pin`
     torque   the symbol of the couple on `of`, N m
+
     The angle keeps the value that it has where all coordinates are zero.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 2.
     """
@@ -110,6 +112,7 @@ def motor(on: Any, turns: Any, torque: str = "M") -> tuple[Motor, Constraint]:
     on      the angle: a coordinate, or a formula that contains coordinates
     turns   the value of the angle, a function of time such as `Omega*t`
     torque  the symbol of the torque of the motor, N m; positive in the direction in which the angle increases
+
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4.
     """
     require_no_coordinate("motor", "value of the angle", as_expr(turns))
@@ -121,7 +124,7 @@ def motor(on: Any, turns: Any, torque: str = "M") -> tuple[Motor, Constraint]:
 class DragAlong(Damper):
     """Drag -c d_dot along a distance d. Second routes use the forces on the material points at both ends.
 
-    ends   for each end, the place, and the body or particle at this place, or None for the ground
+    ends   for each end, the place, and the body or particle there (None for the ground)
     """
 
     ends: tuple[tuple[Location, Any], tuple[Location, Any]] = ((Location(()), None), (Location(()), None))
@@ -132,7 +135,7 @@ class DragAlong(Damper):
         return replace(super().moved(known), ends=ends)
 
     def other_loads(self, moving: Sequence[Symbol]) -> Sequence[Load]:
-        """The forces c (u.v) u on the start and -c (u.v) u on the end, without a force on the ground.
+        """The forces c (u.v) u on the start and -c (u.v) u on the end. A force on the ground is left out.
 
         The unit vector u points from the start to the end; v is the velocity of the end relative to the start.
         """
@@ -169,6 +172,7 @@ def dashpot(constant: Any, start: Any, end: Any) -> tuple[Dashpot, Damper]:
 
     constant     the damping constant c, kg/s
     start, end   particles, bodies, points of bodies, or places
+
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, section 11.3.
     """
     if not all(map(is_end, (start, end))):

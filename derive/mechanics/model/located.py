@@ -35,7 +35,8 @@ def integrated(condition: Quantity, key: str | None = None) -> Quantity:
 
     condition   a step of `no_slip` that expresses one rate by other rates, linearly and with constant coefficients; a
                 condition that already expresses the coordinate itself is returned unchanged
-    The constant of integration is zero: it is assumed that all coordinates are zero in one position of the system.
+
+    The constant of integration is zero: all coordinates are assumed to be zero in one position of the system.
     Check: the time derivative of the result is the value of the rate in the condition. If all coordinates are zero, the
     result is zero.
     Errors: the condition cannot be integrated.
@@ -70,9 +71,10 @@ def components(of: PlacedBody | Location, *conditions: Quantity, names: Sequence
     """Components of a place, or of the centre of mass of a body, with conditions of rolling substituted.
 
     of           a body that is placed or held, or a place, m
-    conditions   steps of `no_slip`: each expresses a coordinate by other coordinates; this expression is substituted
+    conditions   steps of `no_slip`: each expresses a coordinate by other coordinates
     names        the names of the components, which are also the keys of their steps; by default x and y, or x, y and z.
                  The last axis points upwards
+
     If you make a `point` from these components, speeds and energies contain the symbols of the components.
     Check: the time derivative of the result equals the velocity of the place, in which the rates are replaced by their
     values from the conditions.

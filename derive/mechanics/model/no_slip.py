@@ -44,16 +44,16 @@ def no_slip(
 
     body     a body that is placed or held; r is the place of its given point, and v the velocity of this point
     at       the place where the body touches the surface, m
-    ground   the motion of the surface: a place on the surface, if it moves without rotation; the axes in which it is at
-             rest, such as those of a turntable; or the body that carries it. By default the surface is at rest in space
-    fixes    the coordinate whose rate is isolated; by default the coordinate of the last rotation. If the coefficient
-             of this rate in the condition varies, a rate with a constant coefficient is isolated instead, if there is
-             one
+    ground   the motion of the surface: a place on a surface that moves without rotation; the axes in which the surface
+             is at rest, such as the axes of a turntable; or the body that carries the surface. By default the surface
+             is at rest in space
+    fixes    the coordinate whose rate is isolated; by default the coordinate of the last rotation, or a coordinate
+             whose rate has a constant coefficient
+
     Each independent condition isolates a different rate. A condition can be integrated if all its terms are constants
     times rates. It may then be a part of a `System`, where it expresses one coordinate by other coordinates.
     Second route: differentiate the place of the particle at the contact, whose position in the body is constant.
-    If all conditions are satisfied, this particle has the velocity of the surface.
-    Check: conversely, if the particle has the velocity of the surface, each condition is satisfied.
+    Check: if the particle at the contact has the velocity of the surface, each condition is satisfied.
     Errors: the body does not reach this place, or cannot roll there; the particle at the contact is always at rest; no
     condition isolates the rate of `fixes`.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.3; Landau, Lifshitz, *Mechanics*, section 32.
@@ -98,8 +98,8 @@ class _Condition:
 def _independent(
     body: PlacedBody, at: Location, ground: Ground | None, fixes: Coordinate | None = None
 ) -> Iterator[_Condition]:
-    """The conditions of rolling, each with the rate that it determines; a condition that follows from earlier ones is
-    skipped."""
+    """Yield the conditions of rolling, each with the rate that it determines. A condition that follows from earlier
+    ones is skipped."""
     _check(body, at, ground)
     known: dict[Symbol, Expr] = {}
     first = [fixes.symbol] if fixes is not None else []
@@ -174,6 +174,7 @@ def velocity_at(of: Any, at: Location) -> Location:
     """Velocity of the material at a place, m/s.
 
     of   a body, axes, a place or a particle that moves with the material; None if the material is at rest
+
     For a body the result is v + omega x (r_place - r); for rotating axes it is R_dot R^T r, which is omega x r.
     """
     if of is None:
@@ -239,7 +240,7 @@ def _solved(
         return Add(*(m * v.subs(known) for m, v in zip(marks, velocity, strict=True))), ZERO
 
     def no_more(relation: Relation) -> tuple[Expr, Expr]:
-        """Check that the condition follows if the particle is at rest: the condition as a further row does not raise
+        """Check that the condition follows if the particle is at rest: as a further row, the condition does not raise
         the rank."""
         lines = velocity_of_particle(body, at, ground)
         return Integer(_rank([*lines, relation.residual], moving)), Integer(_rank(lines, moving))

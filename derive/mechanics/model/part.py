@@ -46,7 +46,7 @@ class Part:
     @property
     def acts_by(self) -> Vector:
         """Expressions on which the action of the part depends, such as the place of a force, a potential energy or a
-        constraint. Each of their coordinates must be in `depends_on` of some part."""
+        constraint."""
         return ()
 
     @property

@@ -55,6 +55,7 @@ def angular_velocity(
     axes    the rotating axes; each rotation is about one of the axes as they are after the previous rotations
     along   the axes of the components: `space`, or the axes after some of the rotations; by default the axes themselves
     body    the body that rotates with the axes, if it has a name
+
     Second route: the antisymmetric matrix R_dot R^T, where the rotation matrix R is differentiated as a function of t.
     Outcomes: body (components along the axes themselves), following (along the axes after some of the rotations), space
     (along fixed axes).
@@ -127,10 +128,10 @@ def _seen_from(axes: Axes, i: int, count: int) -> ImmutableMatrix:
 
 
 def convenient_axes(placed: PlacedBody, inertia: ImmutableMatrix) -> Axes:
-    """Axes along which the inertia of a body in space is constant and its angular velocity has short components.
+    """Return axes along which the inertia of a body in space is constant, and its angular velocity has short
+    components.
 
-    If the last rotations are about an axis of symmetry, the result is the axes before these rotations; the first
-    rotation is always kept.
+    If the last rotation is about an axis of symmetry, these are the axes before this rotation.
     """
     axes: Any = placed.turned
     count = len(axes.turns)
@@ -189,10 +190,7 @@ def inertia_of(placed: PlacedBody) -> Inertia:
 
 
 def _check_moments(placed: PlacedBody) -> None:
-    """Check moments that are given about a pivot other than the centre of mass.
-
-    Reject the moments if the body is not held at the pivot, or if the step of one moment is about the centre of mass.
-    """
+    """Check moments that are given about a pivot other than the centre of mass."""
     body = placed.body
     if body.about == "fixed_point" and any(body.centre) and not is_about_the_point(placed):
         where = "moves freely" if not placed.is_held else f"is held at its {placed.point.name}"

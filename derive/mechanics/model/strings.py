@@ -52,8 +52,7 @@ class Line(Connection):
     through   one end, the pulleys or holes in order, and the other end; each is a place, or a pulley with a radius
     is_rod    whether the line is a rod, which can push as well as pull
     rope      the particle whose mass is distributed along the line; None for a line without mass
-    drawn     the symbol of the tension in force diagrams, if the coordinates keep the length; for a rope with mass, of
-              the tension at its bends
+    drawn     the symbol of the tension in force diagrams, if the coordinates keep the length
     pieces    the straight pieces, in order
     """
 
@@ -81,8 +80,8 @@ class Line(Connection):
         return replace(super().moved(known), through=tuple(through), rope=moved(self.rope, known), pieces=pieces)
 
     def drawn_on(self, of: Any) -> list[tuple[Location, Location]]:
-        """Return the ends of pieces that pull a particle, a body or a massless pulley in its force diagram, if `drawn`
-        is a symbol: the place at which a piece pulls, and its other end."""
+        """Return the pieces that pull a part of the system in its force diagram: for each piece, the place at which
+        it pulls, and its other end."""
         if self.drawn is None or self.rope is not None:
             return []
         ends = [(piece.start, piece.end) for piece in self.pieces], [(piece.end, piece.start) for piece in self.pieces]
@@ -98,7 +97,7 @@ class Line(Connection):
 
 @dataclass(frozen=True)
 class WeightOfRope(StoredEnergy):
-    """The weight of a rope that moves along itself, minus the weight of the particle that has the mass of the rope.
+    """The weight of a rope, minus the weight of the particle that has the mass of the rope.
 
     energy   the sum of (mass) g (height of the middle) over the straight pieces, minus M g y of the particle, J
     force    a force on the first end, along the rope, that does the work of the weight. If all pieces move by ds along
@@ -212,6 +211,7 @@ def string(
                  height of the particle must be constant; gravity acts on each piece of the rope
     drawn_tension   the symbol of the tension in force diagrams, if the coordinates keep the length of the string, so
                  that no equation contains the tension; for a rope with mass, the tension at its bends
+
     The tension is the same everywhere in a string without mass. The string pulls each end along the string, and each
     pulley along the two adjacent pieces of the string.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 3.
@@ -230,8 +230,8 @@ def string(
 
 
 def _check_rope(line: Any, particle: Any, tension: str) -> None:
-    """Require that each piece of a rope moves along itself, with the speed of the particle that has the mass of the
-    rope. This particle must stay at a constant height, and the tension must have no symbol."""
+    """Require each piece of a rope to move along itself, with the speed of the particle that has the mass of the
+    rope."""
     if not hasattr(particle, "mass") or not is_end(particle):
         raise Rejected(Complaint("wrong-argument", "`mass_of` names the particle that has the mass of the rope"))
     if tension:
@@ -252,7 +252,7 @@ def _check_rope(line: Any, particle: Any, tension: str) -> None:
 
 
 def _rotates(way: Location) -> bool:
-    """Whether the direction of a displacement changes: the displacement is then not parallel to its rate."""
+    """Whether the direction of a displacement changes."""
     fast = velocity_at(way, way)
     pairs = combinations(zip(way.components, fast.components, strict=True), 2)
     return any(not is_zero(tidied(a * b_dot - b * a_dot)) for (a, a_dot), (b, b_dot) in pairs)
@@ -265,6 +265,7 @@ def massless_rod(start: Any, end: Any, length: Any = None, force: str = "") -> t
     length       the length of the rod, m
     force        the symbol of the force in the rod, N; positive in tension. The symbol and the length are required if
                  the coordinates allow the length to change
+
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 3.
     """
     return _of_length("massless_rod", (start, end), length, force)
@@ -359,7 +360,6 @@ def _touched(each: Any, k: int) -> list[Location]:
 
 
 def _kept_length(pieces: Sequence[Piece]) -> Expr | None:
-    """Return the total length of the pieces if it contains no coordinates; otherwise None."""
     lengths = _kept_lengths([(piece.start, piece.end) for piece in pieces])
     return tidied(Add(*lengths)) if lengths is not None else None
 
@@ -367,7 +367,7 @@ def _kept_length(pieces: Sequence[Piece]) -> Expr | None:
 def _kept_lengths(pieces: Sequence[tuple[Location, Location]]) -> list[Expr] | None:
     """Return the lengths of the pieces if their sum contains no coordinates; otherwise None.
 
-    The length of a piece on a fixed line is u or -u. All choices of the signs are tried until the coordinates cancel.
+    The length of a piece on a fixed line is u or -u. The signs are chosen so that the coordinates cancel.
     """
     lengths = [raw_distance(*piece).replace(Abs, lambda size: size) for piece in pieces]
     for signs in product((1, -1), repeat=len(lengths)):
@@ -379,8 +379,8 @@ def _kept_lengths(pieces: Sequence[tuple[Location, Location]]) -> list[Expr] | N
 
 
 def _require_kept(verb: str, kept: Expr | None, whole: Expr | None) -> None:
-    """Check a string or rod without a symbol for its force: its length must contain no coordinates, and must equal the
-    given length. If no length is given, the length must be constant."""
+    """Check a string or rod without a symbol for its force: its length must contain no coordinates, and must equal
+    the given length."""
     what = "rod" if verb == "massless_rod" else "string"
     key = "force" if verb == "massless_rod" else "tension"
     if kept is None:
@@ -403,6 +403,7 @@ def wound_string(end: Any, on: Any, tension: str = "T") -> tuple[Line, Constrain
     on       a round body in a plane: a yo-yo, or a pulley with a moment of inertia. The string touches the rim at the
              height of the axis, or straight above or below the axis
     tension  the symbol of the tension of this piece, N; positive if the string pulls
+
     Along the string, the rim at the point of contact and the string have the same velocity.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 7.
     """
@@ -436,8 +437,8 @@ def _rim(place: Location, on: PlacedBody) -> Location:
 
 
 def circles_of(system: Any, at: Location) -> list[Circle]:
-    """Return the circles on which straight strings and rods of constant length keep a moving point of a plane; each
-    string or rod has its other end at a fixed place."""
+    """Return the circles on which a straight string or rod of constant length keeps a moving point; the other end is
+    fixed."""
     found = []
     for line in (part for part in system.parts if isinstance(part, Line)):
         fixed = [place for place in line.places if not coordinates_in(ImmutableDenseMatrix(place.components))]

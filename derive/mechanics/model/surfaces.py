@@ -44,7 +44,7 @@ class Surface(ABC):
 
     of      the body or particle of the system that carries the surface; None if the system has no such body
     moves   if `of` is None, the motion of the material along the surface: for a turntable, the axes in which the
-            material is at rest; for a belt, a place that moves with the material. None if there is no such motion
+            material is at rest; for a belt, a place that moves with the material; None without such a motion
     is_two_sided   whether the surface can push bodies to both sides, like a rail; the normal force may have either sign
     """
 
@@ -90,7 +90,7 @@ class Surface(ABC):
 
     @property
     def corners(self) -> tuple[Location, ...]:
-        """Two opposite corners of a box around the surface, if it is bounded."""
+        """Two opposite corners of a box around a bounded surface; empty if the surface is unbounded."""
         return ()
 
     def moved(self, known: Mapping[Symbol, Expr]) -> Self:
@@ -234,8 +234,7 @@ def plane(
 
 
 def _check_motion(surface: Plane) -> None:
-    """Reject a motion of the material that is given twice, rotating axes for a system that moves in a plane, and a
-    velocity that is not constant or not along the surface."""
+    """Check the motion of the material along the surface."""
     if surface.of is not None and surface.moves is not None:
         message = "the body that carries the surface determines its motion"
         raise Rejected(Complaint("twice", message, help="leave out `of` or the motion"))
@@ -296,6 +295,7 @@ def curve(
     below    whether the free side is below the curve; by default it is above
     of       the body or particle that carries the curve; the curve moves with this object, without rotation
     is_two_sided   as for `plane`
+
     The normal force N on a particle acts along the unit normal (-f', 1)/sqrt(1 + f'^2). The gradient of
     y - f(x) has the length sqrt(1 + f'^2), so the multiplier of the condition y - f(x) = 0 is N/sqrt(1 + f'^2).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4.

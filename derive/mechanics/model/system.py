@@ -92,8 +92,7 @@ class MovingBody(Part):
 
     @property
     def mass_points(self) -> Sequence[MassPoint]:
-        """The mass at the centre of mass, and second moments at the ends of vectors that rotate with the body: unit
-        vectors of the body axes, and sums of two of them."""
+        """The mass at the centre of mass, and second moments at the ends of vectors that rotate with the body."""
         placed = self.placed
         spread = central_second_moments(placed.body)
         points = [MassPoint(placed.body.mass, placed.centre.components)]
@@ -341,8 +340,6 @@ class System:
             )
 
     def _check_what_acts(self) -> None:
-        """Require the forces and their places, the potential energies and the constraints to depend only on coordinates
-        of this system."""
         for part in self.parts:
             for q in coordinates_in(ImmutableDenseMatrix(part.acts_by)):
                 if q not in self.coordinates:
@@ -351,8 +348,8 @@ class System:
 
     @property
     def places(self) -> list[Location]:
-        """The places of particles and charges, the centres of mass of bodies, the ends of springs and central forces,
-        and the ends, holes and pulley centres of strings and massless rods."""
+        """The places of particles and charges, the centres of mass of bodies, and the places between which springs,
+        central forces, strings and massless rods act."""
         return [place for part in self.parts for place in part.places]
 
     @property
@@ -371,8 +368,8 @@ class System:
 
     @property
     def acting(self) -> list[tuple[Any, str, tuple[Expr, ...]]]:
-        """For each force for which the script does not state the body on which it acts: the part, the name of the
-        force, and the place where it acts."""
+        """The forces for which the script does not state the body: for each, the part, the name of the force, and
+        its place."""
         return [(part, what, place) for part in self._described for what, place in part.loose_ends]
 
     @property
@@ -399,7 +396,7 @@ class System:
 
 
 def _with_weights(parts: Sequence[Part]) -> list[Part]:
-    """Return the parts, and the weight of each part whose mass is not at one place, such as a rope.
+    """Return the parts, with the weight of each part whose mass is not at one place, such as a rope.
 
     Reject a potential energy that is the weight of such a part, because it would count twice.
     """
@@ -448,13 +445,11 @@ def _is_put_into(condition: Quantity, parts: Sequence[Part]) -> bool:
 
 
 def _with_branches(system: System) -> tuple[Part, ...]:
-    """Return the parts; a potential of a distance |u| gets a branch, u or -u, if there is a natural choice.
+    """Return the parts. In a potential, a distance |u| is replaced by u or by -u if there is a natural choice.
 
-    A branch is chosen only if the position with all coordinates zero is special: the spring has its natural length in
-    this position, or all forces with a potential energy balance. The coordinates are then displacements from this
-    position, as for carts at x_1 and d + x_2, and the page states that u keeps its sign. Otherwise no branch is
-    chosen, as for a cart at x with a spring to a wall at d: |x - d| remains, and equations for x are solved for both
-    signs.
+    There is such a choice if the coordinates are displacements from an equilibrium, as for carts at x_1 and d + x_2:
+    the page then states that u keeps its sign. There is none for a cart at x with a spring to a wall at d: |x - d|
+    remains.
     """
     sided = tuple(_near_rest(each) for each in system.between)
     balanced = all(each is not None for each in sided) and _is_balanced(system, [each for each in sided if each])
@@ -467,10 +462,9 @@ def _with_branches(system: System) -> tuple[Part, ...]:
 
 
 def _near_rest(each: Central) -> Central | None:
-    """The potential with the branch that is positive where all coordinates are zero.
+    """The potential with the branch that is positive where all coordinates are zero; None if there is no such branch.
 
-    If the line between the two places has no fixed direction, the potential is unchanged. If neither u nor -u is known
-    to be positive where all coordinates are zero, or if u contains no coordinates, the result is None.
+    If the line between the two places has no fixed direction, the potential is unchanged.
     """
     if each.along is None:
         return each

@@ -40,9 +40,8 @@ def touching(placed: PlacedBody, surface: Surface) -> tuple[Location, Expr, Loca
 
 
 def _foot(placed: PlacedBody, curve: Curve) -> Location:
-    """Return the place where a round body touches a curve: the centre of the body is on the normal of the curve at this
-    place, one radius from the curve. The horizontal distance of this place from the origin of the curve must be a
-    coordinate of the system."""
+    """Return the place where a round body touches a curve: the centre of the body is on the normal of the curve at
+    this place, one radius from the curve."""
     radius = radius_of(placed)
     for q in coordinates_in(column_of(placed.hub)):
         foot = curve.point(q)
@@ -57,8 +56,7 @@ def _foot(placed: PlacedBody, curve: Curve) -> Location:
 
 
 def _assume_that_it_fits(placed: PlacedBody, curve: Curve, foot: Location) -> None:
-    """Assume, unless it is known, that the radius of a round body is less than the radius of curvature in each hollow
-    of the curve."""
+    """Assume that the radius of a round body is less than the radius of curvature of the curve in each hollow."""
     bends = diff(curve.formula, curve.letter, 2).xreplace({curve.letter: (foot - curve.through).components[0]})
     room = tidied(curve.gradient(foot) ** 3 - radius_of(placed) * (-bends if curve.below else bends))
     if sign_for_all(room) != 1:
@@ -83,9 +81,8 @@ def _outline(placed: PlacedBody) -> Round | None:
 def lowest(placed: PlacedBody, surface: Surface) -> tuple[Location, Expr]:
     """Return the point of a body with rims that is nearest to a plane, and the distance of this point from the plane.
 
-    The body is the convex hull of its rims, so the nearest point is on a rim. The vector from the centre of a rim to
-    the lowest point of this rim is one radius long. This vector is opposite to the projection of the normal of the
-    plane onto the plane of the rim. If the body touches the plane along a line, `_lower` chooses an end of this line.
+    The body is the convex hull of its rims, so the nearest point is on a rim. The vector from the centre of the rim to
+    this point is one radius long, and opposite to the projection of the normal of the plane onto the plane of the rim.
     """
     if not isinstance(surface, Plane) or not isinstance(placed.turned, Axes):
         message = f"in space, the point where {placed.body.name} touches a surface is known only for a plane"
@@ -104,8 +101,7 @@ def lowest(placed: PlacedBody, surface: Surface) -> tuple[Location, Expr]:
 
 
 def _rims(placed: PlacedBody) -> list[tuple[Expr, Expr]]:
-    """Return the height along the axis and the radius of each rim; sin/cos replaces the tangent of an angle, so that
-    sums are shorter."""
+    """Return the height along the axis and the radius of each rim."""
     outline = _outline(placed)
     assert outline is not None
     radii = {z: outline.radius_at(z).replace(tan, lambda angle: sin(angle) / cos(angle)) for z in outline.ends}
@@ -115,8 +111,8 @@ def _rims(placed: PlacedBody) -> list[tuple[Expr, Expr]]:
 def _check_lowest(placed: PlacedBody, plane: Surface, place: Location, gap: Expr) -> None:
     """Check that the place of contact is on a rim of the body, and that no place on a rim is nearer to the plane.
 
-    The lowest place of a rim is below the centre of the rim by r sin(a). Here r is the radius of the rim, and a is the
-    angle between the rim and the plane. The components of the normal along the axes of the body give sin(a).
+    The lowest place of a rim is below the centre of the rim by r sin(a), where r is the radius of the rim and a is the
+    angle between the rim and the plane.
     """
     middle = _own(placed, ZERO, ZERO, ZERO)
     along, across, axis = (_own(placed, *map(Integer, own)) - middle for own in ((1, 0, 0), (0, 1, 0), (0, 0, 1)))
@@ -150,8 +146,7 @@ def _lower(placed: PlacedBody, one: tuple[Location, Expr], other: tuple[Location
     """Return the lower of the lowest points of two rims, each given with its distance from the plane.
 
     If the distances are equal, the body touches the plane along the line between the two points. The body must then be
-    held at one of these points, and the other point is returned: if the body does not slip at this other point, it
-    slips nowhere on the line.
+    held at one of these points, and the other point is returned.
     """
     difference = tidied(one[1] - other[1])
     sign = sign_known(difference)

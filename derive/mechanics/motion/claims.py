@@ -86,8 +86,7 @@ def _is_negative(root: Expr) -> bool:
 def arrives_as_told(facts: Judged, outcome: str) -> bool:
     """Whether, numerically, the motion reaches each place if and only if the stated condition holds.
 
-    A place that was derived from the motion is not tested. If the result contains a rate with its sign at the start,
-    each place must also lie ahead of the start or, if the motion turns back first, behind it.
+    If the result contains the rate with its sign, the place must also be on the right side of the start.
     """
     kept = [fact for q in facts.quantities.values() for each in q.ancestors() if (fact := each.fact(Constrained))]
     one_sided = {"surface": "contact", "string": "taut"}
@@ -151,8 +150,7 @@ def _trials_of(come: Arrival) -> list[Point]:
 
 
 def _side(come: Arrival) -> set[int | None]:
-    """Return the sides of the start on which the place lies, for all trial numbers: 1 is ahead, -1 is behind. Numbers
-    are left out if the place is the start, or if the side is unknown; if no numbers remain, the result is {1}."""
+    """Return the sides of the start on which the place may lie: 1 is ahead, -1 is behind."""
     q, start = come.begun.coordinate, with_numbers(come.begun.start)
     here, soon = (come.unknown.xreplace({q: each}) for each in (start, start + come.sense * SOON))
     return signs((_finite(come.place) - here) * (soon - here), _trials_of(come)) - {0, None} or {1}
@@ -192,8 +190,8 @@ def _vanishing_force(facts: Judged) -> bool:
 
 
 def lost(later: bool) -> Predicate:
-    """Judge whether the force at the start is numerically positive (zero if `later`), and the stated condition is
-    correct."""
+    """Judge two conditions: the force at the start is numerically positive (zero if `later`), and the stated
+    condition is correct."""
 
     def is_so(facts: Judged) -> bool:
         letter, start = _letter_at(facts.inputs["unknown"], facts.inputs["start"])
@@ -223,7 +221,7 @@ def _gets_there_as_told(facts: Judged) -> bool:
 
 
 def turned_back(facts: Judged) -> bool:
-    """Whether, numerically, the motion turns back before the place where the force vanishes, or at this place."""
+    """Whether, numerically, the motion turns back before or at the place where the force vanishes."""
     just_there = facts.result.operator == ">="
     unknown, squared, force = (facts.inputs[role] for role in ("unknown", "squared", "force"))
     ends = [_letter_at(unknown, end) for end in (facts.inputs["start"], facts.inputs["place"].right)]
@@ -287,9 +285,7 @@ def slips_in_the_stated_sense(facts: Judged, outcome: str) -> bool:
 
 
 def names_its_slider(facts: Judged, outcome: str) -> bool:
-    """Whether the word for the body that would slip is its name in the contact, or "body" if the contact gives it no
-    name.
-    """
+    """Whether the sentence calls the body that would slip by its name in the contact, or "body" if it has no name."""
     constraint = _constraint_of(facts.quantities["friction"])
     return (
         constraint is not None
@@ -462,8 +458,8 @@ def stays_and_turns(facts: Judged, relation: Any) -> bool:
 
 
 def sum_left(wanted: str) -> Predicate:
-    """Judge the terms without a highest rate: no such terms exist ("plain"), their sum is zero ("cancel"), or
-    their sum is not zero ("remain")."""
+    """Judge the terms that contain no highest rate: there are none ("plain"), their sum is zero ("cancel"), or their
+    sum is not zero ("remain")."""
 
     def is_so(facts: Judged) -> bool:
         highest = dict.fromkeys(facts.inputs["highest"], Integer(0))
@@ -598,7 +594,6 @@ def spins_as_it_rolled(facts: Judged) -> bool:
 
 
 def _where_zero(residual: Expr, s: Symbol) -> list[Expr]:
-    """A list with the value of a coordinate at which a constraint that is linear in this coordinate is satisfied."""
     slope = diff(residual, s)
     return [tidied(-residual.subs(s, 0) / slope)]
 
@@ -686,8 +681,8 @@ def _later(fact: InFlight) -> tuple[Expr, ...]:
 
 
 def passes(facts: Judged) -> bool:
-    """Whether the condition is equivalent to y(t) = Y at the time t with x(t) = X, where (X, Y) is the place; also
-    whether t is numerically positive."""
+    """Whether the condition is equivalent to y(t) = Y, and t is numerically positive, where x(t) = X and (X, Y) is
+    the place."""
     fact, (X, Y) = facts.inputs["flight"], facts.inputs["place"]
     x, y = fact.path
     time = tidied((X - x.subs(TIME, 0)) / diff(x, TIME))

@@ -42,14 +42,13 @@ def rate_under(quantity: Quantity, equations: Sequence[Quantity], key: str | Non
     """Rate of change of a quantity along every motion that obeys the equations, dQ/dt.
 
     quantity    a scalar Q in coordinates and their rates; the unit of the result is the unit of Q per second
-    equations   equations of motion that are linear in the highest rates; as many equations as highest rates
+    equations   equations of motion that are linear in the highest rates, one for each highest rate
 
     For each equation whose factor is not zero, a step derives the product of the equation and the factor. If there are
     several products, another step adds them.
     Second route: differentiate Q as a function of time and substitute the highest rates from the equations. If Q
-    belongs to a rotating body, also sum the contributions of the particles of the body. If the torque on the body is
-    known, repeat this sum for an inertia tensor that is not diagonal. Checks: subtract the sum of the products from
-    dQ/dt without substituting the highest rates, and integrate one motion numerically.
+    belongs to a rotating body, also sum the contributions of the particles of the body. Checks: subtract the sum of the
+    products from dQ/dt without substituting the highest rates, and integrate one motion numerically.
     Outcomes: conserved (the rate is zero), changes.
     Errors: the equations do not determine the highest rates; dQ/dt contains rates of higher order than the equations.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.7.
@@ -189,8 +188,8 @@ def _sum(
 ) -> Quantity:
     """Sum of the products, with like terms collected.
 
-    Outcomes: plain (every term contains a highest rate), cancel (the terms without a highest rate cancel), remain (some
-    terms without a highest rate remain).
+    Outcomes: plain (every term contains a highest rate), cancel (the other terms cancel), remain (some other terms
+    remain).
     """
     sides = [[product.value.sides[i] for product in products] for i in (0, 1)]
     moving = _moving([quantity, *products])
@@ -221,8 +220,8 @@ def _sum(
 
 
 def _gathered(of: Sequence[tuple[Quantity, Expr]], moving: Sequence[Symbol], highest: Sequence[Symbol]) -> list[Form]:
-    """Return the line "terms with highest rates = (c_1 + c_2 + ...) P", if all other terms are multiples of one product
-    P; otherwise no line."""
+    """Return the line "terms with highest rates = (c_1 + c_2 + ...) P" if all other terms are multiples of one
+    product P."""
     with_rates, rest = [], []
     for equation, factor in of:
         number, moved = factor.as_independent(*moving, as_Add=False)
@@ -243,8 +242,6 @@ def _added(sides: Sequence[Expr]) -> list[Expr]:
 
 
 def _left_over(sides: Sequence[Expr], unknown: Sequence[Symbol]) -> str:
-    """Return the word for the terms that contain no highest rate: "plain" if no such terms exist, "cancel" if their sum
-    is zero, "remain" otherwise."""
     without = [bound(side, dict.fromkeys(unknown, Integer(0))).expand() for side in sides]
     if all(rest == 0 for rest in without):
         return "plain"

@@ -15,8 +15,8 @@ from derive.steps.step import Fact, Quantity
 
 @dataclass(frozen=True)
 class Steady(Fact):
-    """A steady motion: constant values of coordinates, constant rates of cyclic coordinates, and the conditions, which
-    are expressions that vanish in this motion."""
+    """A steady motion: constant values of coordinates, constant rates of cyclic coordinates, and expressions that
+    vanish in this motion, which are its conditions."""
 
     missing = "is not the condition of a steady motion, as `steady_motion` yields it"
     lagrangian: Quantity
@@ -45,8 +45,7 @@ class ByEnergy(Fact):
 
 @dataclass(frozen=True)
 class SignedRate(Fact):
-    """The direction of a motion from its start: `sense` is 1 if the coordinate increases, and -1 if it decreases. The
-    rate has this sign until the motion turns back."""
+    """The direction of a motion from its start: `sense` is 1 if the coordinate increases, and -1 if it decreases."""
 
     missing = "is not the rate of a coordinate from conservation of energy"
     coordinate: Symbol
@@ -62,10 +61,9 @@ class Arrival:
     unknown    the coordinate, or a function of the coordinate such as cos(q)
     place      the value of `unknown` at the place, which may be infinite
     reached    the condition under which the motion reaches the place; None if the motion always reaches it
-    is_found   whether the place was derived from this motion; then `reached` is None
-    sense      the sign of the rate at the start, if the result contains the rate with this sign; 0 if the result does
-               not contain it, or if the motion starts from rest
-    turned     whether the motion turns back before it comes to the place; the rate then has the opposite sign there
+    is_found   whether the place was derived from this motion
+    sense      the sign of the rate at the start, if the result contains the rate with this sign; otherwise 0
+    turned     whether the motion turns back before it comes to the place
     lasts      what must last until the motion comes to the place: "contact" for the contact with a surface, "taut" for
                the tension of a string, "" if there is no such constraint
     """

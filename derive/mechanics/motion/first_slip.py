@@ -62,8 +62,8 @@ class Motion:
         return value_at(most, there) - abs(value_at(F, there))
 
     def reaches(self, at: Expr, point: Mapping[Symbol, Expr]) -> bool:
-        """Whether the place is in the range of the coordinate, and the squared rate is not negative at any tried place
-        on the way from the start to this place."""
+        """Whether the motion reaches the place: the squared rate is not negative at trial places on the way from the
+        start."""
         known, begin = range_of(self.q), value_at(self.start, point)
         if not at.is_real or known is not None and not (known.least <= at and at <= known.greatest):
             return False
@@ -164,8 +164,7 @@ def is_never_reached(motion: Motion) -> Verdict:
 
 
 def unless_sure(condition: Relation | None) -> Relation | None:
-    """Return the condition; None if the condition is known to be always true. For example, a > b sqrt(c) is true if
-    a > 0 and a^2 > b^2 c."""
+    """Return the condition; None if the condition is known to be always true."""
     if condition is None:
         return None
     more, less = condition.sides if condition.operator[0] == ">" else reversed(condition.sides)

@@ -58,7 +58,7 @@ class Flyer:
 
     part       the particle or the placed body; None for a particle of a Lagrangian without a description
     point      its mass, at the place of its centre of mass
-    frictions  the constraints that friction enforces at the contact that is lost; they end with the normal force
+    frictions  the constraints that friction enforces at the contact until the contact is lost
     """
 
     part: Any
@@ -181,8 +181,7 @@ class Departure:
 
     @cached_property
     def held_rates(self) -> dict[Symbol, Expr]:
-        """The rates of all other coordinates of the flying body, by the rate of `q`: zero for a coordinate that the
-        constraint holds; for an angle of a body that rolls, the rate by the condition of rolling."""
+        """The rates of all other coordinates of the flying body, expressed by the rate of `q`."""
         still: dict[Symbol, Expr] = {rate(s): ZERO for s in self.held}
         for each in self.flyer.frictions:
             left = explicit(each.residual).xreplace({**self.held, **still})
@@ -194,7 +193,7 @@ class Departure:
 
     @cached_property
     def scale(self) -> Expr:
-        """The speed divided by the magnitude of the rate of the coordinate."""
+        """The ratio of the speed to the magnitude of the rate of the coordinate."""
         return tidied(sqrt(tidied(Add(*(diff(c, self.q) ** 2 for c in self.curve)))))
 
     @cached_property
@@ -316,7 +315,7 @@ def _checked_letter(letter: Any, q: Symbol) -> Symbol:
 
 
 def _the_one_that_flies(departure: Departure) -> Flyer:
-    """Return the particle or body on which only its weight acts after the departure; there must be exactly one."""
+    """Return the particle or body that flies; reject a system in which there is none, or several."""
     parts = [each.of for each in departure.kept.forces if each.of is not None]
     found, reasons = [], []
     for part in dict.fromkeys(parts):
@@ -357,7 +356,6 @@ def _is_same(one: Sequence[Expr], other: Sequence[Expr]) -> bool:
 
 
 def _why_it_is_not_free(departure: Departure, flyer: Flyer) -> str:
-    """Return the reason for which this body is not free under its weight after the departure; "" if it is free."""
     matter, own, noun = departure.matter, set(flyer.coordinates), flyer.noun
     lost = (departure.kept, *flyer.frictions)
     acting = [each for each in _constraints(departure) if any(force.of == flyer.part for force in each.forces)]
@@ -393,8 +391,8 @@ DEPARTURE = Rule("motion.departure", source=SOURCE, outcomes={"generic": claims.
 
 
 def free_flight(lost: Quantity, at: Any = None, key: str = "flight") -> tuple[Quantity, ...]:
-    """Free flight of a particle or of a body after it leaves a surface, or after its string goes slack:
-    r(t) = r_1 + v_1 t + F t^2/(2 m), where r is the place of the centre of mass and F the weight.
+    """Free flight of a particle or body that leaves a surface, or whose string goes slack: r(t) = r_1 + v_1 t + F
+    t^2/(2 m). Here r is the place of the centre of mass, and F is the weight.
 
     lost   the place where contact is lost, from `leaves_contact`
     at     a symbol for the value of the coordinate at the departure, such as theta_1; by default the value itself
@@ -402,15 +400,14 @@ def free_flight(lost: Quantity, at: Any = None, key: str = "flight") -> tuple[Qu
     The result has two steps, `flight_x` and `flight_y`: the components of the place, in m, as functions of the time t
     since the departure. A separate step yields the speed v_1 at the departure; the velocity is along the curve on which
     the particle was. For a body that rolled, a third step, `flight_spin`, has the constant angular velocity, in rad/s.
-    The conditions under which contact is lost are assumed, and that a body which rolls does so until it departs.
-    The system may have other particles and bodies. Only the weight may act on the one that flies.
+    It is assumed that contact is lost, and that a rolling body rolls until it departs. No other force than its weight
+    may act on the particle or body that flies.
     Second route: Lagrange's equations for the coordinates of the system, with the constraint force zero. Checks:
     Newton's second law, and the place and velocity at the departure, by conservation of energy. Witness: the motion of
     the described system is followed until the force vanishes, and then without the constraint.
     Outcomes: uniform (no force along this axis), falls (a constant force along this axis).
-    Errors: contact is not lost; the flight is in space, or another force acts during the flight; the other constraints
-    do not fix the place; the force was derived without conservation of energy; `at` is not a symbol, or its range does
-    not contain the value at the departure.
+    Errors: contact is not lost; the flight is in space; another force acts during the flight; the force that vanishes
+    was derived without conservation of energy; `at` is not a suitable symbol.
     Source: Morin, *Introduction to Classical Mechanics*, sections 3.4 and 5.3.
     """
     departure = _departure(lost, at)
@@ -445,7 +442,6 @@ def where(conditions: Sequence[Relation]) -> Iterator[None]:
 
 
 def _place_of(departure: Departure, key: str) -> Quantity:
-    """The step that introduces the symbol for the value of the coordinate at the departure."""
     unknown, place = departure.lost.value.sides
     named = unknown.xreplace({departure.q: departure.letter})
     return establish(
@@ -554,11 +550,11 @@ SPIN_IN_FLIGHT = Rule(
 
 
 def _spin(departure: Departure, speed: Quantity, turn: Symbol, key: str) -> Quantity:
-    """Angular velocity of a body in free flight: the weight has no torque about the centre of mass, so the angular
-    velocity with which the body rolled remains.
+    """Angular velocity of a body in free flight. The weight has no torque about the centre of mass, so the angular
+    velocity at the departure remains.
 
-    Second route: the velocity of the particle at the contact, which vanishes while the body rolls, with the speed by
-    conservation of energy. Check: without the friction, the equation of motion of the angle has no torque.
+    Second route: the velocity of the particle at the contact vanishes while the body rolls. Check: without the
+    friction, the equation of motion of the angle has no torque.
     Outcomes: steady.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, section 7.7.
     """
@@ -648,15 +644,14 @@ def landing(flight: Sequence[Quantity], on: Surface | None = None, key: str = "l
     departure at which this distance vanishes. For the circle, the squared distance from the centre minus the squared
     radius is t^3 (a t + b). The factor t^3 is due to the departure, where the particle is on the circle, moves along
     the circle, and needs no constraint force. If a t + b has no zero at a positive time, the particle does not meet the
-    circle again. Before a landing on a plane, the particle must not meet the circle.
-    Second route: the place satisfies the equation of the orbit, in which the time is eliminated; the speed also follows
-    from the derivatives of the components. Check: at the end the particle is on the plane or the circle. Numerically,
-    the particle is on the free side before the end. Witness: the free flight of the described system is followed to
-    the landing.
+    circle again.
+    Second route: the place satisfies the equation of the path without the time; the speed also follows from the
+    derivatives of the components. Check: at the end the particle is on the plane or the circle, and before the end it
+    is on the free side. Witness: the free flight of the described system is followed to the landing.
     Outcomes: on_plane, taut (the string becomes taut again), back (on the surface that the particle left), clear (the
     particle does not meet the circle again), misses (the particle does not reach the plane).
-    Errors: the plane moves; a body that is not round flies; the particle may depart below the plane; a sign is unknown;
-    the particle may meet the circle before the plane; `on` is omitted, and the particle was not on a circle.
+    Errors: the plane moves; a body that is not round flies; the particle may depart below the plane, or meet the circle
+    before the plane; a sign is unknown; `on` is omitted, but the particle was not on a circle.
     Source: Morin, *Introduction to Classical Mechanics*, sections 3.4 and 5.3.
     """
     first, second = _both(flight)
@@ -707,7 +702,6 @@ def _fixed_plane(on: Surface) -> Plane:
 
 
 def _time_back(known: InFlight) -> Expr | None:
-    """Return the time at which the particle meets its circle again; None if it never meets the circle again."""
     orbit = _orbit_of(known)
     parts = [*reversed(_beyond(known.path, orbit).expand().as_poly(TIME).all_coeffs())]
     if len(parts) != 5 or not all(is_zero(c) for c in parts[:3]):
@@ -818,7 +812,7 @@ def _clear(first: Quantity, second: Quantity, key: str) -> Quantity:
 
 
 def _in_time(value: Expr) -> Expr:
-    """Write a polynomial in the time as a power of the time, multiplied by a polynomial with a constant term."""
+    """Write a polynomial in the time as t^n times a polynomial with a constant term."""
     terms = [(n, tidied(c)) for n, c in enumerate(reversed(value.expand().as_poly(TIME).all_coeffs()))]
     kept = [(n, presented(c, in_sums=False)) for n, c in terms if not is_zero(c)]
     least = min(n for n, _ in kept)
@@ -991,15 +985,13 @@ PASSES_THROUGH = Rule(
 
 
 def passes_through(flight: Sequence[Quantity], through: Sequence[Any], key: str = "passes") -> Quantity:
-    """Condition for a free flight to pass through a place: at the time at which the particle has the horizontal
-    position of the place, it also has the height of the place.
+    """Condition for a free flight to pass through a place.
 
     flight    the two components of the flight, from `free_flight`
     through   the place: its horizontal component and its height, m
 
     Positive factors of the condition are omitted. The place must be ahead of the particle.
-    Check: compare the heights of the particle and of the place at the time at which their horizontal positions are
-    equal. Numerically, this time is positive.
+    Check: where the particle has the horizontal position of the place, it has the height of the place.
     Errors: the particle passes through the place in any case or never; the horizontal velocity is not constant; it is
     not known whether the place is ahead of the particle or, for a flight inside a circle, inside this circle.
     Source: Morin, *Introduction to Classical Mechanics*, sections 3.4 and 5.3.
@@ -1058,7 +1050,8 @@ def _passes_through(first: Quantity, second: Quantity, through: Sequence[Any], k
 
 
 def _check_before_circle(known: InFlight, place: Vector) -> None:
-    """If the particle flies inside its circle, require that the place is inside too: the flight ends on the circle."""
+    """If the particle flies inside its circle, require the place to be inside too, because the flight ends on the
+    circle."""
     if known.orbit is None or not known.orbit.inside:
         return
     if sign_known(tidied(_beyond(place, known.orbit))) != -1:

@@ -65,27 +65,24 @@ LEAVES_CONTACT = Rule(
     start="start",
 )
 def leaves_contact(force: Quantity, letter: Letter, start: Value, key: str = "leaves_contact") -> Quantity:
-    """Place where contact is lost, because the normal force can only push, or where a string goes slack: N = 0, solved
-    for one unknown.
+    """Place where contact is lost or a string goes slack: N = 0, solved for one unknown.
 
     force    the normal force, positive while it pushes, in N; or the tension of a string, positive while it pulls
     letter   the unknown: a coordinate, or a function of a coordinate such as `cos(theta)`
     start    the value of the unknown at the start, where the force is positive
 
-    The motion must reach the place. If the force depends on a squared rate, q_dot^2 = f(q) by conservation of energy,
-    f must be positive at the place. If the sign of f at the place depends on the symbols, the page states the condition
-    f > 0. If f cannot be positive at the place, contact is not lost.
+    The motion must reach the place. If the force depends on a squared rate, q_dot^2 = f(q) by conservation of energy, f
+    must be positive at the place. If the sign of f there depends on the symbols, the page states the condition f > 0.
     Factors of the force that are known to be positive, such as sin(theta) for 0 < theta < pi/2, are omitted.
-    Check: the force is zero at the place and positive between the start and the place. If factors are omitted, the
-    force must also be numerically positive before the place and negative beyond it. Witness: the motion of the
+    Check: the force is zero at the place and positive between the start and the place. Witness: the motion of the
     described system is followed from the start until the multiplier vanishes.
     Outcomes: lost; lost_later (the force is zero at the start, and positive just after it); never (the force is always
     positive); turns_back (the motion does not reach the place where the force would vanish);
     turns_there (the force vanishes only where the motion turns back). For a body that rolls without slipping, the
     page states that it rolls until then.
-    Errors: static friction with a coefficient, which ends before the normal force vanishes; the force may have either
-    sign, as on a rail; it is not positive at the start, or not linear in the unknown; the motion may turn back before
-    the place, or does not begin at `start`.
+    Errors: static friction with a coefficient, because the body slips before the normal force vanishes; the force may
+    have either sign, as on a rail; the force is not positive at the start, or not linear in the unknown; the motion may
+    turn back before the place, or does not begin at `start`.
     Source: Morin, *Introduction to Classical Mechanics*, section 5.3.
     """
     value, unknown = tidied(explicit(number_of(force))), unknown_of("leaves_contact", letter)
@@ -166,7 +163,6 @@ def leaves_contact(force: Quantity, letter: Letter, start: Value, key: str = "le
 
 
 def _place_of_loss(force: Quantity, pushing: Expr, unknown: Expr) -> Relation:
-    """Return the place where the force vanishes; reject a force that is not linear in the unknown."""
     try:
         result = solved_for_unknown(force, pushing, "=", unknown)
     except NotLinear:
@@ -187,7 +183,7 @@ def _enforcer(force: Quantity) -> str:
 def _friction_beside(force: Quantity) -> Constraint | None:
     """Return the constraint of the friction without slipping at the contact of a normal force; None without friction.
 
-    Errors: this friction has a coefficient. It is at most mu_s N, so the body slips before N vanishes.
+    Errors: this friction has a coefficient, so the body slips before N vanishes.
     """
     of = next((found.constraint for each in (force, *force.ancestors()) if (found := each.fact(ForceOf))), None)
     places = {(each.of, each.at) for each in of.forces if each.of is not None} if of is not None else set()
@@ -259,8 +255,7 @@ def _turns_back(force: Quantity, unknown: Expr, ends: tuple[Expr, Expr], squared
 def _held(value: Expr, unknown: Expr) -> tuple[Expr, Expr]:
     """Split off factors known to be positive: sin(theta) (a cos(theta) - b) gives the sine and the bracket.
 
-    Factors that contain the unknown are split off too, such as 1/sqrt(b^2 + x^2) on a parabola. If no factor that can
-    vanish would remain, nothing is split off.
+    Factors that contain the unknown are split off too, such as 1/sqrt(b^2 + x^2) on a parabola.
     """
     u = mark_for(unknown)
     rest, beside = without_factors_beside(with_unknown(value, unknown, u), unknown, u)

@@ -1,5 +1,4 @@
-"""When static friction reaches its largest value, |F| = mu_s N, for constant forces or along a motion of one
-coordinate."""
+"""The condition for static friction to suffice, and the place of the first slip along a motion of one coordinate."""
 
 from __future__ import annotations
 
@@ -74,11 +73,10 @@ def slips(friction: Quantity, normal: Quantity, letter: Symbol | Expr, key: str 
     normal     the normal force N of the same contact in the same state, in newtons
     letter     the unknown: a letter, or a function of a letter such as `tan(alpha)`
 
-    The letter may be the coordinate of a motion whose forces follow from conservation of energy, or a function of this
-    coordinate. The result is then the first place with |F| = mu_s N that the motion reaches from its start. Otherwise
-    the result is the condition |F| <= mu_s N. If the sign of F depends on the symbols, there is one condition for each
-    direction of F, F <= mu_s N and -F <= mu_s N. The sentence states the direction of the slip if it is known: the body
-    slips against the friction that acts on it. Since |F| <= mu_s N, the body slips before N vanishes, unless F = 0.
+    Along a motion with conservation of energy, the letter may be the coordinate, or a function of the coordinate. The
+    result is then the first place with |F| = mu_s N that the motion reaches. In other cases the result is the condition
+    |F| <= mu_s N. If the sign of F depends on the symbols, there is one condition for each direction of F, F <= mu_s N
+    and -F <= mu_s N. The sentence states the direction of the slip if this direction is known.
     Check: at random numbers, the result and |F| <= mu_s N are both true or both false. Along a motion, |F| < mu_s N
     from the start to the place, and |F| > mu_s N just beyond the place. Witness: the motion of the described system.
     Outcomes: sticks (the condition depends on the symbols), always (it is always true), cannot (it is never true);
@@ -160,8 +158,6 @@ def _condition(contact: Friction, unknown: Expr, side: int, key: str, alone: boo
 
 
 def _sign_of_difference(relation: Relation) -> int | None:
-    """Return the sign of (left side - right side) if it is the same for all values of the symbols; None if it is
-    unknown."""
     left, right = (sign_for_all(tidied(explicit(side))) for side in relation.sides)
     if {left, right} == {1, -1}:
         return left
@@ -169,8 +165,8 @@ def _sign_of_difference(relation: Relation) -> int | None:
 
 
 def _same_truth(found: Relation, contact: Friction, side: int, mark: str) -> Verdict:
-    """Check that the result and side*F <= mu_s*N are both true or both false for random numbers with N > 0. If `mark`
-    is ">", the second relation is side*F > mu_s*N."""
+    """Check for random numbers that the result is equivalent to side*F <= mu_s*N, or for the mark ">" to side*F >
+    mu_s*N."""
     F, N, mu, difference = map(with_numbers, (contact.F, contact.N, contact.limit.coefficient, found.residual))
 
     def is_so(point: Mapping[Symbol, Expr]) -> bool | None:
@@ -250,7 +246,6 @@ def _data(motion: Motion, side: int = 0) -> dict[str, Expr]:
 
 
 def _at_once(motion: Motion, side: int, key: str) -> Quantity:
-    """The step for a body that slips at once: at the start, the friction that prevents slipping would exceed mu_s N."""
     contact, start = motion.contact, {motion.q: motion.start}
     F, N = (tidied(each.xreplace(start)) for each in (contact.F, contact.N))
     return establish(

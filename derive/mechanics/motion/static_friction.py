@@ -1,5 +1,4 @@
-"""The static friction and the normal force of a contact, and the condition |F| <= mu_s N for the friction to
-suffice."""
+"""The static friction and the normal force of a contact, with the condition |F| <= mu_s N."""
 
 from __future__ import annotations
 
@@ -55,7 +54,7 @@ class Friction:
     def words(self, side: int) -> dict[str, str]:
         """Return the words of the sentence: the body that would slip, and the direction of the slip if it is known.
 
-        The body slips against the friction that acts on it; `side` is the sign of F.
+        The slip is opposite to the friction on the body; `side` is the sign of F.
         """
         sense = self.constraint.sense(-side)
         return {**self.limit.words, "sense": sense} if sense else self.limit.words
@@ -112,7 +111,7 @@ def solved_for_limit(contact: Friction, side: int, mark: str, unknown: Expr) -> 
 
 
 def solved_line(contact: Friction, result: Relation, excess: Expr) -> Form:
-    """Return the line with the solved relation; it differs from the line before by a factor that does not vanish."""
+    """Return the line with the solved relation, which is equivalent to the line before."""
     alone, solved = result.sides
     if alone == contact.limit.coefficient:
         pushing = Mul.make_args(contact.N)
@@ -155,8 +154,8 @@ def numbers_for(letters: set[Symbol], of: Expr) -> Iterator[Mapping[Symbol, Expr
 
 
 def sampled(is_so: Callable[[Mapping[Symbol, Expr]], bool | None], letters: set[Symbol], of: Expr) -> Verdict:
-    """Return the verdict on a statement with random numbers for the symbols; `is_so` returns None for numbers with
-    which the statement has no meaning."""
+    """Judge a statement with random numbers for the symbols; `is_so` returns None for numbers for which the
+    statement has no meaning."""
     seen = 0
     for point in numbers_for(letters, of):
         try:

@@ -42,13 +42,13 @@ def steady_motion(
     at: Mapping[Any, Any] | None = None,
     key: str = "steady_motion",
 ) -> Quantity | tuple[Quantity, ...]:
-    """Condition of a steady motion, dL/dq = 0 at q_dot = 0, for each coordinate q that is not cyclic; the cyclic
-    coordinates have constant rates.
+    """Condition of a steady motion, dL/dq = 0 at q_dot = 0, for each coordinate q that is not cyclic.
+
     of      the Lagrangian, J, which must not contain the time; or the equation of motion of one coordinate, with the
-            values of conserved momenta substituted. These momenta determine the rates of the cyclic coordinates
+            values of conserved momenta substituted
     rates   constant rates of cyclic coordinates, `{phi: Omega}`; a rate that is not given keeps its symbol
     at      constant values of other coordinates, `{theta: alpha}`; a coordinate that is not given keeps its symbol
-    key     the key of the step; if there are several conditions, the name of the coordinate is appended
+    key     the key of the step; for several conditions, the name of the coordinate is appended
 
     Second route: sum of (m a - F) . dr/dq = 0 for the mass points in this motion, with accelerations a from the places
     as functions of time.
@@ -190,8 +190,7 @@ def _condition(steady: Steady, q: Coordinate, motion: Mapping[Symbol, Expr], key
 
 
 def _rates_first(value: Expr, steady: Steady) -> Expr:
-    """Choose the sign so that the highest power of a rate has a positive coefficient, if a rate occurs at least
-    squared."""
+    """Choose the sign so that the highest power of a rate has a positive coefficient."""
     for letter in sorted({s for v in steady.rates.values() for s in v.free_symbols}, key=str):
         for each in Mul.make_args(value):
             polynomial = each.as_poly(letter)

@@ -42,9 +42,8 @@ def condition_to_reach(
     place     the value of `unknown` at the place, which may be infinite
     there     the limit of f at the place, if f has no value there; by default f is evaluated at `place`
 
-    The motion turns back where f = 0. The motion reaches the place if f is not negative at the place, nor between the
-    start and the place. If the sign of f at the place depends on the symbols, the condition is f > 0 there. Between the
-    start and the place, algebra decides the sign of f or, if algebra cannot decide, numerical values do.
+    The motion turns back where f = 0. The motion reaches the place if f is negative neither at the place nor between
+    the start and the place. If the sign of f at the place depends on the symbols, the condition is f > 0 there.
     Errors: the motion turns back before the place, always or for some values of the symbols; the place is an unstable
     equilibrium, which the motion only approaches.
     """
@@ -79,10 +78,7 @@ def arrivals(
     limit        a function that maps the squared rate f(q) to the limit of f at the place; by default f is evaluated at
                  the place
 
-    If one of the other results was derived from this motion, such as the place of a first slip, its step already states
-    the condition; the `Arrival` then has none.
-    Errors: the motion does not reach the place; or the result contains a rate with its sign at the start, and this sign
-    is wrong or unknown at the place.
+    Errors: the motion does not reach the place; the sign of a rate is wrong or unknown at the place.
     """
     return [
         _arrival(of, others, speed, unknown, place, limit(explicit(speed.value)) if limit is not None else None)
@@ -120,20 +116,21 @@ def _arrival(
 
 
 def words_of(arrivals: Sequence[Arrival]) -> dict[str, str]:
-    """Return the word under `lasts` for a sentence with the condition under which the motion comes to these places."""
+    """Return the value of `lasts` for a sentence with the condition under which the motion comes to these places."""
     lasting = next((each.lasts for each in arrivals if each.reached is not None and each.lasts), "")
     return {"lasts": lasting} if lasting else {}
 
 
 def _may_end(speed: Quantity) -> str:
-    """Return what must last during the motion: contact with a surface that cannot pull, or a taut string."""
+    """Return the condition that may end during the motion: contact with a surface that cannot pull, or a taut
+    string."""
     kept = [fact for each in speed.ancestors() if (fact := each.fact(Constrained)) is not None]
     enforcers = {each.enforcer for fact in kept for each in fact.constraints}
     return "contact" if "surface" in enforcers else "taut" if "string" in enforcers else ""
 
 
 def _may_turn_at(squared: Expr, unknown: Expr, place: Expr) -> bool:
-    """Whether a motion whose rate vanishes at the place is known to come to this place, where it turns back.
+    """Whether a motion is known to come to a place where its rate vanishes.
 
     If the slope of f = q_dot^2 also vanishes at the place, the place is an unstable equilibrium, and the motion only
     approaches it. A motion with f = 0 at infinity, such as a motion with the escape velocity, does go to infinity.
@@ -158,8 +155,7 @@ def common_condition(of: Quantity, arrivals: Sequence[Arrival]) -> Relation | No
 def _latest_speeds(*quantities: Quantity) -> list[Quantity]:
     """Return the squared rates from conservation of energy from which these results were derived.
 
-    A squared rate from which another one was derived is left out: it belongs to an earlier motion, which only leads to
-    the start of a later one.
+    A squared rate of an earlier motion, which leads to the start of this one, is left out.
     """
     found = {each.key: each for of in quantities for each in of.ancestors() if each.fact(ByEnergy)}.values()
     return [each for each in found if not any(other is not each and other.rests_on(each) for other in found)]
@@ -178,8 +174,8 @@ def _unknown_sign(of: Quantity, come: Arrival, ahead: int | None) -> Rejected:
 
 
 def _side_of_start(come: Arrival, sense: int) -> int | None:
-    """Return 1 if the place lies ahead of the start, where the motion goes first, and -1 if it lies behind. Return 0 if
-    the place is the start, and None if this is unknown."""
+    """Return 1 if the place lies ahead of the start, -1 if it lies behind, 0 if it is the start, and None if this is
+    unknown."""
     q, start = come.begun.coordinate, come.begun.start
     if come.place in (oo, -oo):
         return sense if come.place == oo else -sense
@@ -204,8 +200,7 @@ def _turns_back(come: Arrival, sense: int) -> bool:
 
 
 def _is_free_by_algebra(speed: Quantity, unknown: Expr, place: Expr) -> bool:
-    """Whether algebra shows that f is not negative between the start and the place, if f is not negative at the
-    place."""
+    """Whether algebra shows that f is not negative between the start and the place."""
     squared, mark = explicit(speed.value), mark_for(unknown)
     written = with_unknown(squared, unknown, mark)
     if left_over(written, unknown) or place in (oo, -oo):
