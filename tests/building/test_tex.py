@@ -251,9 +251,9 @@ def test_a_few_lines_of_a_last_page_move_to_the_page_before(target: Path) -> Non
 
 
 def test_the_space_that_is_saved_depends_on_the_last_page(target: Path) -> None:
-    def heights(count: int) -> str:
+    def space(count: int) -> float:
         lines = "".join(rf"line {n}\par " for n in range(count))
-        return pages_of(rf"\typeout{{height \the\textheight}}{lines}height \the\textheight", target)[-1]
+        return float(pages_of(rf"{lines}space \the\parskip", target)[-1].split("space ")[1].split("pt")[0])
 
-    usual, tight, tighter = (float(heights(n).split("height ")[1].split("pt")[0]) for n in (10, 37, 40))
-    assert 0 <= tight - usual < tighter - usual
+    usual, tight, tighter = map(space, (10, 39, 41))
+    assert usual > tight > tighter
