@@ -40,7 +40,7 @@ def written(product: Product) -> Expr:
 
 
 def fraction_of(product: Product) -> tuple[Expr, Expr]:
-    """The numerator and the denominator; few terms of the denominator have a minus sign."""
+    """The numerator and the denominator; at most half of the terms of a sum in the denominator have a minus sign."""
     number, powers = product
     above, below = [], []
     for base, power in powers.items():

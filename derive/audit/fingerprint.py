@@ -72,7 +72,7 @@ def at(value: Expr, number: Callable[[Symbol], complex]) -> complex:
 
 
 def size_at(value: Expr, number: Callable[[Symbol], complex]) -> float:
-    """Return the number of an expression with the sizes of its terms added."""
+    """Return the value of an expression after each term of a sum is replaced by its absolute value."""
     if value.is_Add:
         return sum(size_at(each, number) for each in value.args)
     if value.is_Mul:

@@ -139,8 +139,8 @@ def standing_in(steps: Iterable[Step]) -> dict[str, str]:
 def answering(asked: Iterable[W], steps: Iterable[Step], groups: Mapping[str, tuple[str, ...]]) -> dict[str, W]:
     """Return the keys of the steps that these names ask for, each with the name that asks for it.
 
-    A name may ask for a group of steps. If a group of two conditions has the key of one of them as its name, this key
-    asks for both conditions: one condition alone would claim too much.
+    A name may ask for a group of steps. A group of two conditions may be named by the key of one of them. This key then
+    asks for both conditions, because one condition alone would claim too much.
     """
     steps = list(steps)
     own, instead = {step.key for step in steps}, standing_in(steps)

@@ -279,7 +279,7 @@ def equations_of_motion(of: Quantity, derivatives: bool = True) -> tuple[Quantit
 
 
 def _key_of(lagrangian: Quantity, name: str) -> str:
-    """Return the key of a step: the name. It follows the key of the Lagrangian, unless this is the default key."""
+    """Return the key of a step: the name, with the key of the Lagrangian in front if this is not the default key."""
     own = getattr(lagrangian.subject.body, "called", "").replace(" ", "_")
     plain = f"{own}_lagrangian" if own else "lagrangian"
     return name if lagrangian.key == plain else f"{lagrangian.key}_{name}"

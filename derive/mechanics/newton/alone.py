@@ -35,7 +35,7 @@ ZERO = Integer(0)
 class Force:
     """A force on one body.
 
-    components   N, along the axes of the plane, or of space for a particle in space
+    components   the components in newtons, along the axes of the plane, or of space for a particle in space
     at           the place of the material point on which the force acts; None for a couple
     couple       the torque of a couple, N m, positive counterclockwise
     letter       the symbol of the constraint force that `components` or `couple` contains; None for a known force

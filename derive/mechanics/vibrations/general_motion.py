@@ -203,7 +203,7 @@ def _free_with(constants: tuple[Symbol, Symbol], linear: LinearCoefficients, sor
 
 
 def _constants_for(equation: Quantity) -> tuple[Symbol, Symbol]:
-    """Return two symbols that neither the problem nor an earlier result uses, for the constants of a motion."""
+    """Return two symbols for the constants of a motion, if possible unused ones."""
     used = {s.name for s in explicit(equation.value).free_symbols}
     pairs = (pair for pair in LETTERS_OF_CONSTANTS if not any(is_taken(name) or name in used for name in pair))
     first, second = next(pairs, LETTERS_OF_CONSTANTS[-1])

@@ -19,7 +19,7 @@ TRIED = 48  # the number of places along a curve at which a name is tried
 INNER = 9.0  # in points: the distance of a legend from the axes with their ticks
 LONGEST = 0.35  # greatest part of a curve that a gap with its name takes away
 STUB = 15.0  # in points: the least piece of an open curve between a gap with its name and an end of the curve
-TURN = 4.0  # in points: the distance between a gap with its name and a turning point of a closed curve, if possible
+TURN = 4.0  # in points: the distance that a gap with its name should have from a turning point of a closed curve
 ENDS = 0.04  # part of a curve at either end that has no name
 
 

@@ -340,7 +340,7 @@ class StringKeys(Record):
     )
     drawn_tension: Word | None = key(
         "the symbol of the tension in force diagrams, if the coordinates keep the length of the string constant, so "
-        "that no equation contains the tension; with `mass_of`, of the tension at the bends. The forces on the "
+        "that no equation contains the tension. With `mass_of`, this is the tension at the bends. The forces on the "
         "particles at the ends, on the movable pulleys and, with `mass_of`, on the pieces of the rope are then drawn",
         TEXT,
     )

@@ -26,7 +26,7 @@ from derive.stock.keys.formulas import OfKnownDimension
 def limits_of(problem: Problem, known: Mapping[str, Quantity], run: Run) -> list[list[Quantity]]:
     """Return the steps of each case; none if the case does not apply to the current inputs.
 
-    Each case has a separate record, so that two limits of one quantity can have the same symbol.
+    Each case is derived in a `Run` of its own, so that the limits of one quantity can have the same symbol.
     """
     if not problem.limits:
         return []
