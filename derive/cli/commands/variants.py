@@ -49,9 +49,8 @@ def _told(found: OfProblem) -> str:
         shown = [each.told(number) for number in range(len(each.choices))]
         lines.append(f"  {each.name}: {', '.join(shown if len(shown) < 8 else [*shown[:3], '...', shown[-1]])}")
     if found.draws:
-        lines.append(
-            f"  {found.draws} draws, {found.structures} different derivations; {found.compared} of the draws derived in full"
-        )
+        derivations = f"{found.structures} different derivations; {found.compared} of the draws derived in full"
+        lines.append(f"  {found.draws} draws, {derivations}")
         lines.append(f"  {found.same} pairs of students with the same variant")
         rows = [("answer", "least", "median", "greatest", "unit", "same value", "distribution")]
         for key, answer in found.answers.items():
