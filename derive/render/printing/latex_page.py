@@ -235,12 +235,12 @@ class LatexPage:
         return Tex(f"\n{between}\n".join(steps))
 
     def _list(self, steps: Sequence[Sequence[Printed]], stop: str) -> str:
-        """Return answers in one frame. The steps of a list have a row, a reason and a number each."""
-        stops = [","] * (len(steps) - 1) + [""]
+        """Return answers in one frame, without punctuation between them. The steps of a list have a row, a reason and a
+        number each."""
         rows = [
-            rf"\listrow{{{latex(line.left) if line.left else ''}}}{{{_sides(line)}{end}}}{{{self._reason(line)}}}"
+            rf"\listrow{{{latex(line.left) if line.left else ''}}}{{{_sides(line)}}}{{{self._reason(line)}}}"
             rf"{{{self._number_of(line)}}}"
-            for (line,), end in zip(steps, stops, strict=True)
+            for (line,) in steps
         ]
         listed = "\n\\nextlistrow\n".join(rows)
         return f"\\framedlist{{\n{listed}\n}}{{{stop}}}"
