@@ -158,7 +158,7 @@ def test_a_step_does_not_use_a_defined_letter(
         (CONE, "I_1: M*R**2", "principal_moments", "`principal_moments` also uses this symbol"),
         (CONE, "I_xx: M*R**2", "inertia_tensor", "also uses this symbol"),
         (CONE, "z_C: 2*h", "centre_of_mass", "`r_C_z` looks the same in print"),
-        (CONE, "theta: R/h", "centre_of_mass", "integrates over it"),
+        (CONE, "phi: R/h", "centre_of_mass", "integrates over it"),
     ],
 )
 def test_a_defined_letter_with_a_second_meaning_is_an_error_at_its_definition(
