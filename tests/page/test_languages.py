@@ -130,3 +130,10 @@ def test_each_french_name_has_the_forms_that_phrases_use() -> None:
     tables = {**words.terms, "own_name": words.labels["own_name"]}
     assert used == {"nom", "de", "a"}
     assert not {name for name, forms in tables.items() if isinstance(forms, Mapping) and not used <= forms.keys()}
+
+
+def test_no_label_is_named_like_a_method_of_a_mapping() -> None:
+    """A template would print the method in place of the label."""
+    labels = [key for key in phrases_of(PHRASES / "en", "page.yaml") if key.startswith("labels.")]
+    methods = {name for name in dir(dict) if not name.startswith("_")}
+    assert labels and [key for key in labels if methods.intersection(key.split("."))] == []
