@@ -46,6 +46,7 @@ WORKING = (60, 160, 420)  # precisions in digits, tried in this order until a co
 SPARE = 20  # working digits that may be lost by rounding, cancellation and large arguments
 
 NEGLIGIBLE = 1e-25  # an entry of a matrix of ordinary numbers below this size is a rounding error
+RANKS_TRIED = 8  # the most points at which the rank of a matrix is tried
 
 ORDINARY = (0,)
 TINY, LARGE = (-2, -5, -9, -14), (1, 2, 4, 7)  # powers of ten
@@ -204,13 +205,20 @@ def is_zero_everywhere(expr: Expr) -> bool | None:
 
 
 def generic_rank(matrix: MatrixBase) -> int:
-    """The rank of a matrix for almost all values of its symbols: the largest rank at sampled points."""
+    """The rank of a matrix for almost all values of its symbols: the largest rank at sampled points.
+
+    Raises `NoNumber` if the matrix has a value at none of the points that are tried.
+    """
     letters = set[Expr]().union(*map(letters_of, matrix))
-    ranks = [0]
-    for point in islice(points(letters, seed_of(*matrix)), 2 if letters else 1):
+    ranks: list[int] = []
+    for point in islice(points(letters, seed_of(*matrix)), RANKS_TRIED):
         with suppress(Undefined), mp.workdps(DIGITS):
             value = Values(point)
             ranks.append(_rank([[value(entry) for entry in row] for row in matrix.tolist()]))
+        if len(ranks) == (2 if letters else 1):
+            break
+    if not ranks:
+        raise NoNumber(matrix)
     return max(ranks)
 
 

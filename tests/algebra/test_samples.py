@@ -11,6 +11,7 @@ from sympy import (
     Function,
     I,
     Integer,
+    Matrix,
     Rational,
     Sum,
     Symbol,
@@ -27,8 +28,10 @@ from sympy import (
 
 from derive.algebra.expressions import PLUS_MINUS
 from derive.algebra.samples import (
+    NoNumber,
     Undefined,
     compared_at,
+    generic_rank,
     is_zero_everywhere,
     letters_of,
     points,
@@ -125,3 +128,10 @@ def test_a_value_is_shown_in_few_figures_and_without_what_is_but_noise() -> None
     assert str(shown(mp.mpf(2) / 3)) == "0.666667"
     assert str(shown(mp.mpc(1, mp.mpf(10) ** -200), 3)) == "1.00"
     assert shown(mp.mpc(0, 1)).is_real is False
+
+
+def test_the_rank_is_that_of_almost_all_points() -> None:
+    rows = Matrix([[sin(x), cos(x), a], [2 * sin(x), 2 * cos(x), 2 * a], [a, x, 1]])
+    assert [generic_rank(m) for m in (rows, rows[:2, :], Matrix([[sin(x) ** 2 + cos(x) ** 2 - 1]]))] == [2, 1, 0]
+    with pytest.raises(NoNumber):
+        generic_rank(Matrix([[1 / (sin(x) ** 2 + cos(x) ** 2 - 1)]]))
