@@ -59,6 +59,8 @@ def equated(document: Document) -> set[object]:
     groups = [group for display in displays for group in display.groups]
     lefts = [line.left for group in groups for line in group.lines if line.left is not None]
     lefts += [line.right for group in groups for line in group.lines[:-1] if letters_of(line.right)]  # a = b = 2
+    rights = [line.right for group in groups for line in group.lines]
+    lefts += [each.left for each in rights if isinstance(each, Relation) and each.operator == "="]  # F ≈ F_max = 2
     found = {letter for left in lefts for letter in (letters_of(left) or letters_in(expressions_in(left)))}
     for part in document.parts:
         for block in part.blocks:
