@@ -7,6 +7,7 @@ from collections.abc import Sequence as List
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from derive.course.names import (
     DOCUMENTS,
@@ -273,30 +274,31 @@ def problem_set(root: Path, set_id: str) -> ProblemSet:
 
 def language_of(root: Path, set_id: str) -> Language:
     """Return the language of the pages of a set. The file of the set may be missing, or have errors in other keys."""
-    faults, keys = Faults(), keys_of(CourseKeys)
-    found: dict[str, str] = {}
-    for path in (COURSE, f"problems/{set_id}/set.yaml"):
-        node = mapping_in(root, path, "the file", quickly=True) if (root / path).is_file() else None
-        for name in ("language", "decimal"):
-            under = node.get(name) if node else None
-            value = keys[name].reader.read(under, name, faults) if under is not None else None
-            found |= {name: value} if value else {}
-    faults.stop()
+    found = _shared(root, set_id, "language", "decimal")
     decimal = found.get("decimal")
     return Language(found.get("language", Language.name), DecimalSign(decimal) if decimal else None)
 
 
 def form_of_set(root: Path, set_id: str) -> AnswerForm | None:
-    """Return the default form of answers in a set; None if a file has errors, which reading the set reports."""
-    path = f"problems/{set_id}/set.yaml"
+    """Return the default form of answers in a set; None if it has errors, which reading the set reports."""
     with suppress(DeriveError):
-        faults = Faults()
-        of_course = _course(root, faults)
-        of_set = (
-            read_record(SetKeys, mapping_in(root, path, "a set"), "a set", faults) if (root / path).is_file() else None
-        )
-        return (of_set.form if of_set else None) or of_course.form
+        form: AnswerForm | None = _shared(root, set_id, "form").get("form")
+        return form
     return None
+
+
+def _shared(root: Path, set_id: str, *names: str) -> dict[str, Any]:
+    """Read these keys of the set or, if the set does not have them, of the course. Other keys are not read."""
+    faults, keys = Faults(), keys_of(CourseKeys)
+    found: dict[str, Any] = {}
+    for path in (COURSE, f"problems/{set_id}/set.yaml"):
+        node = mapping_in(root, path, "the file", quickly=True) if (root / path).is_file() else None
+        for name in names:
+            under = node.get(name) if node else None
+            value = keys[name].reader.read(under, name, faults) if under is not None else None
+            found |= {name: value} if value else {}
+    faults.stop()
+    return found
 
 
 def _logo(root: Path, path: Word, faults: Faults) -> bytes | None:
