@@ -30,8 +30,6 @@ from derive.steps.numeric import WholeSwing
 from derive.steps.step import Quantity
 
 COMPARED = 3  # number of draws that are also derived completely
-BARS = " ▁▂▃▄▅▆▇█"
-WIDTH = 24  # number of bars of a distribution
 CLOSE = 1e-9  # the greatest imaginary part, relative to the value, that counts as zero
 
 
@@ -235,15 +233,3 @@ def _printed(value: Any) -> Iterator[tuple[float, int]]:
 
     if isinstance(value, Amount) and isinstance(value.args[0], Rounded):
         yield float(value.args[0].args[0] * value.args[2]), int(value.args[0].args[1])
-
-
-def bars(values: Sequence[float]) -> str:
-    """Return the distribution of values as a row of bars."""
-    least, greatest = min(values), max(values)
-    if greatest == least:
-        return BARS[-1]
-    counts = [0] * WIDTH
-    for value in values:
-        counts[min(WIDTH - 1, int((value - least) / (greatest - least) * WIDTH))] += 1
-    most = max(counts)
-    return "".join(BARS[-(-count * (len(BARS) - 1) // most)] for count in counts)

@@ -73,6 +73,7 @@ def _variants(variants: argparse.ArgumentParser) -> None:
     named(variants.add_argument("id", metavar="SET|ID", help="a set, or one problem"), "ids and sets")
     variants.add_argument("--check", type=_count, default=100, metavar="N", help="draw N variants (default 100)")
     variants.add_argument("--seed", default="", metavar="TEXT", help="the seed of `derive class`")
+    variants.add_argument("--format", choices=("text", "json", "html"), default="text", help="html has histograms")
     _time_limit(variants)
 
 

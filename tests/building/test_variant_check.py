@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from derive.building import variant_check
-from derive.building.variant_check import bars, checked
+from derive.building.variant_check import checked
 from derive.course.variants import chosen_for
 from tests.course.test_variants import bead
 
@@ -75,9 +75,3 @@ def test_a_wrong_quick_value_is_detected(tmp_path: Path, monkeypatch: pytest.Mon
     wrong = lambda *given: {key: 1.01 * value for key, value in whole(*given).items()}  # noqa: E731
     monkeypatch.setattr(variant_check._Structure, "values", wrong)
     assert "but the page prints" in checked(tmp_path, "week1/bead", 3, "").complaints[0].message
-
-
-def test_the_bars_show_the_distribution() -> None:
-    assert bars([1, 1, 1]) == "█"
-    row = bars([0] * 8 + [1])
-    assert (len(row), row[0], row[-1], row[1:-1].strip()) == (24, "█", "▁", "")
