@@ -43,13 +43,11 @@ from derive.building.tex import (
     by_the_clock,
     chosen_engine,
     chosen_name,
-    lacks_hyphenation,
     prepare,
     typeset,
 )
 from derive.building.workers import TIME_LIMIT, Bug, Crew, Job, Outcome, done, job_of, under_way
 from derive.course.names import (
-    ENGLISH,
     INDEX,
     LOGO,
     ON_A_PAGE,
@@ -216,10 +214,6 @@ class _Build:
         self.prepares = not os.listdir(at_hand().name)  # all workers share the TeX formats in this folder
         reading = partial(problem_set, self.root, self.set_id)
         heading = done(Job(f"`problems/{self.set_id}/set.yaml`", reading, self.options.limit))
-        if heading.language.name != ENGLISH.name and lacks_hyphenation(self.engine):
-            message = f"no word is hyphenated: this TeX has no patterns for the language `{heading.language.name}`"
-            help_line = "install a complete TeX and choose it with `--engine`"
-            self.result.warnings.append(Complaint("no-hyphenation", message, help=help_line, severity="warning"))
         self.manifest.of_set = stated_by(heading)
         self.documents = named_documents(heading, self.manifest, self.options.documents)
         options = {DETAIL: self.options.detail, EVIDENCE: self.options.evidence}

@@ -224,12 +224,6 @@ def _passes(engine: Engine, source: Path, timeout: float, *options: str, most: i
     return None
 
 
-def lacks_hyphenation(engine: Engine) -> bool:
-    """Return whether the engine hyphenates only English, as the engine of the Python wheel does."""
-    patterns = engine.path.parents[2] / "texmf-dist" / "tex" / "generic" / "hyph-utf8"
-    return engine.name == WHEEL and not patterns.is_dir()
-
-
 def by_the_clock(seconds: float) -> float:
     """Return the wall-clock limit for a limit of processor time."""
     return seconds + BUSY

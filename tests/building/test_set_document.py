@@ -17,7 +17,7 @@ from derive.building.cache import Cache, Kept
 from derive.building.set_document import COUNTED, problem_document, report_document, set_document, sheet_document
 from derive.building.solution import rendered
 from derive.building.tex import chosen_engine, typeset
-from derive.course.names import Paper
+from derive.course.names import Language, Paper
 from derive.course.problem_set import problem_set
 from derive.errors import Rejected
 from derive.render.rendered import Rendered, Tex
@@ -192,6 +192,14 @@ def test_a_problem_gets_its_number_where_it_is_listed_and_nothing_in_it_is_repla
     for document in (problem_document(course, problem, heading), sheet_document(course, heading, [solved[0], problem])):
         assert document.count(typed) == 1
         assert r"\problem{2}{A block turning about a long diagonal}{10 points}" in document
+
+
+def test_only_a_document_that_is_not_in_english_lists_its_divided_words(course: Path, solved: list[Rendered]) -> None:
+    english = problem_set(course, "hw9")
+    french = replace(english, language=Language("fr"))
+    told = {heading.language.name: problem_document(course, solved[1], heading) for heading in (english, french)}
+    assert r"\hyphenation" not in told["en"]
+    assert " an-gu-lar " in told["fr"].partition(r"\hyphenation{")[2].partition("}")[0]
 
 
 # --- how it was checked ---

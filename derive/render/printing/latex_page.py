@@ -39,6 +39,7 @@ from derive.render.notation.layout import Array, last_of
 from derive.render.notation.notation import Notation
 from derive.render.printing.amsmath import equation_latex
 from derive.render.printing.figure_numbers import equation_number
+from derive.render.printing.hyphenation import divided_words
 from derive.render.printing.lines import Printed, answers_together, framed_together, printed_lines
 from derive.render.printing.report_page import ReportPage
 from derive.render.printing.templates import filled_template
@@ -74,6 +75,7 @@ class Passage:
     after: tuple[Blocks, ...] = ()
 
 
+NO_WORDS = r"\hyphenation{}"  # a template that is not in English has it where the divided words belong
 NOT_TYPESET = Fragments(*[Tex("")] * 5)
 
 
@@ -94,8 +96,11 @@ def problem_latex(document: Document, words: Phrases, notation: Notation, templa
 
 
 def whole_latex(templates: Templates, template: str, facts: Mapping[str, Any]) -> Tex:
-    """Return a complete LaTeX document."""
-    return filled_template(templates, template, facts)
+    """Return a complete LaTeX document, with the division of its words if it is not in English."""
+    tex = filled_template(templates, template, facts)
+    if NO_WORDS not in tex:
+        return tex
+    return Tex(tex.replace(NO_WORDS, rf"\hyphenation{{{divided_words(tex, facts['labels']['language']['html'])}}}", 1))
 
 
 class LatexPage:

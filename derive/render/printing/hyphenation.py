@@ -1,0 +1,37 @@
+"""The division of words in documents that are not in English, by the dictionaries of Pyphen.
+
+TeX divides a word by the patterns of its language, and the engine that derive installs has the English ones only. The
+words of the document with their divisions are therefore written into the document.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from derive.render.notation.latex import escaped
+
+SHORTEST = 5  # letters; shorter words are not divided
+_ACCENTED = {escaped(letter): letter for letter in "äöüßáàâéèêëíìîïóòôúùûçñæœÄÖÜÁÀÂÉÈÊËÍÌÎÏÓÒÔÚÙÛÇÑÆŒ"}
+_ACCENT = re.compile("|".join(map(re.escape, sorted(_ACCENTED, key=len, reverse=True))))
+_WORD = re.compile(rf"(?<![\\\w])[^\W\d_]{{{SHORTEST},}}")
+
+
+def divided_words(tex: str, language: str) -> str:
+    """Return the words of a document in LaTeX with a hyphen at each place where they may be divided.
+
+    The language is a code such as `de`. The result is empty if Pyphen has no dictionary for it.
+    """
+    from pyphen import Pyphen, language_fallback
+
+    known = language_fallback(language)
+    if known is None:
+        return ""
+    dictionary = Pyphen(lang=known)
+    divided = (dictionary.inserted(word) for word in sorted(set(_words(tex))))
+    return " ".join(word for word in divided if "-" in word)
+
+
+def _words(tex: str) -> Iterator[str]:
+    plain = _ACCENT.sub(lambda found: _ACCENTED[found[0]], tex.partition(r"\begin{document}")[2])
+    yield from (word.lower() for word in _WORD.findall(plain))
