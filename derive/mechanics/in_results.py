@@ -81,7 +81,7 @@ class ResultKey:
 class ResultVerb:
     """A verb of `results:`.
 
-    name       the key that names the verb; its value is the first argument
+    name       the key that names the verb; its value is an argument of the function
     yields     a description of the result, for the manual
     function   a function of the values of the keys; its argument `key` is the name of the result
     called     argument -> its key, followed by a colon and a description for the manual

@@ -213,8 +213,8 @@ def compared(squared: bool) -> Predicate:
 
 
 def always(wanted: bool) -> Predicate:
-    """Judge whether, at all trial numbers, the difference has the stated sign or satisfies the relation of the
-    result."""
+    """Judge whether, at all trial numbers, the difference has the stated sign or satisfies the relation of the result.
+    The requested comparison must allow this sign if and only if `wanted` is true."""
 
     def is_so(facts: Judged) -> bool:
         held = facts.inputs["sign"] in ALLOWED[MARK_OF[facts.words["comparison"]]]
@@ -369,7 +369,8 @@ def _discriminant(facts: Judged) -> Expr:
 
 
 def roots(discriminant: int | None, product: int | None = 1) -> Predicate:
-    """Judge whether the discriminant has the sign `discriminant`; None requires that the sign is unknown."""
+    """Judge whether the discriminant has the sign `discriminant`; None requires that the sign is unknown. If
+    `discriminant` is 1, the product of the roots must be known to be negative if and only if `product` is -1."""
 
     def is_so(facts: Judged) -> bool:
         q = facts.inputs["quadratic"]
@@ -402,8 +403,9 @@ def slope_vanishes_by(facts: Judged, letter: Any) -> bool:
 
 
 def names_put_in(facts: Judged, value: Any) -> bool:
-    """Whether the substitution of all stated values in the original gives the result or an equivalent equation. For a
-    rate with the opposite sign, `turned_first` judges the sign."""
+    """Whether the value is an equation whose left side has no minus sign, and the substitution of all stated values in
+    the original gives the result or an equivalent equation. The substitution is not compared if it also changes rates,
+    or if results are substituted too. For a rate with the opposite sign, `turned_first` judges the sign."""
     told = {v.left: v.right for role, v in facts.inputs.items() if role.rpartition("_")[0] == "value"}
     others = [role for role in facts.quantities if role.rpartition("_")[0] == "other"]
     if value.operator != "=" or value.left.could_extract_minus_sign():

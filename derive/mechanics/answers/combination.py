@@ -75,7 +75,8 @@ def _cancelled(value: Expr) -> Expr:
 
 
 def _number(quantity: Quantity) -> Quantity | Expr:
-    """Return the quantity if its symbol is a letter or an absolute value such as |x_dot|."""
+    """Return a number with a letter or an absolute value such as |x_dot| as its symbol unchanged; return only the value
+    of any other number. For an equation that is solved for a letter, return the right side."""
     value = quantity.value
     if not isinstance(value, Relation | MatrixBase):
         return quantity if isinstance(quantity.symbol, Symbol | Abs) else explicit(value)

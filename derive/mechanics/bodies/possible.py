@@ -2,8 +2,8 @@
 density that changes its sign, a negative mass or size.
 
 The checks of position maps and of parts are numerical: Newton's method on the position map of one part looks for points
-of another part. These checks reject a body only if it is impossible for every draw of its symbols; a symbol with a
-number in the problem has this number in each draw.
+of another part. These checks reject a body only if it is impossible for every draw of its symbols that can be
+evaluated; a symbol with a number in the problem has this number in each draw.
 """
 
 from __future__ import annotations

@@ -47,7 +47,8 @@ def conserved(kind: str | None) -> Predicate:
 
 
 def seen_by_the_rest(constants: bool, driven: bool | None) -> Predicate:
-    """Judge whether the result uses constant momenta if and only if `constants` is true."""
+    """Judge whether the result uses constant momenta if and only if `constants` is true. Unless `driven` is None, T at
+    rest must also be different from zero, and the result different from U, if and only if `driven` is true."""
 
     def is_so(facts: Judged) -> bool:
         kept = [role for role in facts.quantities if role.startswith("constant_")]

@@ -72,7 +72,7 @@ def conjugate_momentum(of: Quantity, q: Coordinate, symbol: str | None = None, k
 
     Second route: the sum of m v . dr/dq over the mass points, and of e A . dr/dq over charges e in magnetic fields.
     Outcomes: generic, zero.
-    Errors: L contains neither q nor its rate.
+    Errors: q is not a coordinate of L.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 2.6 and 8.1.
     """
     required(of.coordinates, q, "conjugate_momentum", of)

@@ -59,7 +59,7 @@ def noether(
     over charges e in magnetic fields. Here epsilon dr is the displacement by the shift.
     Outcomes: symmetry, with_gain (F is not zero).
     Errors: L is not invariant (the message shows the difference); the shift or F contains a rate; the shift is zero, or
-    L contains neither a coordinate of the shift nor its rate.
+    shifts something that is not a coordinate of L.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 13.7.
     """
     xi = _formulas(of, shift)

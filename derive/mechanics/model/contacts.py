@@ -378,7 +378,7 @@ def _sliding(touch: Contact, coefficient: Any, direction: Any, letter: str) -> G
         message = f"the normal force `{letter}` of a rail may have either sign, so the sign of mu {letter} is unknown"
         raise Rejected(Complaint("wrong-argument", message, help="describe a surface, without `side: both`"))
     slip = velocity_at(touch.of, touch.at) - velocity_at(touch.surface.ground, touch.foot)
-    slip = slip - dot(touch.normal, slip) * touch.normal  # no other component is left, because the contact lasts
+    slip = slip - dot(touch.normal, slip) * touch.normal  # during the contact, the component along the normal is zero
     is_free = direction is None and len(slip.components) == 3
     along = _way_of_slip(slip) if is_free else _along_slip(touch, direction, slip)
     _check_rubbing(touch, along, is_free)

@@ -437,7 +437,7 @@ def _rim(place: Location, on: PlacedBody) -> Location:
 
 
 def circles_of(system: Any, at: Location) -> list[Circle]:
-    """Return the circles on which a straight string or rod of constant length keeps a moving point; the other end is
+    """Return the circles on which a straight string or rod of given length keeps a moving point; the other end is
     fixed."""
     found = []
     for line in (part for part in system.parts if isinstance(part, Line)):
