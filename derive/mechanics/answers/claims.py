@@ -488,7 +488,7 @@ def a_root_of_its_sign(facts: Judged, outcome: str) -> bool:
 
 def as_asked_for(facts: Judged, outcome: str) -> bool:
     """Whether the sentence says "roots" for an equation and "zeros" for any other result. If the sentence names further
-    factors that may vanish, the whole expression must vanish where any one of them does."""
+    factors that may vanish, the whole expression must vanish wherever one of these factors vanishes."""
     given = facts.inputs["equation"]
     beside, whole = facts.inputs.get("elsewhere"), explicit(given)
     whole = whole.residual if isinstance(whole, Relation) else whole

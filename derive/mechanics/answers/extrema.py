@@ -49,12 +49,13 @@ def maximum(of: Quantity, letter: Letter, within: Ends = None, key: str = "maxim
     letter   the variable: an angle, a frequency, a length
     within   the interval of the letter; by default all values that the letter can have
 
-    Check: the slope vanishes at the place; no value at other places of the interval is greater (less, for a minimum).
+    A place that always exists is preferred to a place that exists only under a condition.
+    Check: the slope vanishes at the place; numerically, no value at other places is greater (less, for a minimum).
     Outcomes: greatest, or least for `minimum`; a condition follows if the extremum exists only for some values of the
     letters.
-    Errors: the result is not a value that depends on the letter; there is no place with zero slope and the required
-    sign of the curvature, or the choice between several places is open; the places with zero slope have no closed form;
-    the place is at a time before the start.
+    Errors: the result is not a value that depends on the letter; no place with zero slope has the required sign of the
+    curvature, or several places do and none is preferred; the places with zero slope have no closed form; the place is
+    at a time before the start.
     Source: Boas, *Mathematical Methods in the Physical Sciences*, section 4.8.
     """
     return _extremum(of, letter, within, key, "maximum", -1)

@@ -97,7 +97,8 @@ def roots_together(
     keys       the keys of the separate roots
     symbols    the symbols of the separate roots
 
-    The result has one entry for each key. If there is a single root or no real root, all entries are the same step.
+    The result has one entry for each key; by default there are two keys, or one for a linear equation. If there is a
+    single root or no real root, all entries are the same step.
     Check: each root substituted into the equation; the sum of the roots; the equivalent form of each root,
     2 c/(-b -+ sqrt(b^2 - 4 a c)); if no root is real, the discriminant from the resultant.
     Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1.
@@ -378,8 +379,8 @@ def discriminant(roots: Quantity, symbol: str = "Delta", key: str = "discriminan
 
     roots   a root that `roots` returned with `together`
 
-    Check: the resultant of a x^2 + b x + c and its derivative is -a Delta; for a linear equation, b is the difference of
-    the values at x = 1 and x = 0.
+    Check: the resultant of a x^2 + b x + c and its derivative is -a Delta; for a linear equation, b is the difference
+    of the values at x = 1 and x = 0.
     Outcomes: positive, negative, vanishing, conditional (the sign depends on the letters); linear (b^2, since a is
     zero).
     Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1.

@@ -71,7 +71,7 @@ def _own(part: Any, sign: int) -> Iterator[Piece]:
 @dataclass(frozen=True)
 class Fault:
     """Why no body can consist of the given parts: a word for the reason ("shared", "hole" or "empty"), and the names of
-    the parts that meet at one place."""
+    the parts at fault, which meet at one place; no names for "empty"."""
 
     why: str
     names: tuple[str, ...]
@@ -111,7 +111,8 @@ def check_parts(parts: Sequence[Any]) -> None:
 
 
 def _faults(pieces: Sequence[Piece], charts: Sequence[Chart]) -> dict[Fault, None]:
-    """Return the faults of the parts for one draw of the symbols, each as a key; empty if the parts can form a body."""
+    """Return the faults of the parts for one draw of the symbols, each as a key; empty if the parts can form a body. A
+    fault at a single sampled point is ignored."""
     found: dict[Fault, int] = {}
     left = False
     boxes = [_box(chart) for chart in charts]

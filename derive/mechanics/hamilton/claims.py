@@ -47,8 +47,9 @@ def conserved(kind: str | None) -> Predicate:
 
 
 def seen_by_the_rest(constants: bool, driven: bool | None) -> Predicate:
-    """Judge whether the result uses constant momenta if and only if `constants` is true. Unless `driven` is None, T at
-    rest must also be different from zero, and the result different from U, if and only if `driven` is true."""
+    """Judge whether the result uses constant momenta if and only if `constants` is true. If `driven` is
+    true, T must also differ from zero where all rates vanish, and the result must differ from U; if `driven` is false,
+    neither may differ."""
 
     def is_so(facts: Judged) -> bool:
         kept = [role for role in facts.quantities if role.startswith("constant_")]

@@ -255,8 +255,8 @@ def effective_potential(
     Second route: where the rates and accelerations of the remaining coordinates vanish, -dU_eff/dq is the sum of
     (F - m a) . dr/dq, with the rates of the cyclic coordinates substituted. Also, U_eff is T_2 - T_0 + U with these
     rates.
-    Outcomes: reduced (momenta are conserved), driven (a prescribed motion), unchanged (neither, so U_eff is U), given
-    (L is given, without cyclic coordinates).
+    Outcomes: reduced (momenta are conserved), driven (a prescribed motion), unchanged (no conserved momentum
+    and no prescribed motion, so U_eff is U), given (L is given, without cyclic coordinates).
     Errors: L contains the time; a momentum belongs to another Lagrangian or is given twice; no coordinate remains; a
     force outside L acts where the rates vanish; also the errors of `rates_by_momenta`.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 3.3; Taylor, *Classical Mechanics*, section 8.4.

@@ -339,7 +339,7 @@ def with_derivatives(derivatives: Sequence[Quantity], right: Expr, moving: Seque
 
 
 def difference(first: Expr, second: Expr) -> Expr:
-    """Return `first - second`, with brackets around a sum as `second`."""
+    """Return `first - second`. If `second` is a sum, its terms are in brackets."""
     terms = Add.make_args(second)
     if second == 0 or len(terms) == 1:
         return Terms(first, -second) if second != 0 else first
@@ -358,7 +358,8 @@ def _between(constraints: Sequence[Constraint]) -> str:
 def _functions_told(constraints: Sequence[Constraint]) -> dict[str, tuple[Relation, Relation]]:
     """Return the functions that vanish where the constraints hold, such as f_x = x - R sin(theta).
 
-    The index of f is the index of the multiplier, here lambda_x. If the gradient of f does not have the length 1, the
+    The index of f is the index of a multiplier such as lambda_x, otherwise the number of the constraint; a single f has
+    no number. If the gradient of f does not have the length 1, the
     multiplier of the force N is also stated, lambda = N/sqrt(1 + x^2/b^2).
     """
     found = {}

@@ -158,7 +158,7 @@ def accelerations(*equations: Quantity) -> tuple[Quantity, ...]:
     Check: the accelerations satisfy the constraints, differentiated as functions of t.
     Errors: an equation is missing or is given twice; the equations belong to different Lagrangians; there are too many
     unknowns; the constraints contradict or repeat one another; a coordinate has no inertia; a surface would have to
-    pull, or a string would have to push.
+    pull, or a string would have to push; the solution has too many terms.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4.
     """
     problem = _problem("accelerations", equations)

@@ -53,7 +53,7 @@ class Line(Connection):
     is_rod    whether the line is a rod, which can push as well as pull
     rope      the particle whose mass is distributed along the line; None for a line without mass
     drawn     the symbol of the tension in force diagrams, if the coordinates keep the length
-    pieces    the straight pieces, in order
+    pieces    the straight pieces, in order, if there is such a symbol; otherwise empty
     """
 
     through: tuple[Location | Pulley, ...]
@@ -246,7 +246,7 @@ def _check_rope(line: Any, particle: Any, tension: str) -> None:
         message = "the speed of the rope differs from the speed of the particle that has its mass"
         raise Rejected(Complaint("which-body", message, help="put the particle at an end of the rope"))
     if not is_zero(own.components[-1]):
-        message = "the particle that has the mass of the rope moves up or down, but its weight is not that of the rope"
+        message = "the particle that has the mass of the rope moves up or down, but its weight is not the rope's"
         help_line = "put the particle at a constant height; gravity acts on each piece of the rope"
         raise Rejected(Complaint("which-body", message, help=help_line))
 
