@@ -78,7 +78,7 @@ class Mover:
 
 
 def movers(system: System, lagrangian: str = "") -> list[Mover]:
-    """Return the particles and bodies with a term (1/2) M v^2, with the indices of their speeds: v, or v_1, v_2, ..."""
+    """Return the particles and bodies with a term (1/2) M v^2, with the indices of their speeds: v, v_1 or v_rod."""
     found = [Mover(particle.mass, particle.at, "", False) for particle in system.particles]
     found += [
         Mover(placed.body.mass, placed.centre, placed.body.called.partition(" ")[0], True)

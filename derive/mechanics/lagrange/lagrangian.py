@@ -305,6 +305,7 @@ def generalized_force(of: Quantity, q: Coordinate, key: str | None = None) -> Qu
 
     Second route: the sum of F . dr/dq over the forces in L, and of m v . d(dr/dq)/dt over the mass points. For charges
     e in magnetic fields, the time derivative of the sum of e A . dr/dq is added.
+    Check: for a given L, the first-order change of L if q changes.
     Outcomes: generic, zero (L does not contain q).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.4.
     """
@@ -347,6 +348,7 @@ def generalized_momentum(of: Quantity, q: Coordinate, key: str | None = None) ->
     q    a coordinate of this Lagrangian
 
     Second route: the sum of m v . dr/dq over the mass points, and of e A . dr/dq over charges e in magnetic fields.
+    Check: for a given L, the first-order change of L if q_dot changes.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.6.
     """
     matter = of.needed(Matter)

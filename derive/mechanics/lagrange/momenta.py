@@ -71,6 +71,7 @@ def conjugate_momentum(of: Quantity, q: Coordinate, symbol: str | None = None, k
     q    a coordinate of this Lagrangian
 
     Second route: the sum of m v . dr/dq over the mass points, and of e A . dr/dq over charges e in magnetic fields.
+    Check: for a given L, the first-order change of L if q_dot changes.
     Outcomes: generic, zero.
     Errors: q is not a coordinate of L.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 2.6 and 8.1.

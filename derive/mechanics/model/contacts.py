@@ -430,9 +430,7 @@ def _coefficient(touch: Contact, coefficient: Any, letter: str) -> Expr:
     require_constant("contact", "coefficient of friction", mu)
     if touch.is_kept:
         message = f"the coordinates keep the body on the surface, so its normal force `{letter}` does not appear"
-        help_line = (
-            f"give the body a coordinate for its distance from the surface, and the contact a `normal: {letter}`"
-        )
+        help_line = f"give the body a coordinate for its distance from the surface, and write `normal: {letter}`"
         if isinstance(touch.of, PlacedBody) and isinstance(touch.surface, Curve):
             help_line = (
                 "only coordinates can keep a round body on a curve, so leave out the coefficient: `{rolling: F}`"
