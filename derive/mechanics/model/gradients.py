@@ -5,7 +5,7 @@ a particle is lambda times the gradient of f. If there is only one particle and 
 magnitude of the force is |lambda|.
 
 Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4; Lanczos, *The Variational Principles of Mechanics*,
-section III.2.
+chapter III.
 """
 
 from __future__ import annotations

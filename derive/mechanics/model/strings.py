@@ -80,8 +80,8 @@ class Line(Connection):
         return replace(super().moved(known), through=tuple(through), rope=moved(self.rope, known), pieces=pieces)
 
     def drawn_on(self, of: Any) -> list[tuple[Location, Location]]:
-        """Return the pieces that pull a part of the system in its force diagram: for each piece, the place at which
-        it pulls, and its other end."""
+        """Return the pieces that pull a part of the system, for the force diagram of this part: for each piece, the end
+        that pulls the part, and the other end."""
         if self.drawn is None or self.rope is not None:
             return []
         ends = [(piece.start, piece.end) for piece in self.pieces], [(piece.end, piece.start) for piece in self.pieces]
