@@ -216,8 +216,9 @@ def _apart(condition: Relation) -> Relation:
 
 
 def _places(slope: Expr, x: Symbol, within: Within | None) -> list[Zero]:
-    """Return the zeros of the slope; leave out each zero that is known not to exist, for example for the numbers of the
-    problem. Without an interval, return the zeros of an angle within one turn only."""
+    """Return zeros of the slope, without the zeros that are known not to exist, for example for the numbers of the
+    problem. Without an interval, the zeros of an angle are within one turn. With an interval, only some of the zeros of
+    a periodic slope are found."""
     find = zeros_of if within is None else zeros_nearby
     found = find(slope, x) if slope.has(x) else []
     return [Zero(as_one_root(zero.value), zero.exists) for zero in found if truth_known(zero.exists) is not False]
