@@ -48,8 +48,8 @@ KEEPING = {
 
 
 def checked(verb: F) -> F:
-    """Return the verb with a check of its arguments before each call. If the run has a memory of earlier calls, a call
-    with equal arguments returns the earlier result; only the functions in `KEEPING` are always called."""
+    """Return the verb with a check of its arguments before each call. If the run has a memory of earlier calls, a
+    result can be read from this memory instead of computed; the functions in `KEEPING` are always called."""
     signature = inspect.signature(verb)
     keeps = verb.__name__ in KEEPING
 
@@ -83,7 +83,8 @@ def checked(verb: F) -> F:
 
 
 def _told_of_call(verb: str, arguments: Mapping[str, Any]) -> str:
-    """Return a description of a call: the verb, and the names of up to four steps and symbols among its arguments."""
+    """Return a description of a call: the verb, and up to four names of steps, symbols and coordinates among its
+    arguments."""
     about = [f"`{name}`" for name in _names(tuple(arguments.values()))]
     return f"`{verb}`" + (f" of {', '.join(about[:4])}" if about else "")
 

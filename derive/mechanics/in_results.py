@@ -3,7 +3,7 @@
     @in_results("limit", "the limiting case", of="limit", letter="for: a letter", to="to: a value or `infinity`")
     def limiting_case(of: Quantity, letter: Letter, to: Value = 0, ...) -> Quantity: ...
 
-The decorator gives each argument its key, and the description of this key in the manual. The signature gives the rest:
+The decorator gives arguments their keys, and the description of each key in the manual. The signature gives the rest:
 an argument without a default is a required key, and the annotation of the argument is the kind of value of the key. The
 decorator and the signature are used to parse the key, and to write the schema for editors, the manual and the error
 messages.
@@ -81,7 +81,7 @@ class ResultKey:
 class ResultVerb:
     """A verb of `results:`.
 
-    name       the key that names the verb; its value is the first argument
+    name       the key that names the verb; its value is an argument of the function
     yields     a description of the result, for the manual
     function   a function of the values of the keys; its argument `key` is the name of the result
     called     argument -> its key, followed by a colon and a description for the manual

@@ -98,8 +98,8 @@ def double(facts: Judged) -> bool:
 
 
 def only(facts: Judged) -> bool:
-    """Whether this is the only root that is kept. All other roots of the polynomial are complex, or outside the range
-    of the unknown, or not positive for a positive unknown."""
+    """Whether this is the only root that is kept. At all trial numbers for which it is real, each other root of the
+    polynomial is complex, outside the range of the unknown or, for a positive unknown, not positive."""
     alone = facts.inputs["count"] == 1 and _polynomial(facts).degree() > 1 and not is_zero(_slope_there(facts))
     return alone and everywhere(trial_points(_letters(facts)), lambda point: _only_there(facts, point))
 
@@ -213,8 +213,8 @@ def compared(squared: bool) -> Predicate:
 
 
 def always(wanted: bool) -> Predicate:
-    """Judge whether, at all trial numbers, the difference has the stated sign or satisfies the relation of the
-    result."""
+    """Judge whether, at all trial numbers, the difference has the stated sign or satisfies the relation of the result.
+    The requested comparison must allow this sign if and only if `wanted` is true."""
 
     def is_so(facts: Judged) -> bool:
         held = facts.inputs["sign"] in ALLOWED[MARK_OF[facts.words["comparison"]]]
@@ -369,7 +369,8 @@ def _discriminant(facts: Judged) -> Expr:
 
 
 def roots(discriminant: int | None, product: int | None = 1) -> Predicate:
-    """Judge whether the discriminant has the sign `discriminant`; None requires that the sign is unknown."""
+    """Judge whether the discriminant has the sign `discriminant`; None requires that the sign is unknown. If
+    `discriminant` is 1, the product of the roots must be known to be negative if and only if `product` is -1."""
 
     def is_so(facts: Judged) -> bool:
         q = facts.inputs["quadratic"]
@@ -402,8 +403,9 @@ def slope_vanishes_by(facts: Judged, letter: Any) -> bool:
 
 
 def names_put_in(facts: Judged, value: Any) -> bool:
-    """Whether the substitution of all stated values in the original gives the result or an equivalent equation. For a
-    rate with the opposite sign, `turned_first` judges the sign."""
+    """Whether the value is an equation whose left side has no minus sign, and the substitution of all stated values in
+    the original gives the result or an equivalent equation. The substitution is not compared if it also changes rates,
+    or if results are substituted too. For a rate with the opposite sign, `turned_first` judges the sign."""
     told = {v.left: v.right for role, v in facts.inputs.items() if role.rpartition("_")[0] == "value"}
     others = [role for role in facts.quantities if role.rpartition("_")[0] == "other"]
     if value.operator != "=" or value.left.could_extract_minus_sign():
@@ -486,7 +488,7 @@ def a_root_of_its_sign(facts: Judged, outcome: str) -> bool:
 
 def as_asked_for(facts: Judged, outcome: str) -> bool:
     """Whether the sentence says "roots" for an equation and "zeros" for any other result. If the sentence names further
-    factors that may vanish, the whole expression must vanish where any one of them does."""
+    factors that may vanish, the whole expression must vanish wherever one of these factors vanishes."""
     given = facts.inputs["equation"]
     beside, whole = facts.inputs.get("elsewhere"), explicit(given)
     whole = whole.residual if isinstance(whole, Relation) else whole

@@ -40,7 +40,7 @@ def combination(expression: Expr, values: Mapping[Symbol, Quantity], key: str, s
     values       placeholder -> its result; for an equation that is solved for a letter, its right side is used
     symbol       the letter of the number; by default the key
 
-    The page calls the number a definition, because no check can show that the formula has the meaning of the letter.
+    The grade of the step is "definition", because no check can show that the formula has the meaning of the letter.
     Outcomes: generic, named (a formula of letters only).
     Errors: a result is not a number, for example a vector or an equation that is not solved.
     Source: none needed: a definition.
@@ -75,7 +75,8 @@ def _cancelled(value: Expr) -> Expr:
 
 
 def _number(quantity: Quantity) -> Quantity | Expr:
-    """Return the quantity if its symbol is a letter or an absolute value such as |x_dot|."""
+    """Return a number: the quantity itself if its symbol is a letter or an absolute value such as |x_dot|; otherwise
+    its value or, for an equation that is solved for a letter, the right side."""
     value = quantity.value
     if not isinstance(value, Relation | MatrixBase):
         return quantity if isinstance(quantity.symbol, Symbol | Abs) else explicit(value)

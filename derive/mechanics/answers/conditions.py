@@ -81,9 +81,10 @@ def where(
               denote
     for_real  whether the quantity is a discriminant and the condition is for real roots
 
-    Check: the sign of quantity minus bound, for an unknown equal to the right side of the solved relation, and for an
-    unknown greater by any amount. If the original and the solved relation differ by a factor of unknown sign, also
-    random points: at each point both relations are true, or both are false.
+    Check: quantity minus bound is zero if the unknown equals the right side of the solved relation. If the sign of this
+    difference is known for a greater unknown, it agrees with the comparison sign. If the original and the solved
+    relation differ by a factor of unknown sign, also random points: at each point both relations are true, or both are
+    false. A relation that holds for all values of the letters is tested at random points only.
     A divisor of both sides of an equation must not vanish: the page states this condition if it is not known to hold.
     The sign of a divisor of an inequality must be known from the letters, their ranges or their numbers.
     Outcomes: solved, squared (solved for the square of the letter only); for all values of the letters: always, never,
@@ -188,8 +189,8 @@ def _settled_by_its_letter(alone: Expr, solved: Expr) -> bool:
 
 
 def _excluded(difference: Expr, result: Relation) -> Relation | None:
-    """Return the condition that the divisor of both sides of an equation does not vanish. Return None for an
-    inequality, or if it is known that the divisor does not vanish."""
+    """Return the condition that the divisor of both sides of a relation with = or != does not vanish. Return None for
+    the other comparison signs, or if it is known that the divisor does not vanish."""
     if result.operator not in ("=", "!="):
         return None
     factor = tidied(difference / result.residual)
@@ -215,7 +216,7 @@ def _in_steps(difference: Expr, result: Relation, excluded: Relation | None) -> 
 
 
 def _beside(found: Relation, difference: Expr, mark: str) -> tuple[Any, Any]:
-    """Return two vectors that are equal if the solved relation is right."""
+    """Return two numbers or two vectors that are equal if the solved relation is right."""
     alone, place = found.sides
     d = Dummy("d", positive=True)
     if alone.is_positive and sign_known(place) == -1:  # a positive symbol is never the negative root of x^2 = a

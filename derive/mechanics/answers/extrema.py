@@ -49,11 +49,13 @@ def maximum(of: Quantity, letter: Letter, within: Ends = None, key: str = "maxim
     letter   the variable: an angle, a frequency, a length
     within   the interval of the letter; by default all values that the letter can have
 
-    Check: the slope vanishes at the place; no value at other places of the interval is greater (less, for a minimum).
+    A place that always exists is preferred to a place that exists only under a condition.
+    Check: the slope vanishes at the place; numerically, no value at other places is greater (less, for a minimum).
     Outcomes: greatest, or least for `minimum`; a condition follows if the extremum exists only for some values of the
     letters.
-    Errors: the result is not a value that depends on the letter; no place, or more than one, has zero slope and the
-    required sign of the curvature; the places with zero slope have no closed form, or are at times before the start.
+    Errors: the result is not a value that depends on the letter; no place with zero slope has the required sign of the
+    curvature, or several places do and none is preferred; the places with zero slope have no closed form; the place is
+    at a time before the start.
     Source: Boas, *Mathematical Methods in the Physical Sciences*, section 4.8.
     """
     return _extremum(of, letter, within, key, "maximum", -1)
@@ -214,8 +216,9 @@ def _apart(condition: Relation) -> Relation:
 
 
 def _places(slope: Expr, x: Symbol, within: Within | None) -> list[Zero]:
-    """Return the zeros of the slope; leave out each zero that is known not to exist, for example for the numbers of the
-    problem. Without an interval, return the zeros of an angle within one turn only."""
+    """Return zeros of the slope, without the zeros that are known not to exist, for example for the numbers of the
+    problem. Without an interval, the zeros of an angle are within one turn. With an interval, only some of the zeros of
+    a periodic slope are found."""
     find = zeros_of if within is None else zeros_nearby
     found = find(slope, x) if slope.has(x) else []
     return [Zero(as_one_root(zero.value), zero.exists) for zero in found if truth_known(zero.exists) is not False]

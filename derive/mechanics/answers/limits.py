@@ -92,8 +92,9 @@ def limiting_case(
     For a vector or a tensor, the largest entry determines the leading power: smaller entries are negligible. Use
     `put_in` to set letters equal, b = a. If terms are left out, the result has a symbol of its own, `symbol` or
     omega_lim, and results computed from this symbol are approximate.
-    Check: adding, multiplying and dividing power series, without a derivative, gives the same terms. Numerically, on
-    each side of the limit, the sum of the omitted terms is small compared with the last power that is kept.
+    Check: numerically, on each possible side of the limit, the omitted part divided by the last power that is kept
+    shrinks on the way to the limit. If terms are also found by adding, multiplying and dividing power series, without a
+    derivative, they are the same terms.
     Outcomes: finite, vanishes, diverges (only the leading term); small, large, near (to an order); exact (nothing is
     left out).
     Errors: the result does not contain the letter; the letter changes in the motion and does not go to infinity; the
@@ -253,14 +254,15 @@ def _last_line(found: Any, series: Sequence[Series], x: Symbol, place: Expr, exa
 
 def _energy_by_terms(found: Any, value: Any, of: Quantity) -> Any:
     """Write the limit of an energy as a sum of its terms, as the energy itself: m l^2 theta_dot^2/2 - m g l cos(theta).
-    An energy is a sum with the square of a velocity."""
+    A sum is treated as an energy if its limit contains the square of a rate."""
     if isinstance(found, Expr) and value.is_Add and any(found.has(rate(q) ** 2) for q in of.coordinates):
         return by_terms(found.expand())
     return found
 
 
 def _as_written(value: Expr, x: Symbol, place: Expr) -> Expr:
-    """Write a polynomial in ascending powers with its leading term as a factor: 2 pi sqrt(l/g) (1 + A^2/16)."""
+    """Write a product with a polynomial in ascending powers, with the leading term as a factor: 2 pi sqrt(l/g) (1 +
+    A^2/16). Return any other value unchanged."""
     if place != 0 or x not in value.free_symbols or value.is_Add or not value.is_polynomial(x):
         return value
     try:

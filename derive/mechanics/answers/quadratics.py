@@ -97,9 +97,10 @@ def roots_together(
     keys       the keys of the separate roots
     symbols    the symbols of the separate roots
 
-    The result has one entry for each key. If there is a single root or no real root, all entries are the same step.
+    The result has one entry for each key; by default there are two keys, or one for a linear equation. If there is a
+    single root or no real root, all entries are the same step.
     Check: each root substituted into the equation; the sum of the roots; the equivalent form of each root,
-    2 c/(-b -+ sqrt(b^2 - 4 a c)).
+    2 c/(-b -+ sqrt(b^2 - 4 a c)); if no root is real, the discriminant from the resultant.
     Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1.
     """
     of, apart = _coefficients(equation, x, values)
@@ -221,8 +222,8 @@ def _formula(of: Quadratic) -> Expr:
 
 
 def _arranged(of: Quadratic, found: Expr) -> Expr:
-    """Write the roots as k (u +- sqrt(u^2 - w)). Here u is the product of the factors of -b that contain symbols, but
-    no symbol of a or c."""
+    """Write the roots as k (u +- sqrt(u^2 - w)). Here u, up to its sign, is the product of the factors of -b that
+    contain symbols, but no symbol of a or c. If the sign of the other factors is unknown, only simplify the roots."""
     own = [
         f
         for f in Mul.make_args(-of.b)
@@ -378,7 +379,8 @@ def discriminant(roots: Quantity, symbol: str = "Delta", key: str = "discriminan
 
     roots   a root that `roots` returned with `together`
 
-    Check: the resultant of a x^2 + b x + c and its derivative is -a Delta.
+    Check: the resultant of a x^2 + b x + c and its derivative is -a Delta; for a linear equation, b is the difference
+    of the values at x = 1 and x = 0.
     Outcomes: positive, negative, vanishing, conditional (the sign depends on the letters); linear (b^2, since a is
     zero).
     Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1.
@@ -414,7 +416,7 @@ def real_where(roots: Quantity, letter: Any, key: str = "real_where", distinct: 
     distinct   whether two distinct roots are required, b^2 - 4 a c > 0
 
     The discriminant is a separate step; for a linear equation it is b^2, which does not vanish. If values were
-    substituted in the equation, the condition is first shown in letters.
+    substituted in the equation, the condition is first shown in letters, if it can be solved in letters.
     Check: as `where`.
     Outcomes: those of `where`.
     Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1.

@@ -79,7 +79,8 @@ def roots(
     together   key of a step that has the two roots of a quadratic equation in one formula, x = (-b +- ...)/(2 a). A
                separate step follows for each root, the smaller in absolute value first. If there is a single root or no
                real root, the same step is returned for each key
-    keys       keys of the steps; by default the letter, or theta_root for `cos(theta)`, with _1, _2 for several roots
+    keys       keys of the steps; by default the letter, or theta_root for `cos(theta)`, with _1, _2 for several roots;
+               with `together`, this key with _1 and _2
     key        the beginning of the default keys, in place of the letter
     symbols    the letters of the roots; by default the unknown, with _1, _2 for several roots of an unknown that is a
                letter
@@ -365,7 +366,8 @@ def _condition(root: RootOf, unknown: Expr) -> Relation | None:
     """Return the condition for the root to be real or, if a positive root is required, to be positive."""
     if len(root.coefficients) == 3 and sign_known(root.discriminant) is None and not _sum_of_squares(root):
         _, b, c = root.coefficients
-        lost = sign_known(c) or sign_for_all(unknown) == 1  # b = 0 and a vanishing discriminant: a or the root is 0
+        # If b is 0, the discriminant -4 a c vanishes only if a or c is 0; if c is 0, the root is 0.
+        lost = sign_known(c) or sign_for_all(unknown) == 1
         mark = ">" if b == 0 and lost else ">="
         return Relation(presented(without_positive(root.discriminant)), mark, ZERO)
     if sign_for_all(unknown) == 1 and root.sign_where_real() is None:
@@ -392,7 +394,8 @@ def _ascending(found: list[RootOf]) -> list[RootOf]:
 
 
 def _turned(found: Sequence[RootOf]) -> bool:
-    """Whether these are the two roots of one factor with a negative leading coefficient."""
+    """Whether these are the two roots of one factor with a negative leading coefficient, and the first root has the
+    minus sign before the square root."""
     one_factor = len(found) == 2 and found[0].coefficients == found[1].coefficients and found[0].sign == -1
     return one_factor and sign_known(found[0].coefficients[0]) == -1
 

@@ -85,9 +85,9 @@ def put_in(
     values   values of letters at one instant, by the names of the letters: `theta=0`
     again    an earlier result that this substitution must reproduce
 
-    The results are substituted one after another, in the given order; the values follow. If a coordinate is given as a
-    function of other coordinates or of the time, its rates are substituted too. If the value of a prescribed function
-    is given, as a function of the time or as a constant, its rates are substituted too.
+    The results are substituted one after another, in the given order; the values follow. If a result gives a coordinate
+    as a function of other coordinates or of the time, the rates of this coordinate are substituted too. If the value of
+    a prescribed function is given, as a function of the time or as a constant, its rates are substituted too.
     Check: all letters of the original replaced at once by their final values; if `again` is given, also equality with
     this earlier result.
     A rate from conservation of energy has the opposite sign at a place to which the motion comes after it has turned
@@ -167,7 +167,7 @@ def _outcome(result: Any, rests: Sequence[Quantity]) -> str:
 def _kept_facts(
     of: Quantity, rests: Sequence[Quantity], there: Sequence[Replacement], told: Sequence[Replacement]
 ) -> list[Fact]:
-    """Return the facts that remain true after these substitutions."""
+    """Return facts about the result that hold after these substitutions."""
     found: list[Fact] = [f for f in of.facts if isinstance(f, OfCoordinate)]
     kept = [fact for rest in rests if (fact := rest.fact(KeptMomentum)) is not None]
     source = of.fact(FromLagrangian)
@@ -247,7 +247,8 @@ def _replacements(quantity: Quantity, of: Quantity) -> list[Replacement]:
 
 
 def _letter_replaced(quantity: Quantity, of: Quantity) -> Any:
-    """Return the symbol that a result replaces. This is the symbol of the result, if the original contains it."""
+    """Return the symbol that a result replaces: the symbol of the result if the original contains it, otherwise the
+    unknown of a root, or the symbol of the result that a limit approximates."""
     root, own = quantity.fact(ValueOf), quantity.symbol
     whole = root.unknown if root is not None else quantity.step.approximates
     is_there = isinstance(own, Expr) and own.free_symbols <= explicit(of.value).free_symbols
@@ -388,7 +389,7 @@ def arranged(value: Any, moving: Sequence[Symbol]) -> Any:
 
 def _energy_by_terms(value: Expr) -> Expr | None:
     """Write an energy with separate terms for T and U: (1/2) m R^2 theta_dot^2 - m g R cos theta, not m R times a
-    bracket."""
+    bracket. Return None for an expression that is not such a sum."""
     moving = list(coordinates_in(value))
     squares = [rate(q) ** 2 for q in moving if value.has(rate(q))]
     if not squares or value.as_numer_denom()[1].free_symbols:
@@ -478,7 +479,8 @@ def _in_results(
 
 
 def check_values_used(key: str, values: Values, letters: set[str]) -> None:
-    """Reject a value of a letter that is not among `letters`, unless this letter is a coordinate or a rate."""
+    """Reject a value of a letter that is not among `letters`, unless this letter is a coordinate, a rate or an
+    acceleration."""
     state = {rate(q, n).name if n else q.name for q in named_coordinates() for n in range(3)}
     for name in (name for name in values if name not in letters | state):
         message = f"`{key}` does not contain `{name}`, so a value of `{name}` has no effect"

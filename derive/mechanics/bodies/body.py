@@ -1,7 +1,7 @@
 """Bodies: the region that the mass fills, the density, the centre of mass, and the named points and directions.
 
 Every body has body axes. Positions along these axes have the unit of the sizes of the body. A plate and a cuboid have
-their edges along these axes and a corner at the origin. A body of one of the round shapes has its axis of symmetry
+their edges along these axes and a corner at the origin. Each standard shape that is round about an axis has this axis
 along z.
 """
 

@@ -2,8 +2,8 @@
 
 The integrand is a sum of products. Each product separates into integrals that share no variable: integrals of one
 variable if the limits are constant, nested integrals if a limit depends on an outer variable. The lines show the
-separated integrals, the innermost antiderivatives in brackets, the values of these brackets, and so on outwards. Then
-follow the product of the values, and this product with density times volume, which is the mass, in one bracket.
+separated integrals, the innermost antiderivatives in brackets, the values of these brackets, and so on outwards. The
+last lines show the product of the values, then this product with the mass, density times volume, in one bracket.
 
 The integral over a solid of revolution is first over the disc at each height, and then along the axis, if the radius
 varies with the height or the coordinates are Cartesian. In Cartesian coordinates the integral over the disc is along

@@ -78,7 +78,7 @@ class PlacedPart:
     def particles(self) -> list[tuple[Expr, ImmutableMatrix]]:
         """The particles of the part, in the axes of the larger body; the particles of a cavity have negative mass.
 
-        This function rotates and shifts the particles without `seen`, so that the particles can check `seen`.
+        The particles are rotated and shifted without `seen`, so that they can check `seen`.
         """
         held = self.body.point(self.of).position
         shift = [self.position[i] - sum(self.turn[i, j] * held[j] for j in range(3)) for i in range(3)]

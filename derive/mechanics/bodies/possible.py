@@ -2,8 +2,8 @@
 density that changes its sign, a negative mass or size.
 
 The checks of position maps and of parts are numerical: Newton's method on the position map of one part looks for points
-of another part. These checks reject a body only if it is impossible for every draw of its symbols; a symbol with a
-number in the problem has this number in each draw.
+of another part. These checks reject a body only if it is impossible for every draw of its symbols that can be
+evaluated; a symbol with a number in the problem has this number in each draw.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from derive.mechanics.bodies.regions import Bounds
 from derive.steps.signs import sign_known
 
 POINTS = 40  # number of points of a part that are sampled
-TWINS = 6  # number of sampled points at which a second set of values of the variables with the same position is sought
+TWINS = 6  # number of sampled points; for each, other values of the variables that give the same position are sought
 SHARP = 1e-6  # length added to the bounds of a part, because a part may be flat or straight
 APART = 1e-3  # values of a variable are distinct if they differ by more than this fraction of its range
 
@@ -71,7 +71,7 @@ def _own(part: Any, sign: int) -> Iterator[Piece]:
 @dataclass(frozen=True)
 class Fault:
     """Why no body can consist of the given parts: a word for the reason ("shared", "hole" or "empty"), and the names of
-    the parts that meet at one place."""
+    the parts at fault, which meet at one place; no names for "empty"."""
 
     why: str
     names: tuple[str, ...]
@@ -111,7 +111,8 @@ def check_parts(parts: Sequence[Any]) -> None:
 
 
 def _faults(pieces: Sequence[Piece], charts: Sequence[Chart]) -> dict[Fault, None]:
-    """Return the faults of the parts for one draw of the symbols, each as a key; empty if the parts can form a body."""
+    """Return the faults of the parts for one draw of the symbols, each as a key; empty if the parts can form a body. A
+    fault at a single sampled point is ignored."""
     found: dict[Fault, int] = {}
     left = False
     boxes = [_box(chart) for chart in charts]

@@ -122,8 +122,8 @@ class Region:
 
 
 def coordinates(names: Iterable[str], taken: Collection[Symbol]) -> list[Symbol]:
-    """Symbols for coordinates, distinct from all given symbols and from each other as far as the names in `OTHERS`
-    allow; for example r, or s if r is taken."""
+    """Symbols for coordinates, distinct from the given symbols, from the coordinates of the problem and from each other
+    as far as the names in `OTHERS` allow; for example r, or s if r is taken."""
     letters = {letter.name for letter in (*taken, *named_coordinates())}
     found: list[str] = []
     wanted = list(names)

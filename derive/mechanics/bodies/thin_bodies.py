@@ -262,7 +262,8 @@ class SphericalShell(Spherical):
         return spherical(self.letters, self.radius)
 
     def particles(self) -> Particles:
-        """The moments of inertia about three perpendicular diameters are equal, and their sum is 2 M R^2."""
+        """Six equal particles at the ends of three perpendicular diameters. As for the shell, the moments of inertia
+        about these diameters are equal, and their sum is 2 M R^2."""
         return on_diameters(self.mass, self.radius)
 
 

@@ -51,7 +51,8 @@ def hamiltonian(of: Quantity, symbol: str | None = None, key: str = "hamiltonian
     momenta as functions of the rates, dH/dp is q_dot, and -dH/dq is the sum of F . dr/dq + m v . d(dr/dq)/dt. Here F
     are the magnetic forces and the forces with a potential energy. For charges e in magnetic fields, the time
     derivative of the sum of e A . dr/dq is added.
-    Check: for a given L, the sum of p dH/dp, minus H, is L again.
+    Check: for a given L, the sum of p dH/dp, minus H, is L again, and -dH/dq is the first-order change of L if q
+    changes.
     Outcomes: energy (H is conserved and is T + U); conserved (H is conserved but is not T + U); changing_energy
     (H is T + U, but L contains the time); changing (H is not T + U, and L contains the time); work_energy (H is T + U,
     but a force outside L does work); work (H is not T + U, and a force outside L does work); given_conserved,

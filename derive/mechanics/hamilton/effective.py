@@ -63,6 +63,7 @@ def conserved(of: Quantity, q: Coordinate, value: str | Expr | None = None, key:
     Second route: the sum of m v . dr/dq over the mass points, and of e A . dr/dq over charges e in magnetic fields.
     The time derivative of this sum, as a function of t, is the sum of (m a - F) . dr/dq, which vanishes by d'Alembert's
     principle.
+    Check: for a given L, the momentum is the first-order change of L if q_dot changes.
     Outcomes: angular (q is an angle), linear (q is a length), other (neither, or L is not an energy).
     Errors: L contains q, or does not contain q_dot; a force outside L acts along q; a given initial value is not
     constant, or is given for a momentum that is not linear in q_dot.
@@ -156,6 +157,7 @@ def routhian(of: Quantity, *constants: Quantity, symbol: str | None = None, key:
     m v . dr/dq, and dR/dq is the sum of F . dr/dq + m v . d(dr/dq)/dt over the mass points and forces. For charges e in
     magnetic fields, the sum of e A . dr/dq is added to dR/dq_dot, and its time derivative is added to dR/dq. With the
     rates substituted, R is T - U - sum of p q_dot, plus the sum of e v . A.
+    Check: for a given L, first-order changes of L take the place of these sums.
     Outcomes: one (one momentum is constant), several.
     Errors: no momentum is given; a momentum belongs to another Lagrangian or is given twice; no coordinate remains; a
     force outside L acts along a remaining coordinate; also the errors of `rates_by_momenta`.
@@ -255,8 +257,8 @@ def effective_potential(
     Second route: where the rates and accelerations of the remaining coordinates vanish, -dU_eff/dq is the sum of
     (F - m a) . dr/dq, with the rates of the cyclic coordinates substituted. Also, U_eff is T_2 - T_0 + U with these
     rates.
-    Outcomes: reduced (momenta are conserved), driven (a prescribed motion), unchanged (neither, so U_eff is U), given
-    (L is given, without cyclic coordinates).
+    Outcomes: reduced (momenta are conserved), driven (a prescribed motion), unchanged (no conserved momentum
+    and no prescribed motion, so U_eff is U), given (L is given, without cyclic coordinates).
     Errors: L contains the time; a momentum belongs to another Lagrangian or is given twice; no coordinate remains; a
     force outside L acts where the rates vanish; also the errors of `rates_by_momenta`.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 3.3; Taylor, *Classical Mechanics*, section 8.4.

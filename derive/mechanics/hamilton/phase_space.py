@@ -64,8 +64,8 @@ def rates_by_momenta(
     Keys: rate_x for the coordinate x, if `key` is "rate"; for constant momenta p_x and p_y, rate_x_by_p_x_p_y.
     Check: the rates substituted in the momenta give the symbols of the momenta.
     Outcomes: alone (one rate), together (several).
-    Errors: the momenta do not determine the rates; too many rates are coupled; the momenta are not linear in the rates,
-    and L does not contain the rates in one sum of squares only.
+    Errors: the momenta do not determine the rates; too many rates are coupled; the momenta are not linear in the rates
+    (this is allowed if L contains the rates in one sum of squares only).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.1.
     """
     own = [p.needed(OfCoordinate).coordinate for p in given]

@@ -21,7 +21,8 @@ def is_struck(wanted: bool) -> Predicate:
 
 
 def restitution(wanted: int | None) -> Predicate:
-    """Whether the coefficient of restitution e has the wanted value; None requires that e is neither 0 nor 1."""
+    """Return a predicate: the coefficient of restitution e must have the wanted value; None requires that e is neither
+    0 nor 1."""
 
     def is_so(facts: Judged) -> bool:
         part = facts.inputs["restitution"]

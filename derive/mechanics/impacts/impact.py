@@ -138,8 +138,7 @@ class Meeting:
                  constraint on rates, the rate itself
     restitution  the ratio of the rate just after the impact to the rate just before, times -1
     what         "together", "elastic" or "rebound" for a collision; "kept" for a constraint of the system
-    ends         the two places of a collision, and the direction of the impulse on the second place, as the author gave
-                 them
+    ends         the two places of a collision, and the unit vector along which the impulse acts on the second place
     given        the restitution as the author gave it
     """
 
@@ -290,7 +289,7 @@ class Impact:
         return value
 
     def earlier(self, value: Any) -> Expr:
-        """Return an expression just before the impact, with coordinates and rates at this instant substituted."""
+        """Return an expression with the coordinates and the rates just before the impact substituted."""
         return self.there(value).xreplace(self.before)
 
     def read_again(self, value: Any, rates: bool = False) -> Expr:

@@ -124,7 +124,7 @@ def meeting_condition(impact: Impact, number: int, key: str | None = None) -> Qu
     number   the index of the condition, from 0; the conditions of constraints come last
 
     Check: the velocities come from the places as functions of time, with each coordinate as its Taylor series.
-    Outcomes: together (equal velocities), elastic, rebound (0 < e < 1), kept (a constraint).
+    Outcomes: together (e = 0), elastic (e = 1), rebound (any other e), kept (a constraint).
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapters 4 and 6.
     """
     meeting = impact.meetings[number]

@@ -70,7 +70,7 @@ class WithForces(Protocol):
 
 
 def acting_on(system: WithForces) -> tuple[Fact, ...]:
-    """Return facts about the constraints, given forces and dampers of a system; its equations of motion need them."""
+    """Return facts about the constraints, given forces and dampers of a system, for its equations of motion."""
     found: list[Fact] = [Constrained(system.constraints)] if system.constraints else []
     if system.given_forces or system.dampers:
         dissipated = dissipation_function(system) if system.dampers else None
@@ -173,7 +173,7 @@ def applied_force(of: Quantity, q: Coordinate, key: str | None = None) -> Quanti
 
     Second route: Q is the derivative of the power of these forces, sum of F . v, with respect to q_dot at constant F.
     Outcomes: generic, zero.
-    Errors: all forces on the system have a potential energy; L contains neither q nor its rate.
+    Errors: all forces on the system have a potential energy; q is not a coordinate of L.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 1.4 and 1.5.
     """
     required(of.coordinates, q, "applied_force", of)
@@ -327,7 +327,8 @@ def forced_equation(of: Quantity, q: Coordinate, derivatives: Sequence[Quantity]
 
 
 def with_derivatives(derivatives: Sequence[Quantity], right: Expr, moving: Sequence[Symbol]) -> list[Form]:
-    """Return the line with the derivatives of L, d/dt (m r^2 theta_dot) + m g r sin(theta) = right."""
+    """Return the line with the derivatives of L, d/dt (m r^2 theta_dot) + m g r sin(theta) = right. There is no line if
+    dL/dq is a single term, and dL/dq_dot is a single term without coordinates."""
     if not derivatives:
         return []
     force, momentum, _ = (explicit(each.value) for each in derivatives)
@@ -338,7 +339,7 @@ def with_derivatives(derivatives: Sequence[Quantity], right: Expr, moving: Seque
 
 
 def difference(first: Expr, second: Expr) -> Expr:
-    """Return `first - second`, with the terms of `second` in brackets."""
+    """Return `first - second`. If `second` is a sum, its terms are in brackets."""
     terms = Add.make_args(second)
     if second == 0 or len(terms) == 1:
         return Terms(first, -second) if second != 0 else first
@@ -357,7 +358,8 @@ def _between(constraints: Sequence[Constraint]) -> str:
 def _functions_told(constraints: Sequence[Constraint]) -> dict[str, tuple[Relation, Relation]]:
     """Return the functions that vanish where the constraints hold, such as f_x = x - R sin(theta).
 
-    The index of f is the index of the multiplier, here lambda_x. If the gradient of f does not have the length 1, the
+    The index of f is the index of a multiplier such as lambda_x, otherwise the number of the constraint; a single f has
+    no number. If the gradient of f does not have the length 1, the
     multiplier of the force N is also stated, lambda = N/sqrt(1 + x^2/b^2).
     """
     found = {}
@@ -375,8 +377,8 @@ def _functions_told(constraints: Sequence[Constraint]) -> dict[str, tuple[Relati
 
 
 def _multipliers_told(constraints: Sequence[Constraint]) -> dict[str, Symbol]:
-    """Return the multipliers of the first four constraints, because a sentence names at most four. The key
-    `multiplier_2` belongs to `function_2`."""
+    """Return the multipliers among the forces of the first four constraints, because a sentence names at most four. The
+    key `multiplier_2` belongs to `function_2`."""
     return {f"multiplier_{i}": each.force for i, each in enumerate(constraints[:4], 1) if each.gradient == 1}
 
 

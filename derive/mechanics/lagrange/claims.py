@@ -37,8 +37,8 @@ from derive.steps.trial_numbers import Point, as_rational, assumptions_about, ev
 
 
 def kept_momentum(facts: Judged, fact: KeptMomentum) -> bool:
-    """Whether the fact names the momentum and the coordinate of the step, and its rate gives the momentum its
-    conserved value."""
+    """Whether the fact names the momentum and the coordinate of the step, and the momentum has its conserved value if
+    the rate in the fact is substituted."""
     momentum, value = value_of_role(facts, "momentum"), value_of_role(facts, "value")
     there = momentum.xreplace({rate(fact.coordinate): fact.turning})
     as_named = (fact.momentum, fact.coordinate) == (facts.quantities["momentum"].symbol, facts.inputs["coordinate"])
@@ -120,7 +120,7 @@ def rate_by(*, in_time: bool | None, worked: bool, lost: bool | None = None) -> 
 
     in_time   whether the right side contains -dL/dt; None if the right side is zero
     worked    whether the right side contains the power of forces
-    lost      whether the right side is never positive; None to skip this test
+    lost      whether the right side is known never to be positive; None to skip this test
     """
 
     def is_so(facts: Judged) -> bool:

@@ -158,7 +158,7 @@ def accelerations(*equations: Quantity) -> tuple[Quantity, ...]:
     Check: the accelerations satisfy the constraints, differentiated as functions of t.
     Errors: an equation is missing or is given twice; the equations belong to different Lagrangians; there are too many
     unknowns; the constraints contradict or repeat one another; a coordinate has no inertia; a surface would have to
-    pull, or a string would have to push.
+    pull, or a string would have to push; the solution has too many terms.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4.
     """
     problem = _problem("accelerations", equations)
@@ -288,7 +288,7 @@ def constraint_rate(of: Quantity, number: int = 0, key: str | None = None) -> Qu
 
 
 def _steps(problem: _Problem, wanted: Sequence[Symbol]) -> tuple[Quantity, ...]:
-    """Return the steps of these unknowns, and of the unknowns in their formulas."""
+    """Return the steps of these unknowns. Unknowns in their formulas are derived first."""
     rates = [constraint_rate(problem.lagrangian, i) for i in range(len(problem.constraints))]
     forces = {each.force: each for each in problem.constraints}
     order, every = _isolated(problem), [*problem.used, *rates]
@@ -343,7 +343,8 @@ class _Isolation:
 
     @property
     def _constant(self) -> dict[Quantity, Relation]:
-        """Return each equation q_ddot = 0 of a constraint q = constant, with this constraint."""
+        """Return each equation q_ddot = 0 of a constraint q = constant, with this constraint; empty if unknowns are
+        eliminated, or if all equations have this form."""
         constraints = self.problem.constraints
         first = len(self.problem.used)
         numbers = [i - first for i in self.found.equations if i >= first]
@@ -357,7 +358,8 @@ class _Isolation:
 
     @cached_property
     def _substituted(self) -> tuple[Substitution, ...]:
-        """Return the substitutions that eliminate the other unknowns; empty if there are too many."""
+        """Return the substitutions that eliminate the other unknowns; empty if there are too many, or if the number of
+        these unknowns is not one less than the number of equations."""
         eliminated = self.found.eliminated
         if not 0 < len(eliminated) == len(self.equations) - 1 or len(eliminated) > MOST_SUBSTITUTED:
             return ()
@@ -384,7 +386,8 @@ class _Isolation:
 
     @property
     def named(self) -> dict[str, Any]:
-        """Return the eliminated unknowns, and the relations q = value that are substituted in the equations."""
+        """Return the eliminated unknowns, and the values of coordinates and accelerations from constraints that are
+        substituted in the equations."""
         eliminated = {f"eliminated_{i}": each for i, each in enumerate(self.found.eliminated, 1)}
         present = {s for each in self.equations for s in explicit(each.value).free_symbols}
         known = self.problem.known
@@ -707,7 +710,7 @@ def _in_a_field(matrix: ImmutableDenseMatrix) -> tuple[DomainMatrix, dict[Expr, 
     """Return the matrix with symbols in place of sines, cosines and roots, and the symbol of each replaced function."""
     found = sorted(matrix.atoms(Function), key=str)
     powers = sorted((p for p in matrix.atoms(Pow) if not p.exp.is_Integer), key=str)
-    bases: dict[Expr, Expr] = {}  # a base is the same in factored and in expanded form
+    bases: dict[Expr, Expr] = {}  # expanded base -> the form that all roots of it use
     roots = {
         p: Pow(bases.setdefault(p.base.expand(), p.base), Rational(1, p.exp.q)) if p.exp.is_Rational else p
         for p in powers

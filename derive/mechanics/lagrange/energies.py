@@ -78,7 +78,7 @@ class Mover:
 
 
 def movers(system: System, lagrangian: str = "") -> list[Mover]:
-    """Return the particles and bodies with a term (1/2) M v^2, with the indices of their speeds: v, or v_1, v_2, ..."""
+    """Return the particles and bodies with a term (1/2) M v^2, with the indices of their speeds: v, v_1 or v_rod."""
     found = [Mover(particle.mass, particle.at, "", False) for particle in system.particles]
     found += [
         Mover(placed.body.mass, placed.centre, placed.body.called.partition(" ")[0], True)
@@ -156,7 +156,8 @@ def _differentiated(place: Iterable[Expr], moving: Sequence[Symbol]) -> list[For
 
 
 def _velocity(mover: Mover, moving: list[Symbol]) -> list[Quantity]:
-    """Return the steps of the rates of several components that change; empty if a rate has no step."""
+    """Return the steps of the rates of the components that change; empty if only one component changes, or if a
+    component has no step."""
     known = dict(mover.at.found)
     changing = [k for k, c in enumerate(mover.place) if c.has(*moving) or depends_on_time(c)]
     return [rate_of(known[k]) for k in changing] if all(k in known for k in changing) and len(changing) > 1 else []
@@ -311,7 +312,8 @@ def kinetic_energy_of(system: System, symbol: str | None = None, key: str = "kin
 
 def _made_of(system: System, moved: Sequence[Mover], turnings: Sequence[Turning]) -> str:
     """Return the word for the parts of the kinetic energy of a single body: "both" for the motion of the centre of mass
-    and the rotation about it, "axis" or "point" for a rotation about a fixed axis or point."""
+    and the rotation about it, "axis" or "point" for a rotation about a fixed axis or point. The word for any other
+    system is "any"."""
     if system.particles or len(system.bodies) != 1 or len(turnings) != 1:
         return "any"
     if moved:
@@ -332,8 +334,8 @@ def _lines_of_kinetic_energy(
 
 
 def _level_of_values(turnings: list[Turning]) -> Level | None:
-    """Return the lowest level that shows the line with substituted values. A line with matrices appears at full
-    level."""
+    """Return the lowest level that shows the line with substituted values. A line with matrices appears at full level.
+    Return None if no body rotates."""
     if not turnings:
         return None
     return Level.STANDARD if all(turning.is_plane for turning in turnings) else Level.FULL
@@ -446,7 +448,7 @@ FEW_SPRINGS, SHORT = 4, 6  # greatest number of extensions that a sentence names
 
 def _stretches(springs: Sequence[Any], moving: Sequence[Symbol]) -> dict[str, tuple[Expr, Expr]]:
     """Return the extension of each spring for the sentence: as length minus natural length, and from the force of the
-    spring."""
+    spring. The result is empty if the sentence does not need the extensions or would be too long."""
     found: dict[str, tuple[Expr, Expr]] = {}
     for i, each in enumerate(springs, 1):
         constant = derivative(each.pull, each.distance)

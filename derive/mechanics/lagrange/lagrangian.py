@@ -107,8 +107,8 @@ def lagrangian(system: System, symbol: str | None = None, key: str = "lagrangian
 
 
 def _subtracted(energy: Expr, moving: Collection[Symbol]) -> list[Expr]:
-    """Return the terms of -U for a potential energy U. Signs are written without a minus in front: -(M - m) g x becomes
-    (m - M) g x."""
+    """Return the terms of -U for a potential energy U. In a term that is proportional to a coordinate, a difference
+    takes the minus sign: -(M - m) g x becomes (m - M) g x."""
     terms = sorted(Add.make_args(energy), key=lambda term: not term.free_symbols & {*moving})
     return [_turned(term, moving) for term in terms]
 
@@ -156,7 +156,7 @@ def equation_of_motion(
     Second route: d'Alembert's principle, sum of (m a - F) . dr/dq = 0, from positions and forces. For a given L, a
     further route is the energy identity.
     Outcomes: generic, cyclic (L does not contain q, so the momentum of q is constant).
-    Errors: L contains neither q nor its rate.
+    Errors: q is not a coordinate of L.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.4.
     """
     required(of.coordinates, q, "equation_of_motion", of)
@@ -279,7 +279,8 @@ def equations_of_motion(of: Quantity, derivatives: bool = True) -> tuple[Quantit
 
 
 def _key_of(lagrangian: Quantity, name: str) -> str:
-    """Return the key of a step: the name, with the key of the Lagrangian in front if this is not the default key."""
+    """Return the key of a step: the name, or `<key of the Lagrangian>_<name>` if the Lagrangian does not have its
+    default key."""
     own = getattr(lagrangian.subject.body, "called", "").replace(" ", "_")
     plain = f"{own}_lagrangian" if own else "lagrangian"
     return name if lagrangian.key == plain else f"{lagrangian.key}_{name}"
@@ -304,6 +305,7 @@ def generalized_force(of: Quantity, q: Coordinate, key: str | None = None) -> Qu
 
     Second route: the sum of F . dr/dq over the forces in L, and of m v . d(dr/dq)/dt over the mass points. For charges
     e in magnetic fields, the time derivative of the sum of e A . dr/dq is added.
+    Check: for a given L, the first-order change of L if q changes.
     Outcomes: generic, zero (L does not contain q).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.4.
     """
@@ -346,6 +348,7 @@ def generalized_momentum(of: Quantity, q: Coordinate, key: str | None = None) ->
     q    a coordinate of this Lagrangian
 
     Second route: the sum of m v . dr/dq over the mass points, and of e A . dr/dq over charges e in magnetic fields.
+    Check: for a given L, the first-order change of L if q_dot changes.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.6.
     """
     matter = of.needed(Matter)

@@ -71,8 +71,9 @@ def conjugate_momentum(of: Quantity, q: Coordinate, symbol: str | None = None, k
     q    a coordinate of this Lagrangian
 
     Second route: the sum of m v . dr/dq over the mass points, and of e A . dr/dq over charges e in magnetic fields.
+    Check: for a given L, the first-order change of L if q_dot changes.
     Outcomes: generic, zero.
-    Errors: L contains neither q nor its rate.
+    Errors: q is not a coordinate of L.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 2.6 and 8.1.
     """
     required(of.coordinates, q, "conjugate_momentum", of)

@@ -57,9 +57,10 @@ def noether(
     Second route: the time derivative of Q as a function of t is the sum of xi (m a - f) . dr/dq with the forces f; this
     sum vanishes by d'Alembert's principle. Also, Q + F is the sum of m v . dr over the mass points, and of e A . dr
     over charges e in magnetic fields. Here epsilon dr is the displacement by the shift.
+    Check: for a given L, Q + F follows from the first-order changes of L if the rates change.
     Outcomes: symmetry, with_gain (F is not zero).
     Errors: L is not invariant (the message shows the difference); the shift or F contains a rate; the shift is zero, or
-    L contains neither a coordinate of the shift nor its rate.
+    shifts something that is not a coordinate of L.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 13.7.
     """
     xi = _formulas(of, shift)

@@ -90,7 +90,8 @@ def _check_gradients(system: WithParts) -> None:
 def _check_partners(system: WithParts) -> None:
     """Require that the second body is stated for a force that contains the symbol of a constraint force, such as mu N.
 
-    The second body exerts this force, and the opposite force acts on it.
+    The second body exerts this force, and the opposite force acts on it. A system with fewer than two masses has no
+    second body. If all these forces add up to zero, the system already contains the opposite forces.
     """
     letters: set[Symbol] = {each.force for each in system.constraints}
     touching = [f for f in system.given_forces if any(c.free_symbols & letters for c in f.components)]

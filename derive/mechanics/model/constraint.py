@@ -51,7 +51,7 @@ class Constraint(Part):
     """A constraint that a force enforces.
 
     For a constraint f = c on coordinates, the virtual work of the force is lambda df. For a constraint
-    a_1 q_1_dot + a_2 q_2_dot + ... = c on rates, it is lambda (a_1 dq_1 + a_2 dq_2 + ...).
+    a_1 q_1_dot + a_2 q_2_dot + ... = c on rates, this work is lambda (a_1 dq_1 + a_2 dq_2 + ...).
 
     left      f, or a_1 q_1_dot + ...
     right     c, as written in the script
@@ -120,8 +120,8 @@ class Constraint(Part):
         """The residual divided by `gradient`.
 
         For a constraint on coordinates, the virtual work of the force is `force` times the differential of this
-        quotient. For a constraint on rates, it is the sum of `force` a_q dq, where a_q is the coefficient of the rate
-        of q in this quotient.
+        quotient. For a constraint on rates, the virtual work is the sum of `force` a_q dq, where a_q is the coefficient
+        of the rate of q in this quotient.
         """
         return self.residual / self.gradient
 

@@ -134,8 +134,8 @@ def contact(
     sliding    the coefficient of sliding friction mu: the friction mu N opposes the velocity of slip s of the material
                points. In space it is -mu N s/|s|, where s is not zero
     direction  a vector, "right" or "left". With `sliding`, the material point of the body slips over the surface in
-               this direction; in space it may be left out, and must be if the coordinates allow other directions of
-               slip. With `rolling` or `static`, the friction on the body is positive in this direction
+               this direction; in space it may be left out, and must be left out if the coordinates allow other
+               directions of slip. With `rolling` or `static`, the friction on the body is positive in this direction
     static     the coefficient of static friction mu_s: the material points in contact do not move over each other, so
                a round body rolls; this requires |F| <= mu_s N, for a rail |F| <= mu_s |N|, and in space
                sqrt(F_x^2 + F_y^2) <= mu_s N
@@ -182,8 +182,8 @@ def point_of_contact(of: Any, on: Any) -> PointOfBody:
 
 
 def _check_carried(touch: Contact, rough: bool) -> None:
-    """Require that a body carries a surface that moves with coordinates, on its own or with the axes in which it is at
-    rest."""
+    """Require a body that carries the surface if the surface, or the axes in which it is at rest, move with
+    coordinates. With friction, also require such a body if the normal of a plane depends on the time."""
     surface = touch.surface
     turning = touch.normal.components if isinstance(surface, Plane) else ()
     axes = tuple(surface.moves.in_space) if isinstance(surface.moves, Axes) else ()
@@ -378,7 +378,7 @@ def _sliding(touch: Contact, coefficient: Any, direction: Any, letter: str) -> G
         message = f"the normal force `{letter}` of a rail may have either sign, so the sign of mu {letter} is unknown"
         raise Rejected(Complaint("wrong-argument", message, help="describe a surface, without `side: both`"))
     slip = velocity_at(touch.of, touch.at) - velocity_at(touch.surface.ground, touch.foot)
-    slip = slip - dot(touch.normal, slip) * touch.normal  # no other component is left, because the contact lasts
+    slip = slip - dot(touch.normal, slip) * touch.normal  # during the contact, the component along the normal is zero
     is_free = direction is None and len(slip.components) == 3
     along = _way_of_slip(slip) if is_free else _along_slip(touch, direction, slip)
     _check_rubbing(touch, along, is_free)
@@ -430,7 +430,7 @@ def _coefficient(touch: Contact, coefficient: Any, letter: str) -> Expr:
     require_constant("contact", "coefficient of friction", mu)
     if touch.is_kept:
         message = f"the coordinates keep the body on the surface, so its normal force `{letter}` does not appear"
-        help_line = f"give the body a coordinate for its distance from the surface, and the contact `normal: {letter}`"
+        help_line = f"give the body a coordinate for its distance from the surface, and write `normal: {letter}`"
         if isinstance(touch.of, PlacedBody) and isinstance(touch.surface, Curve):
             help_line = (
                 "only coordinates can keep a round body on a curve, so leave out the coefficient: `{rolling: F}`"

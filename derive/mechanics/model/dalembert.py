@@ -38,8 +38,8 @@ class MassPoint:
 class Load:
     """A force, in N, at a place, in m; or a generalized force along a coordinate, such as a torque along an angle, N m.
 
-    place   the components of the place; for a generalized force, the coordinate along which it acts, as the only
-            component
+    place   the components of the place; for a generalized force, the coordinate or angle along which it acts, as the
+            only component
     held    pairs of a symbol in `place` and its value; the symbol is constant in every displacement, such as a
             component of the position of a particle in its body
     multiplier   the symbol of a constraint force, which is a factor of the force; None for other forces

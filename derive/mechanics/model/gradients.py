@@ -5,7 +5,7 @@ a particle is lambda times the gradient of f. If there is only one particle and 
 magnitude of the force is |lambda|.
 
 Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4; Lanczos, *The Variational Principles of Mechanics*,
-section III.2.
+chapter III.
 """
 
 from __future__ import annotations
@@ -22,10 +22,10 @@ from derive.steps.step import Quantity
 
 
 def gradient_length(kept: Constraint, lagrangian: Quantity) -> Expr | None:
-    """The length of the gradient of a condition with respect to the position of a single particle.
+    """The length of the gradient of f with respect to the position of a single particle, divided by `kept.gradient`.
 
-    The coordinates must allow every displacement of this particle, without redundant coordinates. In other cases the
-    result is None.
+    The coordinates must allow every displacement of this particle, without redundant coordinates. In other cases, and
+    for a constraint on rates, the result is None.
     """
     described = description_behind(lagrangian)
     description = described.description if described is not None else None

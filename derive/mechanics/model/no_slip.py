@@ -47,8 +47,8 @@ def no_slip(
     ground   the motion of the surface: a place on a surface that moves without rotation; the axes in which the surface
              is at rest, such as the axes of a turntable; or the body that carries the surface. By default the surface
              is at rest in space
-    fixes    the coordinate whose rate is isolated; by default the coordinate of the last rotation, or a coordinate
-             whose rate has a constant coefficient
+    fixes    the coordinate whose rate is isolated. By default, a rate with a constant coefficient is isolated if there
+             is one. Among several such rates, the rate of the last rotation comes first
 
     Each independent condition isolates a different rate. A condition can be integrated if all its terms are constants
     times rates. It may then be a part of a `System`, where it expresses one coordinate by other coordinates.

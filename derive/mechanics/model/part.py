@@ -84,7 +84,8 @@ class Part:
 
 
 def moved(thing: Any, known: Mapping[Symbol, Expr]) -> Any:
-    """Return a particle or a body with expressions substituted for some coordinates; other objects are unchanged."""
+    """Return an object, such as a body, with expressions substituted for some coordinates; an object without a method
+    `moved` is unchanged."""
     return thing.moved(known) if hasattr(thing, "moved") else thing
 
 

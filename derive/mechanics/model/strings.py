@@ -53,7 +53,7 @@ class Line(Connection):
     is_rod    whether the line is a rod, which can push as well as pull
     rope      the particle whose mass is distributed along the line; None for a line without mass
     drawn     the symbol of the tension in force diagrams, if the coordinates keep the length
-    pieces    the straight pieces, in order
+    pieces    the straight pieces, in order, if there is such a symbol; otherwise empty
     """
 
     through: tuple[Location | Pulley, ...]
@@ -80,8 +80,8 @@ class Line(Connection):
         return replace(super().moved(known), through=tuple(through), rope=moved(self.rope, known), pieces=pieces)
 
     def drawn_on(self, of: Any) -> list[tuple[Location, Location]]:
-        """Return the pieces that pull a part of the system in its force diagram: for each piece, the place at which
-        it pulls, and its other end."""
+        """Return the pieces that pull a part of the system, for the force diagram of this part: for each piece, the end
+        that pulls the part, and the other end."""
         if self.drawn is None or self.rope is not None:
             return []
         ends = [(piece.start, piece.end) for piece in self.pieces], [(piece.end, piece.start) for piece in self.pieces]
@@ -246,7 +246,7 @@ def _check_rope(line: Any, particle: Any, tension: str) -> None:
         message = "the speed of the rope differs from the speed of the particle that has its mass"
         raise Rejected(Complaint("which-body", message, help="put the particle at an end of the rope"))
     if not is_zero(own.components[-1]):
-        message = "the particle that has the mass of the rope moves up or down, but its weight is not that of the rope"
+        message = "the particle that has the mass of the rope moves up or down, but its weight is not the rope's"
         help_line = "put the particle at a constant height; gravity acts on each piece of the rope"
         raise Rejected(Complaint("which-body", message, help=help_line))
 
@@ -437,7 +437,7 @@ def _rim(place: Location, on: PlacedBody) -> Location:
 
 
 def circles_of(system: Any, at: Location) -> list[Circle]:
-    """Return the circles on which a straight string or rod of constant length keeps a moving point; the other end is
+    """Return the circles on which a straight string or rod of given length keeps a moving point; the other end is
     fixed."""
     found = []
     for line in (part for part in system.parts if isinstance(part, Line)):

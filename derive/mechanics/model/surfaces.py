@@ -222,7 +222,8 @@ def plane(
     along    in a plane of motion, instead of `normal`: a vector along the surface. The free side is on the left of this
              vector; for a vector to the right, the free side is above
     of       the body or particle that carries the surface
-    moves    the axes in which the surface is at rest, or a place that moves with the surface at a constant velocity
+    moves    the axes in which the surface is at rest, or a place that moves with the material at a constant velocity
+             along the surface
     is_two_sided   whether the surface can push bodies to both sides, like a rail; the normal force may have either sign
     """
     if (normal is None) == (along is None):
@@ -296,8 +297,9 @@ def curve(
     of       the body or particle that carries the curve; the curve moves with this object, without rotation
     is_two_sided   as for `plane`
 
-    The normal force N on a particle acts along the unit normal (-f', 1)/sqrt(1 + f'^2). The gradient of
-    y - f(x) has the length sqrt(1 + f'^2), so the multiplier of the condition y - f(x) = 0 is N/sqrt(1 + f'^2).
+    The normal force N on a particle acts along the unit normal (-f', 1)/sqrt(1 + f'^2), or along the opposite vector if
+    the free side is below. The gradient of y - f(x) has the length sqrt(1 + f'^2), so the multiplier of the condition
+    that keeps the particle on the curve is N/sqrt(1 + f'^2).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4.
     """
     origin = of.centre if isinstance(of, PlacedBody) else Location((ZERO, ZERO)) if of is None else of.at

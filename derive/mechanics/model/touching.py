@@ -66,7 +66,8 @@ def _assume_that_it_fits(placed: PlacedBody, curve: Curve, foot: Location) -> No
 
 
 def _has_rims(placed: PlacedBody) -> bool:
-    """Whether a body that moves in space is a disc, a hoop, a cylinder or a cone: the convex hull of two circles."""
+    """Whether a body moves in space, and its outer shape is the convex hull of one or two circles, as for a disc, a
+    hoop, a cylinder or a cone."""
     outline = _outline(placed)
     return not placed.is_plane and outline is not None and outline.is_straight and not outline.is_line
 
