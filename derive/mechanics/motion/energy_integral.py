@@ -352,7 +352,7 @@ def _written(value: Expr, amplitude: Symbol) -> Expr:
 def _by_quadrature(value: Expr, q: Symbol, amplitude: Symbol, found: Expr, order: int) -> Verdict:
     """Compare the series with the numerical integral at two amplitudes.
 
-    The relative difference must decrease faster than the last power of the amplitude.
+    The relative difference must decrease faster than the last power of the amplitude, or be only numerical noise.
     """
     from mpmath import mp
 

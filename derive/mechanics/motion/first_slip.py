@@ -62,8 +62,8 @@ class Motion:
         return value_at(most, there) - abs(value_at(F, there))
 
     def reaches(self, at: Expr, point: Mapping[Symbol, Expr]) -> bool:
-        """Whether the motion reaches the place: the squared rate is not negative at trial places on the way from the
-        start."""
+        """Whether the motion reaches the place: the place is in the range of the coordinate, and the squared rate is
+        not negative at trial places on the way from the start."""
         known, begin = range_of(self.q), value_at(self.start, point)
         if not at.is_real or known is not None and not (known.least <= at and at <= known.greatest):
             return False
@@ -164,7 +164,8 @@ def is_never_reached(motion: Motion) -> Verdict:
 
 
 def unless_sure(condition: Relation | None) -> Relation | None:
-    """Return the condition; None if the condition is known to be always true."""
+    """Return the condition; None if it is known to be always true. Only a condition with exactly one square root is
+    examined."""
     if condition is None:
         return None
     more, less = condition.sides if condition.operator[0] == ">" else reversed(condition.sides)

@@ -56,8 +56,8 @@ SOURCE = "Morin, *Introduction to Classical Mechanics*, sections 3.4 and 5.3"
 class Flyer:
     """The particle or the rigid body that flies.
 
-    part       the particle or the placed body; None for a particle of a Lagrangian without a description
-    point      its mass, at the place of its centre of mass
+    part       the particle or the placed body
+    point      the mass of the particle or body, at the place of its centre of mass
     frictions  the constraints that friction enforces at the contact until the contact is lost
     """
 
@@ -181,7 +181,8 @@ class Departure:
 
     @cached_property
     def held_rates(self) -> dict[Symbol, Expr]:
-        """The rates of all other coordinates of the flying body, expressed by the rate of `q`."""
+        """The rates that the constraint and rolling determine: zero for a constant coordinate; for a coordinate of the
+        rotation, the rate expressed by the rate of `q`."""
         still: dict[Symbol, Expr] = {rate(s): ZERO for s in self.held}
         for each in self.flyer.frictions:
             left = explicit(each.residual).xreplace({**self.held, **still})

@@ -69,10 +69,10 @@ def leaves_contact(force: Quantity, letter: Letter, start: Value, key: str = "le
 
     force    the normal force, positive while it pushes, in N; or the tension of a string, positive while it pulls
     letter   the unknown: a coordinate, or a function of a coordinate such as `cos(theta)`
-    start    the value of the unknown at the start, where the force is positive
+    start    the value of the unknown at the start; the force must be positive at the start or just after it
 
-    The motion must reach the place. If the force depends on a squared rate, q_dot^2 = f(q) by conservation of energy, f
-    must be positive at the place. If the sign of f there depends on the symbols, the page states the condition f > 0.
+    If the force depends on a squared rate, q_dot^2 = f(q) by conservation of energy, the motion reaches the place only
+    if f is positive there. If the sign of f there depends on the symbols, the page states the condition f > 0.
     Factors of the force that are known to be positive, such as sin(theta) for 0 < theta < pi/2, are omitted.
     Check: the force is zero at the place and positive between the start and the place. Witness: the motion of the
     described system is followed from the start until the multiplier vanishes.

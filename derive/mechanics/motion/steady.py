@@ -190,7 +190,8 @@ def _condition(steady: Steady, q: Coordinate, motion: Mapping[Symbol, Expr], key
 
 
 def _rates_first(value: Expr, steady: Steady) -> Expr:
-    """Choose the sign so that the highest power of a rate has a positive coefficient."""
+    """Choose the sign so that the highest power of a rate has a positive coefficient. Only squares and higher powers
+    count; without them, the value is unchanged."""
     for letter in sorted({s for v in steady.rates.values() for s in v.free_symbols}, key=str):
         for each in Mul.make_args(value):
             polynomial = each.as_poly(letter)

@@ -83,8 +83,8 @@ def stability(
 
     of       the potential energy, an effective potential energy, or the Lagrangian, J
     at       the equilibrium: as `equilibria` yields it, or `{theta: 0}`
-    letter   the symbol that a condition is solved for; by default the symbol that occurs as a square, if there is
-             exactly one such symbol
+    letter   the symbol that a condition is solved for, if possible; by default the symbol that occurs as a square, if
+             there is exactly one such symbol
 
     Second route: the restoring force for a small displacement, from virtual work if mass points and forces are known.
     For several coordinates, the energy of a small displacement in an arbitrary direction.

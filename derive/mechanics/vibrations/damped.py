@@ -181,6 +181,7 @@ DAMPED_FREQUENCY = Rule(
 
 def _frequency(equations: DampedModes, own: Quantity, root: CharacteristicRoot, number: str) -> Quantity:
     """Frequency of a damped oscillation, sqrt(omega_0^2 - beta^2).
+
     Outcomes: oscillating, conditional, overdamped (the result is half the difference of the two decay rates).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.5; Landau, Lifshitz, *Mechanics*, section 25.
     """

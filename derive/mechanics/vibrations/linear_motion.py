@@ -100,7 +100,7 @@ def solution(
     C_2 e^(s_2 t) + a particular motion, where s_1 and s_2 are the roots of a s^2 + b s + c.
 
     equation     a q_ddot + b q_dot + c q = f(t), where f is a sum of powers of t, exponentials, sines and cosines; the
-    equation may be of first order, a = 0, or solved for q_ddot or q_dot
+                 equation may be of first order, a = 0, or solved for q_ddot or q_dot
     q            the coordinate of the equation of motion
     start        the value of q at t = 0
     start_rate   the rate of q at t = 0, for an equation of second order; 0 by default

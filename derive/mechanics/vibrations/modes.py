@@ -127,7 +127,7 @@ def _of_block(
     number: str,
     name: str,
 ) -> tuple[Quantity, ...]:
-    """Return the modes of coordinates that are coupled only to each other: frequencies, then shapes."""
+    """Return the frequencies and the shapes or motions of coordinates that are coupled only to each other."""
     whole = linear[0].needed(Linear)
     part = whole.part(block)
     if not part.is_gyroscopic:
