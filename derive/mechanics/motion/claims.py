@@ -53,8 +53,8 @@ def released(at_rest: bool) -> Predicate:
 
 
 def moves_off(wanted: int | None) -> Predicate:
-    """Judge the sign of the initial rate or, from rest, of the initial acceleration: it is `wanted`, or unknown if
-    `wanted` is None. The result must have the same sign; without a known sign, it must have no minus sign."""
+    """Judge the sign of the initial rate or, from rest, of the initial acceleration: it must be `wanted`, or neither 1
+    nor -1 if `wanted` is None. The result must have a minus sign if and only if `wanted` is -1."""
 
     def is_so(facts: Judged) -> bool:
         known = facts.inputs["known"]

@@ -112,7 +112,7 @@ def index_of_first(motion: Motion, places: Sequence[Expr]) -> int | None:
         seen.add(min(reached, key=lambda i, at=at, begin=begin: abs(at[i] - begin)) if reached else None)  # type: ignore[misc]
     found = seen - {None}
     if len(found) > 1:
-        message = "`slips`: the place where the body slips first depends on the values of the letters"
+        message = "`slips`: the place where the body slips first depends on the values of the symbols"
         raise Rejected(Complaint("no-condition", message, help="give numbers, or relations under `assume:`"))
     return next(iter(found)) if found else None
 
@@ -132,7 +132,7 @@ def sign_of_friction(motion: Motion, place: Expr) -> int:
         except (Undefined, NoNumber, TypeError):
             continue
     if len(signs) != 1:
-        message = "`slips`: the direction in which the body slips depends on the values of the letters"
+        message = "`slips`: the direction in which the body slips depends on the values of the symbols"
         raise Rejected(Complaint("no-condition", message, help="give numbers, or relations under `assume:`"))
     return signs.pop()
 

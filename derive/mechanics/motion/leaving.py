@@ -79,7 +79,7 @@ def leaves_contact(force: Quantity, letter: Letter, start: Value, key: str = "le
     Outcomes: lost; lost_later (the force is zero at the start, and positive just after it); never (the force is always
     positive); turns_back (the motion does not reach the place where the force would vanish);
     turns_there (the force vanishes only where the motion turns back). For a body that rolls without slipping, the
-    page states that it rolls until then.
+    page states that the body rolls until the contact is lost.
     Errors: static friction with a coefficient, because the body slips before the normal force vanishes; the force may
     have either sign, as on a rail; the force is not positive at the start, or not linear in the unknown; the motion may
     turn back before the place, or does not begin at `start`.

@@ -226,7 +226,7 @@ NONE: Mapping[str, Expr] = MappingProxyType({})
     "the condition of a steady motion from the Lagrangian; `roots` solves this condition",
     of="steady: a Lagrangian",
     values="values: `{r: r_0}`",
-    symbols="symbol: letters of the cyclic rates",
+    symbols="symbol: symbols of the cyclic rates",
 )
 def _in_results(
     of: Quantity, key: str, coordinates: Mapping[str, Coordinate], values: Values = NONE, symbols: Symbols = ()

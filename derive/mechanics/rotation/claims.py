@@ -160,8 +160,8 @@ def moments_compared(wanted: str) -> Predicate:
 
     With `wanted="always"`, all moments must be equal. With `wanted="never"`, they must not be equal for any values of
     the symbols: every difference that is not identically zero has a fixed sign, and there is at least one such
-    difference. With any other word, the moments must be equal for the value of a symbol that the result states, without
-    being equal always or never.
+    difference. With any other word, the moments must be equal for the value of a symbol that the result states, and
+    neither "always" nor "never" may be true.
     """
 
     def is_so(facts: Judged) -> bool:

@@ -25,8 +25,8 @@ OF_SIGN = {1: "oscillating", -1: "growing", 0: "free", None: "conditional"}  # s
 
 @dataclass(frozen=True)
 class Equations(Generic[Kind]):
-    """Linear equations of a group of coordinates that are not coupled to any other, and the linear system of these
-    equations.
+    """Linear equations of a group of coordinates that are not coupled to coordinates outside the group, and the linear
+    system of these equations.
 
     every     the equations of the whole system
     block     the indices of the coordinates of the group

@@ -96,8 +96,8 @@ def solution(
     case: str | None = None,
     key: str | None = None,
 ) -> Quantity:
-    """Motion q(t) that satisfies a linear equation with constant coefficients and initial values, q = C_1 e^(s_1 t) +
-    C_2 e^(s_2 t) + a particular motion, where s_1 and s_2 are the roots of a s^2 + b s + c.
+    """Motion q(t) that satisfies a linear equation with constant coefficients and initial values. If a s^2 + b s + c
+    has two different roots s_1 and s_2, then q = C_1 e^(s_1 t) + C_2 e^(s_2 t) + a particular motion.
 
     equation     a q_ddot + b q_dot + c q = f(t), where f is a sum of powers of t, exponentials, sines and cosines; the
                  equation may be of first order, a = 0, or solved for q_ddot or q_dot
