@@ -288,7 +288,7 @@ def _one_frequency(of: Quantity, step: Quantity) -> Quantity:
 
 EXACT = Rule(
     "observations.exact",
-    source="Landau, Lifshitz, *Mechanics*, section 11, problem 2",
+    source="Landau, Lifshitz, *Mechanics*, section 21, problem 5",
     outcomes={"generic": claims.isochronous},
     evidence={"harmonic": CHECK},
     named={"path": claims.is_the_length_along_the_path, "harmonic": claims.is_harmonic_along_the_path},

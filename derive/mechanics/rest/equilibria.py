@@ -162,7 +162,7 @@ def equilibria(of: Quantity, *coordinates: Coordinate) -> tuple[Quantity, ...]:
     Errors: a zero of the force has no closed form; there is no equilibrium; the symbols leave open whether an
     equilibrium is in the given range; the energy contains the time; a constraint between the coordinates is maintained
     by a force; the coordinates are singular at an equilibrium.
-    Source: Taylor, *Classical Mechanics*, sections 4.6 and 7.6.
+    Source: Taylor, *Classical Mechanics*, section 4.6 and example 7.6.
     """
     require_kind("equilibria", "of", of, "energy")
     if depends_on_time(of.value):
@@ -310,7 +310,7 @@ def _linear(forces: Sequence[Expr], unknown: Sequence[Symbol], state: State) -> 
 
 CONDITION = Rule(
     "rest.condition",
-    source="Taylor, *Classical Mechanics*, sections 4.6 and 7.6",
+    source="Taylor, *Classical Mechanics*, section 4.6 and example 7.6",
     outcomes={"generic": claims.condition_generic, "zero": claims.condition_zero},
     evidence={"virtual_work": ROUTE, "given_virtual_work": ROUTE},
     statements=[claims.steady_as_its_potential],
@@ -419,7 +419,7 @@ def _by_terms_if_shorter(value: Expr) -> Expr:
 
 EQUILIBRIUM = Rule(
     "rest.equilibrium",
-    source="Taylor, *Classical Mechanics*, sections 4.6 and 7.6",
+    source="Taylor, *Classical Mechanics*, section 4.6 and example 7.6",
     outcomes={
         "only": claims.equilibrium_only,
         "always": claims.both(

@@ -45,6 +45,10 @@ HIGHEST = 8  # the highest order that is tried on a boundary
 FEW = 5  # largest number of coordinates for which all directions with entries 0, 1 and -1 are tried
 SHORT = 80  # largest number of operations in a curvature that is shown before the equilibrium is substituted
 ZERO = Integer(0)
+SOURCE = (
+    "Taylor, *Classical Mechanics*, section 4.6 and example 7.6; Goldstein, Poole, Safko, *Classical Mechanics*, "
+    "section 6.1"
+)
 BY_FIRST_ORDER = Spelled(
     "decide with the equations of motion to first order: `linear_stability(linearised(motion))`", "ask for `linearised`"
 )
@@ -95,7 +99,8 @@ def stability(
     Errors: a force remains at the equilibrium; coordinates are missing; the kinetic energy may be negative; the energy
     has no minimum, but forces linear in the rates may still stabilise the equilibrium, as in a rotating frame or a
     magnetic field.
-    Source: Taylor, *Classical Mechanics*, sections 4.6 and 7.6; Goldstein, Poole, Safko, *Classical Mechanics*, 6.1.
+    Source: Taylor, *Classical Mechanics*, section 4.6 and example 7.6; Goldstein, Poole, Safko, *Classical Mechanics*,
+    section 6.1.
     """
     require_kind("stability", "of", of, "energy")
     held = constraints_of(of)
@@ -167,7 +172,7 @@ def _check_level(place: Place) -> None:
 
 STABILITY = Rule(
     "rest.stability",
-    source="Taylor, *Classical Mechanics*, sections 4.6 and 7.6; Goldstein, Poole, Safko, *Classical Mechanics*, 6.1",
+    source=SOURCE,
     outcomes={
         "stable": claims.both(claims.always(1), claims.kinetic_energy_is_positive),
         "unstable": claims.both(claims.always(-1), claims.runs_away),
@@ -325,7 +330,7 @@ def _small_force(place: Place, q: Symbol) -> Expr:
 
 STABILITY_OF_SEVERAL = Rule(
     "rest.stability_of_several",
-    source="Taylor, *Classical Mechanics*, sections 4.6 and 7.6; Goldstein, Poole, Safko, *Classical Mechanics*, 6.1",
+    source=SOURCE,
     outcomes={
         "stable": claims.both(claims.always(1), claims.kinetic_energy_is_positive),
         "unstable": claims.both(claims.always(-1), claims.runs_away),

@@ -108,8 +108,8 @@ def solution(
 
     The steps that lead to the motion are the characteristic equation, its roots and the general motion with two
     constants; for an oscillation without damping, only the general motion.
-    Second route: the trial e^(s t) is substituted into the equation, which gives the characteristic equation. The
-    motion is substituted back into the equation; it has the given value and rate at t = 0.
+    Second route: the trial e^(s t) is substituted into the equation, which gives the characteristic equation. Check:
+    the motion is substituted back into the equation, and has the given value and rate at t = 0.
     Outcomes: oscillates (without damping), underdamped, critically_damped, overdamped, runs_away (a free motion grows,
     for example because c/a is negative), uniform (no force depends on position or rate), slows (no force depends on
     position: the rate decays), relaxes (first order), accumulates (first order, without q).

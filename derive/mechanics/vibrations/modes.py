@@ -70,9 +70,9 @@ def normal_modes(linear: Sequence[Quantity], symbol: str | None = None, key: str
     which are linear in the rates and do no work, each mode is a motion in cosines and sines, not a shape. With drag the
     keys are decay_1, decay_2, ... for the decay rates, and frequency_1, frequency_2, ... for the quadratic factors of
     the determinant. If the determinant has only one factor, the keys are `decay` and `frequency`.
-    Second route: the motion satisfies the linear equations, and the shapes are orthogonal with respect to M. For a
-    shape of each frequency, omega^2 is Rayleigh's quotient of stiffness and mass. The sum of all omega^2 is the trace
-    of M^-1 K.
+    Second route: the trial a cos(omega t) is substituted into the equations, which gives the characteristic equation;
+    for a shape of each frequency, omega^2 is Rayleigh's quotient of stiffness and mass. Check: the motion satisfies the
+    linear equations, the shapes are orthogonal with respect to M, and the sum of all omega^2 is the trace of M^-1 K.
     Outcomes: oscillating, growing (omega^2 < 0; kappa is the rate), free (omega = 0), conditional (the sign of omega^2
     depends on the symbols); if two or more modes have the same frequency: oscillating_repeated, growing_repeated,
     free_repeated, conditional_repeated; for a root without a formula: ordered (numbered among all roots), ordered_part
