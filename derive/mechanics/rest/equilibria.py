@@ -152,7 +152,7 @@ def equilibria(of: Quantity, *coordinates: Coordinate) -> tuple[Quantity, ...]:
     coordinates   the unknowns; by default all coordinates that the energy depends on
 
     Angles are between -pi and pi. A coordinate that is declared positive stays positive, and a coordinate with a range
-    stays in this range. A coordinate that no force depends on may have any value.
+    stays in this range. If the forces vanish for every value of a coordinate, this coordinate has no stated value.
     Keys: condition_x for the equilibrium condition of the coordinate x; for the equilibria, rest_1, rest_2, ..., or
     `rest` if there is only one.
     Second route: the virtual work of forces and inertia at the equilibrium. For one coordinate, the zeros of the force

@@ -61,13 +61,13 @@ def normal_modes(linear: Sequence[Quantity], symbol: str | None = None, key: str
     linear in the rates, the squares of the frequencies are in ascending order, and roots without a formula come last.
     If the order depends on the symbols, it is the order for one set of numbers.
     A coordinate that is not coupled to any other has its own frequency, without a determinant and without a shape. The
-    symbol of this frequency is omega_x for the coordinate x, and omega_2 for x_2. If no coordinates are coupled and all
-    frequencies are equal, the only step is `frequency_1`, with the symbol omega_0. If only some coordinates are
-    coupled, these have the lower numbers. Each group of coupled coordinates has its own determinant; with several
-    groups, the keys are characteristic_equation_1, characteristic_equation_2, ...
+    symbol of this frequency is by default omega_x for the coordinate x, and omega_2 for x_2. If no coordinates are
+    coupled and all frequencies are equal, the only step is `frequency_1`, by default with the symbol omega_0. If only
+    some coordinates are coupled, these have the lower numbers. Each group of coupled coordinates has its own
+    determinant; with several groups, the keys are characteristic_equation_1, characteristic_equation_2, ...
     Only the ratios of the entries of a shape have a meaning. For one coordinate without drag the steps are
     `frequency_squared`, for omega_0^2, and `frequency`; only the step `frequency` is returned. With gyroscopic forces,
-    which are linear in the rates and do no work, each mode is a motion in cosines and sines, not a shape. With drag the
+    which are linear in the rates and do no work, each mode is a motion in time, not a shape. With drag the
     keys are decay_1, decay_2, ... for the decay rates, and frequency_1, frequency_2, ... for the quadratic factors of
     the determinant. If the determinant has only one factor, the keys are `decay` and `frequency`.
     Second route: the trial a cos(omega t) is substituted into the equations, which gives the characteristic equation;
