@@ -205,7 +205,8 @@ def _check_one_coordinate(energy: Quantity, value: Expr, q: Coordinate) -> None:
         )
         help_line = None
         if others:
-            help_line = f"with `put_in`, substitute the value of {others[0].name} or, from its momentum, of its rate"
+            other = others[0].name
+            help_line = f"with `put_in`, substitute the value of {other}, or the value of its rate from its momentum"
         raise Rejected(Complaint("wrong-argument", message, help=help_line))
 
 

@@ -302,7 +302,7 @@ def _departure(lost: Quantity, letter: Any) -> Departure:
     speed = ByEnergy.behind(lost.parents[0], letter_of(lost.value.left))
     if speed is None or not any(each.fact(ForceOf) for each in lost.ancestors()):
         message = f"`flight`: the speed is unknown, since `{lost.key}` was found without conservation of energy"
-        raise Rejected(Complaint("wrong-argument", message, help="put a result of `speed` in the force"))
+        raise Rejected(Complaint("wrong-argument", message, help="substitute a result of `speed` in the force"))
     found = Departure(lost, speed, None if letter is None else _checked_letter(letter, letter_of(lost.value.left)))
     assert found.flyer.point
     return found
@@ -366,7 +366,7 @@ def _why_it_is_not_free(departure: Departure, flyer: Flyer) -> str:
         return f"the {noun} has another constraint, or a support that moves"
     others = [each for each in matter.points if each != flyer.point]
     if any(explicit(c).free_symbols & own for each in others for c in each.place):
-        return f"the coordinates of the {noun} also move another body, or rotate it"
+        return f"the coordinates of the place of the {noun} also rotate the {noun}, or move another body"
     if departure.gravity == 0:
         return f"the {noun} has no weight"
     weight = (ZERO, -flyer.point.mass * departure.gravity)
