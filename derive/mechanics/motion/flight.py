@@ -646,9 +646,9 @@ def landing(flight: Sequence[Quantity], on: Surface | None = None, key: str = "l
     radius is t^3 (a t + b). The factor t^3 is due to the departure, where the particle is on the circle, moves along
     the circle, and needs no constraint force. If a t + b has no zero at a positive time, the particle does not meet the
     circle again.
-    Second route: the place satisfies the equation of the path without the time; the speed also follows from the
-    derivatives of the components. Check: at the end the particle is on the plane or the circle, and before the end it
-    is on the free side. Witness: the free flight of the described system is followed to the landing.
+    Second route: the place satisfies the equation of the path, which does not contain the time; the speed also follows
+    from the derivatives of the components. Check: at the end the particle is on the plane or the circle, and before the
+    end it is on the free side. Witness: the free flight of the described system is followed to the landing.
     Outcomes: on_plane, taut (the string becomes taut again), back (on the surface that the particle left), clear (the
     particle does not meet the circle again), misses (the particle does not reach the plane).
     Errors: the plane moves; a body that is not round flies; the particle may depart below the plane, or meet the circle

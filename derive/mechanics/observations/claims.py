@@ -336,7 +336,7 @@ def _may_vary(letter: Symbol, point: Point) -> Point:
 
 
 def is_free_of(facts: Judged, letter: Symbol) -> bool:
-    """Whether the answer does not depend on the symbol, although an equation that leads to the answer does."""
+    """Whether the answer does not depend on the symbol, although a line of a step that leads to the answer does."""
     of = facts.quantities["of"]
     value = explicit(of.value.right if isinstance(of.value, Relation) else of.value)
     points = numbers([value, letter])
@@ -672,8 +672,8 @@ def is_the_squared_length(facts: Judged, told: Relation) -> bool:
 
 
 def holds_everywhere(facts: Judged) -> bool:
-    """Whether the condition of equilibrium holds at every position for the stated value, but not for twice
-    this value."""
+    """Whether the condition of equilibrium holds at all positions tried for the stated value, but not for twice this
+    value."""
     place, condition = facts.result, explicit(facts.quantities["of"].value.residual)
 
     def is_so(point: Point) -> bool:
@@ -685,8 +685,8 @@ def holds_everywhere(facts: Judged) -> bool:
 
 
 def has_one_sign(facts: Judged) -> bool:
-    """Whether the sign of the force is the same for all values of the coordinate, but depends on the values of the
-    given symbols."""
+    """Whether the sign of the force is the same for all values of the coordinate that are tried, but depends on the
+    values of the given symbols."""
     of, q = explicit(facts.quantities["of"].value), facts.inputs["q"]
     seen = set()
     if not _is_constant(of.xreplace({q: Integer(1)}), facts.quantities["of"]):

@@ -523,8 +523,8 @@ def _there_on_constraints(facts: Judged) -> dict[Any, Any]:
 
 
 def on_the_constraints(facts: Judged, named: Any) -> bool:
-    """Whether the named expression is the list of the coordinates, an equation with their equilibrium values, or a
-    constraint."""
+    """Whether the equilibrium satisfies all constraints, and the named expression is the list of the coordinates, an
+    equation with their equilibrium values, or a constraint."""
     there = _there_on_constraints(facts)
     kept = all(is_zero(explicit(residual).xreplace(there)) for residual in facts.inputs["constraints"])
     if not isinstance(named, Relation):

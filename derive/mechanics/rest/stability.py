@@ -91,7 +91,7 @@ def stability(
              there is exactly one such symbol
 
     Second route: the restoring force for a small displacement, from virtual work if mass points and forces are known.
-    For several coordinates, the energy of a small displacement in an arbitrary direction.
+    Check for several coordinates: the energy of a small displacement in an arbitrary direction.
     Outcomes: stable, unstable, depends (on the stated condition), depends_stable_on_border,
     depends_unstable_on_border, stable_by_higher_order, unstable_by_higher_order, flat (no order up to the eighth
     decides); for several coordinates also: unstable_along (the energy falls in a stated direction), level (to second
@@ -295,7 +295,8 @@ def _judged(place: Place, value: Expr, letter: Expr | None) -> tuple[str, Relati
 
 
 def _order(energy: Expr, place: Place) -> int:
-    """Return the lowest order, from the second on, that does not vanish at the equilibrium; 0 if there is none."""
+    """Return the lowest order, from the second to the eighth, that does not vanish at the equilibrium; 0 if all
+    vanish."""
     (q,) = place.coordinates
     terms = series_along(energy, {q: place.values[q]}, {q: Integer(1)}, HIGHEST)
     return next((n for n in range(2, HIGHEST + 1) if not is_zero(terms[n])), 0)
