@@ -53,7 +53,8 @@ def released(at_rest: bool) -> Predicate:
 
 
 def moves_off(wanted: int | None) -> Predicate:
-    """Judge the sign of a rate."""
+    """Judge the sign of the initial rate or, from rest, of the initial acceleration: it must be `wanted`, or neither 1
+    nor -1 if `wanted` is None. The result must have a minus sign if and only if `wanted` is -1."""
 
     def is_so(facts: Judged) -> bool:
         known = facts.inputs["known"]
@@ -71,7 +72,7 @@ FAR, SOON = Rational(10) ** 30, Rational(1, 10**6)  # a number for infinity, and
 AHEAD = [
     *(Rational(n, 8) for n in range(1, 57)),
     *(Rational(10) ** n for n in range(1, 20)),
-]  # distances from the start
+]  # distances from the start; also divisors of a start that is not negative
 
 
 def has_sense(facts: Judged, fact: SignedRate) -> bool:
@@ -84,9 +85,12 @@ def _is_negative(root: Expr) -> bool:
 
 
 def arrives_as_told(facts: Judged, outcome: str) -> bool:
-    """Whether, numerically, the motion reaches each place if and only if the stated condition holds.
+    """Whether, numerically, the motion reaches each place if and only if the stated condition holds. A place that was
+    derived from the motion is not tested.
 
-    If the result contains the rate with its sign, the place must also be on the right side of the start.
+    If the result contains the rate with its sign, the place must be ahead of the start, or behind the start if the
+    motion turns back first. If a condition is stated and a surface or a string guides the motion, the sentence must
+    also name the contact or the tension that has to last.
     """
     kept = [fact for q in facts.quantities.values() for each in q.ancestors() if (fact := each.fact(Constrained))]
     one_sided = {"surface": "contact", "string": "taut"}
@@ -150,7 +154,8 @@ def _trials_of(come: Arrival) -> list[Point]:
 
 
 def _side(come: Arrival) -> set[int | None]:
-    """Return the sides of the start on which the place may lie: 1 is ahead, -1 is behind."""
+    """Return the sides of the start on which the place may lie: 1 is ahead, -1 is behind. If no side is found, return
+    {1}."""
     q, start = come.begun.coordinate, with_numbers(come.begun.start)
     here, soon = (come.unknown.xreplace({q: each}) for each in (start, start + come.sense * SOON))
     return signs((_finite(come.place) - here) * (soon - here), _trials_of(come)) - {0, None} or {1}
@@ -190,8 +195,8 @@ def _vanishing_force(facts: Judged) -> bool:
 
 
 def lost(later: bool) -> Predicate:
-    """Judge two conditions: the force at the start is numerically positive (zero if `later`), and the stated
-    condition is correct."""
+    """Judge three conditions: the result is an equation for the unknown, the force at the start is numerically positive
+    (zero if `later`), and the stated condition for reaching the place is correct."""
 
     def is_so(facts: Judged) -> bool:
         letter, start = _letter_at(facts.inputs["unknown"], facts.inputs["start"])
@@ -303,7 +308,12 @@ def needs_no_friction(facts: Judged) -> bool:
 
 
 def sticks_where(wanted: bool | None) -> Predicate:
-    """Judge whether, numerically, |F| <= mu_s N if and only if the result holds."""
+    """Judge whether, numerically, |F| <= mu_s N if and only if the result holds. For `wanted=True`, |F| <= mu_s N must
+    hold for all trial numbers, and for `wanted=False`, for none.
+
+    If the condition is for one of two possible directions of F, friction in the other direction also counts as
+    sufficient.
+    """
 
     def is_so(facts: Judged) -> bool:
         F, N, mu = (with_numbers(facts.inputs[role]) for role in ("friction", "normal", "coefficient"))
@@ -331,7 +341,7 @@ def _as_wanted(wanted: bool, verdict: bool | None) -> bool | None:
 
 
 def _room(facts: Judged, at: Expr, point: Point) -> Expr | None:
-    """Return mu_s N - |F| at a place; None if N is not positive at this place, or a force is not real."""
+    """Return mu_s N - |F| at a place; None if N is not positive at this place, or if a value is not real."""
     there = {**point, facts.inputs["coordinate"]: at}
     F, N, mu = (real_at(with_numbers(facts.inputs[role]), there) for role in ("friction", "normal", "coefficient"))
     return None if F is None or N is None or mu is None or not N > 0 else mu * N - abs(F)
@@ -351,8 +361,10 @@ def _letters_of_motion(facts: Judged) -> set[Any]:
 
 
 def slips_first(facts: Judged) -> bool:
-    """Whether, numerically, mu_s N - |F| is positive before the place and zero at the place, under the stated
-    conditions.
+    """Whether, numerically, mu_s N - |F| is positive before the place and zero at the place.
+
+    If the sentence states a condition for sticking at the start, mu_s N - |F| must not be positive at the start where
+    this condition is false. Numbers for which the motion turns back before the place are skipped.
     """
     start, place = with_numbers(facts.inputs["begin"]), with_numbers(_letter_at(*facts.result.sides)[1])
     letters = _letters_of_motion(facts)
@@ -388,7 +400,8 @@ def slips_at_once(facts: Judged) -> bool:
 
 
 def never_slips(facts: Judged) -> bool:
-    """Whether, numerically, mu_s N - |F| is positive at all places tried that the motion reaches."""
+    """Whether, numerically, mu_s N - |F| is positive at all places tried that the motion reaches. If the sentence
+    states a condition, mu_s N - |F| must not be positive at the start where this condition is false."""
     letters, distances = _letters_of_motion(facts), [Rational(n, 5) for n in range(-8, 9)]
     told = facts.inputs.get("starts")
 
@@ -425,7 +438,8 @@ def turns_back_there(facts: Judged, amplitude: Any) -> bool:
 
 
 def pushes_there(facts: Judged, place: Any) -> bool:
-    """Whether the relation gives a value of the unknown of the result, and the force there is not negative."""
+    """Whether the relation gives a value of the unknown of the result. If the unknown is a symbol, the force there must
+    not be known to be negative."""
     alone = bool(facts.result.left == place.left) and place.operator == "="
     if not isinstance(place.left, Symbol):
         return alone
@@ -440,8 +454,8 @@ def force_vanishes_there(facts: Judged, place: Any) -> bool:
 
 
 def stays_and_turns(facts: Judged, relation: Any) -> bool:
-    """Whether dL/dq = 0, with the constant coordinates and rates that the sentence states, is equivalent to the
-    result."""
+    """Whether the result is equivalent to dL/dq = 0 for the constant coordinates and rates that the sentence states.
+    Without a Lagrangian, the equation of motion takes the place of dL/dq = 0."""
     told = {v.left: explicit(v.right) for role, v in facts.inputs.items() if role.startswith(("stays_", "turns_"))}
     if relation.operator != "=" or relation.left == relation.right:
         return False
@@ -681,8 +695,8 @@ def _later(fact: InFlight) -> tuple[Expr, ...]:
 
 
 def passes(facts: Judged) -> bool:
-    """Whether the condition is equivalent to y(t) = Y, and t is numerically positive, where x(t) = X and (X, Y) is
-    the place."""
+    """Whether the condition is equivalent to y(t) = Y for the place (X, Y) and the time t with x(t) = X, and this time
+    is numerically positive."""
     fact, (X, Y) = facts.inputs["flight"], facts.inputs["place"]
     x, y = fact.path
     time = tidied((X - x.subs(TIME, 0)) / diff(x, TIME))

@@ -221,7 +221,7 @@ def _sum(
 
 def _gathered(of: Sequence[tuple[Quantity, Expr]], moving: Sequence[Symbol], highest: Sequence[Symbol]) -> list[Form]:
     """Return the line "terms with highest rates = (c_1 + c_2 + ...) P" if all other terms are multiples of one
-    product P."""
+    product P; otherwise return an empty list."""
     with_rates, rest = [], []
     for equation, factor in of:
         number, moved = factor.as_independent(*moving, as_Add=False)

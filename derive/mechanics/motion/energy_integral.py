@@ -205,7 +205,8 @@ def _check_one_coordinate(energy: Quantity, value: Expr, q: Coordinate) -> None:
         )
         help_line = None
         if others:
-            help_line = f"with `put_in`, substitute the value of {others[0].name} or, from its momentum, of its rate"
+            other = others[0].name
+            help_line = f"with `put_in`, substitute the value of {other}, or the value of its rate from its momentum"
         raise Rejected(Complaint("wrong-argument", message, help=help_line))
 
 
@@ -352,7 +353,7 @@ def _written(value: Expr, amplitude: Symbol) -> Expr:
 def _by_quadrature(value: Expr, q: Symbol, amplitude: Symbol, found: Expr, order: int) -> Verdict:
     """Compare the series with the numerical integral at two amplitudes.
 
-    The relative difference must decrease faster than the last power of the amplitude.
+    The relative difference must decrease faster than the last power of the amplitude, or be only numerical noise.
     """
     from mpmath import mp
 

@@ -92,8 +92,9 @@ class Orbit:
 class InFlight(Fact):
     """The free motion of a particle or a body after it left a surface, or after its string went slack.
 
-    path           the components of the place of the particle as functions of the time since the departure, m; for a
-                   body, of its centre of mass
+    path           the components, in m, of the place of the particle, or of the centre of mass of the body, as
+    functions
+                   of the time since the departure
     matter         the mass points of the system and the forces on them, including the force of the lost constraint
     point          the mass that flies, at its place as a function of the coordinates
     noun           "particle" or "body"

@@ -62,8 +62,8 @@ class Motion:
         return value_at(most, there) - abs(value_at(F, there))
 
     def reaches(self, at: Expr, point: Mapping[Symbol, Expr]) -> bool:
-        """Whether the motion reaches the place: the squared rate is not negative at trial places on the way from the
-        start."""
+        """Whether the motion reaches the place: the place is in the range of the coordinate, and the squared rate is
+        not negative at trial places on the way from the start."""
         known, begin = range_of(self.q), value_at(self.start, point)
         if not at.is_real or known is not None and not (known.least <= at and at <= known.greatest):
             return False
@@ -112,7 +112,7 @@ def index_of_first(motion: Motion, places: Sequence[Expr]) -> int | None:
         seen.add(min(reached, key=lambda i, at=at, begin=begin: abs(at[i] - begin)) if reached else None)  # type: ignore[misc]
     found = seen - {None}
     if len(found) > 1:
-        message = "`slips`: the place where the body slips first depends on the values of the letters"
+        message = "`slips`: the place where the body slips first depends on the values of the symbols"
         raise Rejected(Complaint("no-condition", message, help="give numbers, or relations under `assume:`"))
     return next(iter(found)) if found else None
 
@@ -132,7 +132,7 @@ def sign_of_friction(motion: Motion, place: Expr) -> int:
         except (Undefined, NoNumber, TypeError):
             continue
     if len(signs) != 1:
-        message = "`slips`: the direction in which the body slips depends on the values of the letters"
+        message = "`slips`: the direction in which the body slips depends on the values of the symbols"
         raise Rejected(Complaint("no-condition", message, help="give numbers, or relations under `assume:`"))
     return signs.pop()
 
@@ -164,7 +164,8 @@ def is_never_reached(motion: Motion) -> Verdict:
 
 
 def unless_sure(condition: Relation | None) -> Relation | None:
-    """Return the condition; None if the condition is known to be always true."""
+    """Return the condition; None if it is known to be always true. Only a condition with exactly one square root is
+    examined."""
     if condition is None:
         return None
     more, less = condition.sides if condition.operator[0] == ">" else reversed(condition.sides)

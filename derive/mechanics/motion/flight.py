@@ -56,8 +56,8 @@ SOURCE = "Morin, *Introduction to Classical Mechanics*, sections 3.4 and 5.3"
 class Flyer:
     """The particle or the rigid body that flies.
 
-    part       the particle or the placed body; None for a particle of a Lagrangian without a description
-    point      its mass, at the place of its centre of mass
+    part       the particle or the placed body
+    point      the mass of the particle or body, at the place of its centre of mass
     frictions  the constraints that friction enforces at the contact until the contact is lost
     """
 
@@ -181,7 +181,8 @@ class Departure:
 
     @cached_property
     def held_rates(self) -> dict[Symbol, Expr]:
-        """The rates of all other coordinates of the flying body, expressed by the rate of `q`."""
+        """The rates that the constraint and rolling determine: zero for a constant coordinate; for a coordinate of the
+        rotation, the rate expressed by the rate of `q`."""
         still: dict[Symbol, Expr] = {rate(s): ZERO for s in self.held}
         for each in self.flyer.frictions:
             left = explicit(each.residual).xreplace({**self.held, **still})
@@ -301,7 +302,7 @@ def _departure(lost: Quantity, letter: Any) -> Departure:
     speed = ByEnergy.behind(lost.parents[0], letter_of(lost.value.left))
     if speed is None or not any(each.fact(ForceOf) for each in lost.ancestors()):
         message = f"`flight`: the speed is unknown, since `{lost.key}` was found without conservation of energy"
-        raise Rejected(Complaint("wrong-argument", message, help="put a result of `speed` in the force"))
+        raise Rejected(Complaint("wrong-argument", message, help="substitute a result of `speed` in the force"))
     found = Departure(lost, speed, None if letter is None else _checked_letter(letter, letter_of(lost.value.left)))
     assert found.flyer.point
     return found
@@ -365,7 +366,7 @@ def _why_it_is_not_free(departure: Departure, flyer: Flyer) -> str:
         return f"the {noun} has another constraint, or a support that moves"
     others = [each for each in matter.points if each != flyer.point]
     if any(explicit(c).free_symbols & own for each in others for c in each.place):
-        return f"the coordinates of the {noun} also move another body, or rotate it"
+        return f"the coordinates of the place of the {noun} also rotate the {noun}, or move another body"
     if departure.gravity == 0:
         return f"the {noun} has no weight"
     weight = (ZERO, -flyer.point.mass * departure.gravity)
@@ -645,9 +646,9 @@ def landing(flight: Sequence[Quantity], on: Surface | None = None, key: str = "l
     radius is t^3 (a t + b). The factor t^3 is due to the departure, where the particle is on the circle, moves along
     the circle, and needs no constraint force. If a t + b has no zero at a positive time, the particle does not meet the
     circle again.
-    Second route: the place satisfies the equation of the path without the time; the speed also follows from the
-    derivatives of the components. Check: at the end the particle is on the plane or the circle, and before the end it
-    is on the free side. Witness: the free flight of the described system is followed to the landing.
+    Second route: the place satisfies the equation of the path, which does not contain the time; the speed also follows
+    from the derivatives of the components. Check: at the end the particle is on the plane or the circle, and before the
+    end it is on the free side. Witness: the free flight of the described system is followed to the landing.
     Outcomes: on_plane, taut (the string becomes taut again), back (on the surface that the particle left), clear (the
     particle does not meet the circle again), misses (the particle does not reach the plane).
     Errors: the plane moves; a body that is not round flies; the particle may depart below the plane, or meet the circle

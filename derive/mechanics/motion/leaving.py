@@ -69,17 +69,17 @@ def leaves_contact(force: Quantity, letter: Letter, start: Value, key: str = "le
 
     force    the normal force, positive while it pushes, in N; or the tension of a string, positive while it pulls
     letter   the unknown: a coordinate, or a function of a coordinate such as `cos(theta)`
-    start    the value of the unknown at the start, where the force is positive
+    start    the value of the unknown at the start; the force must be positive at the start or just after it
 
-    The motion must reach the place. If the force depends on a squared rate, q_dot^2 = f(q) by conservation of energy, f
-    must be positive at the place. If the sign of f there depends on the symbols, the page states the condition f > 0.
+    If the force depends on a squared rate, q_dot^2 = f(q) by conservation of energy, the motion reaches the place only
+    if f is positive there. If the sign of f there depends on the symbols, the page states the condition f > 0.
     Factors of the force that are known to be positive, such as sin(theta) for 0 < theta < pi/2, are omitted.
     Check: the force is zero at the place and positive between the start and the place. Witness: the motion of the
     described system is followed from the start until the multiplier vanishes.
     Outcomes: lost; lost_later (the force is zero at the start, and positive just after it); never (the force is always
     positive); turns_back (the motion does not reach the place where the force would vanish);
     turns_there (the force vanishes only where the motion turns back). For a body that rolls without slipping, the
-    page states that it rolls until then.
+    page states that the body rolls until the contact is lost.
     Errors: static friction with a coefficient, because the body slips before the normal force vanishes; the force may
     have either sign, as on a rail; the force is not positive at the start, or not linear in the unknown; the motion may
     turn back before the place, or does not begin at `start`.

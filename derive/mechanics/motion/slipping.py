@@ -67,18 +67,19 @@ SLIPS = Rule(
 
 
 def slips(friction: Quantity, normal: Quantity, letter: Symbol | Expr, key: str = "slips") -> tuple[Quantity, ...]:
-    """Condition for static friction to suffice, |F| <= mu_s N, solved for one letter; or the place of the first slip.
+    """Condition for static friction to suffice, |F| <= mu_s N, solved for one symbol; or the place of the first slip.
 
     friction   the friction F of a contact with a coefficient mu_s of static friction, in newtons
     normal     the normal force N of the same contact in the same state, in newtons
-    letter     the unknown: a letter, or a function of a letter such as `tan(alpha)`
+    letter     the unknown: a symbol, or a function of a symbol such as `tan(alpha)`
 
-    Along a motion with conservation of energy, the letter may be the coordinate, or a function of the coordinate. The
+    Along a motion with conservation of energy, the unknown may be the coordinate, or a function of the coordinate. The
     result is then the first place with |F| = mu_s N that the motion reaches. In other cases the result is the condition
     |F| <= mu_s N. If the sign of F depends on the symbols, there is one condition for each direction of F, F <= mu_s N
     and -F <= mu_s N. The sentence states the direction of the slip if this direction is known.
-    Check: at random numbers, the result and |F| <= mu_s N are both true or both false. Along a motion, |F| < mu_s N
-    from the start to the place, and |F| > mu_s N just beyond the place. Witness: the motion of the described system.
+    Check: at random numbers, the result and the relation of F and mu_s N before it was solved are both true or both
+    false. Along a motion, |F| < mu_s N from the start to the place, and |F| > mu_s N just beyond the place. Witness:
+    the motion of the described system.
     Outcomes: sticks (the condition depends on the symbols), always (it is always true), cannot (it is never true);
     needs_none (F = 0); slips (the first place with |F| = mu_s N), slips_squared (the same, found after squaring),
     at_once (at the start |F| > mu_s N), stays (the motion reaches no place with |F| = mu_s N).
@@ -126,7 +127,8 @@ def _needs_none(contact: Friction, key: str) -> Quantity:
 
 
 def _condition(contact: Friction, unknown: Expr, side: int, key: str, alone: bool) -> Quantity:
-    """Return the condition for the body not to slip in one direction: side*F <= mu_s*N, where `side` is 1 or -1."""
+    """Return the condition for the body not to slip in one direction: side*F <= mu_s*N, where `side` is 1 or -1. If
+    this is known to be false, return side*F > mu_s*N instead."""
     excess = contact.excess(side)
     known = sign_for_all(excess)
     result = solved_for_limit(contact, side, "<=", unknown) if known is None else None

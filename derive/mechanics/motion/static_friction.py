@@ -27,7 +27,7 @@ POINTS = 40  # sets of numbers
 
 @dataclass(frozen=True)
 class Friction:
-    """The friction F and the normal force N of one contact, as functions of the same letters."""
+    """The friction F and the normal force N of one contact, and the limit of static friction."""
 
     friction: Quantity
     normal: Quantity

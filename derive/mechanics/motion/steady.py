@@ -190,7 +190,8 @@ def _condition(steady: Steady, q: Coordinate, motion: Mapping[Symbol, Expr], key
 
 
 def _rates_first(value: Expr, steady: Steady) -> Expr:
-    """Choose the sign so that the highest power of a rate has a positive coefficient."""
+    """Choose the sign so that the highest power of a rate has a positive coefficient. Only squares and higher powers
+    count; without them, the value is unchanged."""
     for letter in sorted({s for v in steady.rates.values() for s in v.free_symbols}, key=str):
         for each in Mul.make_args(value):
             polynomial = each.as_poly(letter)
@@ -225,7 +226,7 @@ NONE: Mapping[str, Expr] = MappingProxyType({})
     "the condition of a steady motion from the Lagrangian; `roots` solves this condition",
     of="steady: a Lagrangian",
     values="values: `{r: r_0}`",
-    symbols="symbol: letters of the cyclic rates",
+    symbols="symbol: symbols of the cyclic rates",
 )
 def _in_results(
     of: Quantity, key: str, coordinates: Mapping[str, Coordinate], values: Values = NONE, symbols: Symbols = ()

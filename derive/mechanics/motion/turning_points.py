@@ -122,8 +122,8 @@ def words_of(arrivals: Sequence[Arrival]) -> dict[str, str]:
 
 
 def _may_end(speed: Quantity) -> str:
-    """Return the condition that may end during the motion: contact with a surface that cannot pull, or a taut
-    string."""
+    """Return the word for what may end during the motion: "contact" with a surface that cannot pull, or "taut" for a
+    taut string; otherwise an empty text."""
     kept = [fact for each in speed.ancestors() if (fact := each.fact(Constrained)) is not None]
     enforcers = {each.enforcer for fact in kept for each in fact.constraints}
     return "contact" if "surface" in enforcers else "taut" if "string" in enforcers else ""

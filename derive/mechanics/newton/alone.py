@@ -140,7 +140,8 @@ class Alone:
 
     @cached_property
     def forces(self) -> tuple[Force, ...]:
-        """All forces and couples on this body, including its weight."""
+        """The forces and couples on this body, including its weight, without the forces that the coordinates
+        replace."""
         return tuple(force for force, on in _forces(self.system) if on is self.part)
 
 
@@ -249,8 +250,8 @@ def _forces(system: System) -> tuple[tuple[Force, Any], ...]:
 
 
 def _on_its_body(load: Load | Reaction, system: System) -> list[tuple[Force, Any]]:
-    """The force with the particle or body on which it acts, as the only item of a list; an empty list for a force on
-    the ground."""
+    """The force with the particle or body on which it acts, as the only item of a list. The list is empty for a force
+    on a fixed place, such as the ground, and for a couple that does no work."""
     works = {q: load.work_along(q) for q in system.coordinates}
     if isinstance(load, Reaction) or len(load.place) == 1:
         return [_couple(load, works, system)] if any(not is_zero(work) for work in works.values()) else []

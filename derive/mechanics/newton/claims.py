@@ -173,9 +173,9 @@ def no_constraint_force(facts: Judged) -> bool:
 
 
 def constraint_forces_do_no_work(facts: Judged) -> bool:
-    """Whether constraint forces act, and each condition on the velocities is linear in the rates of the coordinates,
-    without other terms and without the time. The force of a constraint then has no power for any velocities that this
-    constraint allows."""
+    """Whether constraint forces act, and each condition on the velocities is satisfied at rest and does not contain the
+    time. If such a condition is linear in the rates, the force of this constraint has no power for any velocities that
+    the constraint allows."""
     still = dict.fromkeys(facts.inputs["rates"], Integer(0))
     conditions = [explicit(each) for each in facts.inputs["velocities"]]
     homogeneous = all(is_zero(each.xreplace(still)) and not depends_on_time(each) for each in conditions)

@@ -37,8 +37,8 @@ class Direction:
 
 
 def direction_of(body: Alone, way: Vector) -> Direction:
-    """Return the word for a unit vector: along an axis, along a slope or away from it, away from a centre, or along a
-    tangent; otherwise the direction in which the coordinate increases."""
+    """Return the direction of a unit vector in words: along an axis, along a slope or away from it, away from a centre,
+    or along a tangent; otherwise the direction in which the coordinate increases."""
     if way in AXES:
         return Direction(AXES[way])
     if is_fixed(way):

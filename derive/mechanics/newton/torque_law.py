@@ -78,8 +78,9 @@ def torque_law(
     q        a coordinate that rotates one body
     about    "contact" for a point of contact; the angular momentum about this point also has the term M r x v of the
              centre of mass. By default, the point is the fixed axis of the body, or else its centre of mass
-    at_rest  whether the system is at rest, so that the torques add up to zero. Among the points about which the
-             coordinates let only this body rotate, the point with the most unknown forces is then chosen
+    at_rest  whether the system is at rest, so that the torques add up to zero. The torques are then about the point
+    with
+             the most unknown forces, if the coordinates let only this body rotate about such a point
 
     Second route: Lagrange's equations, for a rotation in which only this body moves.
     Outcomes: as `second_law`.

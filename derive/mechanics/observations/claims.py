@@ -1,6 +1,6 @@
 """Predicates of observations.
 
-Most of them compare numbers at trial points. They evaluate the answer and, where possible, the first line of its
+Most of them compare numbers at trial points. Some of them evaluate not only the answer but also the first line of its
 derivation, which is not yet simplified.
 """
 
@@ -182,7 +182,8 @@ def rate_on_the_circle(facts: Judged, told: Any) -> bool:
 
 
 def ratio_of_modes(rational: bool) -> Predicate:
-    """Judge whether the ratio of two frequencies is a rational number if and only if `rational` is true."""
+    """Judge whether the result is the ratio of two frequencies, and is a rational number if and only if `rational` is
+    true. With more than two coordinates, `rational=True` is never accepted."""
 
     def is_so(facts: Judged) -> bool:
         slow, fast = (facts.quantities[role] for role in ("slow", "fast"))
@@ -246,7 +247,8 @@ def all_frequencies_are_equal(facts: Judged) -> bool:
 
 
 def isochronous(facts: Judged) -> bool:
-    """Whether d^2U/ds^2 = omega^2 at all trial points, where T = mu q_dot^2/2 and ds = sqrt(mu) dq.
+    """Whether mu depends on q, and d^2U/ds^2 = omega^2 at all trial points, where T = mu q_dot^2/2 and ds = sqrt(mu)
+    dq.
 
     The derivatives are difference quotients of the energies.
     """
@@ -334,7 +336,7 @@ def _may_vary(letter: Symbol, point: Point) -> Point:
 
 
 def is_free_of(facts: Judged, letter: Symbol) -> bool:
-    """Whether the answer does not depend on the symbol, although an equation that leads to the answer does."""
+    """Whether the answer does not depend on the symbol, although a line of a step that leads to the answer does."""
     of = facts.quantities["of"]
     value = explicit(of.value.right if isinstance(of.value, Relation) else of.value)
     points = numbers([value, letter])
@@ -404,8 +406,8 @@ def is_in_the_result(facts: Judged, told: Any) -> bool:
 
 
 def grows_without_bound_there(facts: Judged) -> bool:
-    """Whether the amplitude exceeds every bound near the stated value of the symbol, where the free oscillation has the
-    same angular frequency."""
+    """Whether the amplitude grows strongly as the symbol approaches the stated value, and this value is the angular
+    frequency of the free oscillation."""
     of, place, square = facts.quantities["of"], facts.result, facts.inputs["square"]
 
     def is_so(point: Point) -> bool:
@@ -419,8 +421,8 @@ def grows_without_bound_there(facts: Judged) -> bool:
 
 
 def branches_off(facts: Judged) -> bool:
-    """Whether an equilibrium is stable if and only if two others do not exist, and the two others are stable where
-    they exist.
+    """Whether, just below the stated value of the symbol, an equilibrium is stable and two others do not exist, and
+    just above this value the equilibrium is unstable and the two others are stable.
     """
     curvature, beside = (explicit(facts.quantities[role].value) for role in ("of", "beside"))
     cosine, border = facts.inputs["cosine"], facts.result
@@ -509,7 +511,7 @@ def free_fall(facts: Judged) -> bool:
 
 
 def slides_freely(facts: Judged) -> bool:
-    """Whether the familiar acceleration is g sin(alpha)."""
+    """Whether the acceleration is the stated fraction of g sin(alpha)."""
     familiar, g, alpha = (facts.inputs[role] for role in ("familiar", "g", "alpha"))
     return is_fraction_of_the_familiar(facts) and familiar == g * sin(alpha)
 
@@ -670,8 +672,8 @@ def is_the_squared_length(facts: Judged, told: Relation) -> bool:
 
 
 def holds_everywhere(facts: Judged) -> bool:
-    """Whether the condition of equilibrium holds at every position for the stated value, but not for twice
-    this value."""
+    """Whether the condition of equilibrium holds at all positions tried for the stated value, but not for twice this
+    value."""
     place, condition = facts.result, explicit(facts.quantities["of"].value.residual)
 
     def is_so(point: Point) -> bool:
@@ -683,8 +685,8 @@ def holds_everywhere(facts: Judged) -> bool:
 
 
 def has_one_sign(facts: Judged) -> bool:
-    """Whether the sign of the force is the same for all values of the coordinate, but depends on the values of the
-    given symbols."""
+    """Whether the sign of the force is the same for all values of the coordinate that are tried, but depends on the
+    values of the given symbols."""
     of, q = explicit(facts.quantities["of"].value), facts.inputs["q"]
     seen = set()
     if not _is_constant(of.xreplace({q: Integer(1)}), facts.quantities["of"]):

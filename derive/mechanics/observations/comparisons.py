@@ -30,7 +30,8 @@ MULTIPLE = Rule(
 
 
 def multiple(view: View) -> Observed:
-    """Two velocities among the answers of one part, if their ratio is a rational number other than 1 and -1."""
+    """Two velocities or angular velocities among the answers of one part, if their ratio is a rational number other
+    than 1 and -1."""
     found = [q for q in view.values() if _is_rate(q) and not is_zero(q.value)]
     for pair in combinations(found, 2):
         ratios = [tidied(explicit(of.value) / explicit(other.value)) for of, other in (pair, pair[::-1])]
@@ -42,8 +43,8 @@ def multiple(view: View) -> Observed:
 
 
 def _is_rate(q: Quantity) -> bool:
-    """Whether an answer is a velocity, or a combination of answers with at least one velocity; frequencies of
-    vibrations do not count."""
+    """Whether an answer is a velocity or an angular velocity, or a combination of answers with at least one of these;
+    frequencies of vibrations do not count."""
     adds_rates = q.step.rule == "answers.combination" and any(parent.step.kind in RATES for parent in q.parents)
     return (q.step.kind in RATES or adds_rates) and q.step.rule.partition(".")[0] != "vibrations"
 
@@ -198,7 +199,8 @@ def springs_with(of: Quantity, letter: Symbol) -> int:
 
 
 def _reason(linear: Linear, letter: Symbol, kind: str) -> tuple[str, dict[str, Any]]:
-    """Return the outcome and its data."""
+    """Return the outcome and its data. The outcome is empty for a symbol that is neither a spring constant nor the mass
+    of a single coordinate."""
     at = [i for i in range(linear.mass.shape[0]) if letter in linear.mass[i, i].free_symbols]
     if kind == "spring constant" and letter in linear.stiffness.free_symbols:
         return "spring", {"stiffness": linear.stiffness}

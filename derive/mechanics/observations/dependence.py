@@ -282,7 +282,7 @@ def _zero(of: Quantity, place: Relation, outcome: str) -> Quantity:
 
 BRANCHES = Rule(
     "observations.branches",
-    source="Taylor, *Classical Mechanics*, section 7.6; Strogatz, *Nonlinear Dynamics and Chaos*, section 3.5",
+    source="Taylor, *Classical Mechanics*, example 7.6; Strogatz, *Nonlinear Dynamics and Chaos*, section 3.5",
     outcomes={"generic": claims.branches_off},
     evidence={"both_vanish": CHECK, TRIALS: CHECK},
     named={"border": claims.is_the_result},

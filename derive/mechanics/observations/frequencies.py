@@ -197,7 +197,7 @@ def _orbit(of: Quantity, there: Expr, told: Any, step: Quantity, square: Expr) -
 
 
 def _closing(square: Expr, wanted: int) -> Relation | None:
-    """Return the value of a symbol for which the squared ratio is `wanted`; None if no symbol can have such a value."""
+    """Return the value of a symbol for which the squared ratio is `wanted`; None if no such value is found."""
     for letter in sorted(square.free_symbols, key=str):
         found = solved_for_letter(square - wanted, letter)
         if found is not None and not (letter.is_positive and sign_for_all(found) != 1):
@@ -288,7 +288,7 @@ def _one_frequency(of: Quantity, step: Quantity) -> Quantity:
 
 EXACT = Rule(
     "observations.exact",
-    source="Landau, Lifshitz, *Mechanics*, section 11, problem 2",
+    source="Landau, Lifshitz, *Mechanics*, section 21, problem 5",
     outcomes={"generic": claims.isochronous},
     evidence={"harmonic": CHECK},
     named={"path": claims.is_the_length_along_the_path, "harmonic": claims.is_harmonic_along_the_path},

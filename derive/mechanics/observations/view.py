@@ -1,7 +1,6 @@
 """The part of a page that an observation is about, and the common form of the steps of observations.
 
 An observation is a step without lines of its own. The predicate in its rule decides whether the observation is true.
-The sentence of the observation names the answer that it is about.
 """
 
 from __future__ import annotations

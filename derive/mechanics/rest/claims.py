@@ -221,7 +221,7 @@ def always(sign: int) -> Predicate:
 
 
 def runs_away(facts: Judged) -> bool:
-    """Whether some displacement grows for all trial numbers for which the energy falls in some direction.
+    """Whether, for all trial numbers for which the energy falls in some direction, some displacement grows.
 
     This must be checked because gyroscopic forces could stabilise the equilibrium. If the mass points and forces are
     unknown, the result is true.
@@ -523,8 +523,8 @@ def _there_on_constraints(facts: Judged) -> dict[Any, Any]:
 
 
 def on_the_constraints(facts: Judged, named: Any) -> bool:
-    """Whether the named expression is the list of the coordinates, an equation with their equilibrium values, or a
-    constraint."""
+    """Whether the equilibrium satisfies all constraints, and the named expression is the list of the coordinates, an
+    equation with their equilibrium values, or a constraint."""
     there = _there_on_constraints(facts)
     kept = all(is_zero(explicit(residual).xreplace(there)) for residual in facts.inputs["constraints"])
     if not isinstance(named, Relation):

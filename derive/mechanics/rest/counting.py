@@ -34,7 +34,7 @@ def is_countable(sought: Sequence[Symbol]) -> bool:
 def signs_counted(
     potential: Quantity, q: Symbol, states: Sequence[tuple[Expr, Relation | None]], found: Expr
 ) -> Verdict:
-    """Check, for a few sets of numbers, that the force vanishes with a change of sign once for each equilibrium.
+    """Check, for a few sets of numbers, that the force has as many zeros with a change of sign as there are equilibria.
 
     states   the value of each equilibrium with the condition under which the equilibrium exists
     found    the value of the equilibrium that is checked; it must be among the states

@@ -152,7 +152,7 @@ def equilibria(of: Quantity, *coordinates: Coordinate) -> tuple[Quantity, ...]:
     coordinates   the unknowns; by default all coordinates that the energy depends on
 
     Angles are between -pi and pi. A coordinate that is declared positive stays positive, and a coordinate with a range
-    stays in this range. A coordinate that no force depends on may have any value.
+    stays in this range. If the forces vanish for every value of a coordinate, this coordinate has no stated value.
     Keys: condition_x for the equilibrium condition of the coordinate x; for the equilibria, rest_1, rest_2, ..., or
     `rest` if there is only one.
     Second route: the virtual work of forces and inertia at the equilibrium. For one coordinate, the zeros of the force
@@ -162,7 +162,7 @@ def equilibria(of: Quantity, *coordinates: Coordinate) -> tuple[Quantity, ...]:
     Errors: a zero of the force has no closed form; there is no equilibrium; the symbols leave open whether an
     equilibrium is in the given range; the energy contains the time; a constraint between the coordinates is maintained
     by a force; the coordinates are singular at an equilibrium.
-    Source: Taylor, *Classical Mechanics*, sections 4.6 and 7.6.
+    Source: Taylor, *Classical Mechanics*, section 4.6 and example 7.6.
     """
     require_kind("equilibria", "of", of, "energy")
     if depends_on_time(of.value):
@@ -292,7 +292,8 @@ def _with_zero(
 
 
 def _linear(forces: Sequence[Expr], unknown: Sequence[Symbol], state: State) -> State | None:
-    """Return the unique solution of linear forces; None if a force is not linear, or the solution may not be unique."""
+    """Return the unique solution of linear forces for several coordinates; None if a force is not linear, if the
+    numbers of forces and of coordinates differ, or if the solution may not be unique."""
     held = [q for q in unknown if any(force.has(q) for force in forces)]
     if len(held) < 2 or len(held) != len(forces):
         return None
@@ -309,7 +310,7 @@ def _linear(forces: Sequence[Expr], unknown: Sequence[Symbol], state: State) -> 
 
 CONDITION = Rule(
     "rest.condition",
-    source="Taylor, *Classical Mechanics*, sections 4.6 and 7.6",
+    source="Taylor, *Classical Mechanics*, section 4.6 and example 7.6",
     outcomes={"generic": claims.condition_generic, "zero": claims.condition_zero},
     evidence={"virtual_work": ROUTE, "given_virtual_work": ROUTE},
     statements=[claims.steady_as_its_potential],
@@ -418,7 +419,7 @@ def _by_terms_if_shorter(value: Expr) -> Expr:
 
 EQUILIBRIUM = Rule(
     "rest.equilibrium",
-    source="Taylor, *Classical Mechanics*, sections 4.6 and 7.6",
+    source="Taylor, *Classical Mechanics*, section 4.6 and example 7.6",
     outcomes={
         "only": claims.equilibrium_only,
         "always": claims.both(

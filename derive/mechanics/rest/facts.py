@@ -64,7 +64,7 @@ class StableWhere(Fact):
 
     energy         the potential energy, J
     place          the equilibrium value of the coordinate
-    border         a symbol and its value on the boundary of the condition; None if no order decides on the boundary
+    border         a symbol and its value on the boundary of the condition; None if no higher order decides there
     stable_there   whether the equilibrium is stable on the boundary, where a higher order decides; None if no order
                    decides
     """

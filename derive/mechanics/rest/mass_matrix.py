@@ -70,8 +70,9 @@ def _may_be_singular(matrix: MatrixBase) -> bool:
 def has_positive_inertia(matter: Matter, place: Mapping[Symbol, Expr]) -> bool:
     """Whether the kinetic energy is positive for every motion through the given values of the coordinates.
 
-    The kinetic energy of a `System` is always positive, because its masses are positive. For a given Lagrangian the
-    sign may depend on the symbols; then the kinetic energy is taken to be positive, and the page states this condition.
+    The kinetic energy of a `System` is taken to be positive, because its masses are positive. For a given Lagrangian
+    the sign may depend on the symbols; then the kinetic energy is taken to be positive, and the page states this
+    condition.
     """
     if not isinstance(matter, Varied):
         return True

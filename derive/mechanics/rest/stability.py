@@ -45,6 +45,10 @@ HIGHEST = 8  # the highest order that is tried on a boundary
 FEW = 5  # largest number of coordinates for which all directions with entries 0, 1 and -1 are tried
 SHORT = 80  # largest number of operations in a curvature that is shown before the equilibrium is substituted
 ZERO = Integer(0)
+SOURCE = (
+    "Taylor, *Classical Mechanics*, section 4.6 and example 7.6; Goldstein, Poole, Safko, *Classical Mechanics*, "
+    "section 6.1"
+)
 BY_FIRST_ORDER = Spelled(
     "decide with the equations of motion to first order: `linear_stability(linearised(motion))`", "ask for `linearised`"
 )
@@ -83,11 +87,11 @@ def stability(
 
     of       the potential energy, an effective potential energy, or the Lagrangian, J
     at       the equilibrium: as `equilibria` yields it, or `{theta: 0}`
-    letter   the symbol that a condition is solved for; by default the symbol that occurs as a square, if there is
-             exactly one such symbol
+    letter   the symbol that a condition is solved for, if possible; by default the symbol that occurs as a square, if
+             there is exactly one such symbol
 
     Second route: the restoring force for a small displacement, from virtual work if mass points and forces are known.
-    For several coordinates, the energy of a small displacement in an arbitrary direction.
+    Check for several coordinates: the energy of a small displacement in an arbitrary direction.
     Outcomes: stable, unstable, depends (on the stated condition), depends_stable_on_border,
     depends_unstable_on_border, stable_by_higher_order, unstable_by_higher_order, flat (no order up to the eighth
     decides); for several coordinates also: unstable_along (the energy falls in a stated direction), level (to second
@@ -95,7 +99,8 @@ def stability(
     Errors: a force remains at the equilibrium; coordinates are missing; the kinetic energy may be negative; the energy
     has no minimum, but forces linear in the rates may still stabilise the equilibrium, as in a rotating frame or a
     magnetic field.
-    Source: Taylor, *Classical Mechanics*, sections 4.6 and 7.6; Goldstein, Poole, Safko, *Classical Mechanics*, 6.1.
+    Source: Taylor, *Classical Mechanics*, section 4.6 and example 7.6; Goldstein, Poole, Safko, *Classical Mechanics*,
+    section 6.1.
     """
     require_kind("stability", "of", of, "energy")
     held = constraints_of(of)
@@ -167,7 +172,7 @@ def _check_level(place: Place) -> None:
 
 STABILITY = Rule(
     "rest.stability",
-    source="Taylor, *Classical Mechanics*, sections 4.6 and 7.6; Goldstein, Poole, Safko, *Classical Mechanics*, 6.1",
+    source=SOURCE,
     outcomes={
         "stable": claims.both(claims.always(1), claims.kinetic_energy_is_positive),
         "unstable": claims.both(claims.always(-1), claims.runs_away),
@@ -290,7 +295,8 @@ def _judged(place: Place, value: Expr, letter: Expr | None) -> tuple[str, Relati
 
 
 def _order(energy: Expr, place: Place) -> int:
-    """Return the lowest order, from the second on, that does not vanish at the equilibrium; 0 if there is none."""
+    """Return the lowest order, from the second to the eighth, that does not vanish at the equilibrium; 0 if all
+    vanish."""
     (q,) = place.coordinates
     terms = series_along(energy, {q: place.values[q]}, {q: Integer(1)}, HIGHEST)
     return next((n for n in range(2, HIGHEST + 1) if not is_zero(terms[n])), 0)
@@ -325,7 +331,7 @@ def _small_force(place: Place, q: Symbol) -> Expr:
 
 STABILITY_OF_SEVERAL = Rule(
     "rest.stability_of_several",
-    source="Taylor, *Classical Mechanics*, sections 4.6 and 7.6; Goldstein, Poole, Safko, *Classical Mechanics*, 6.1",
+    source=SOURCE,
     outcomes={
         "stable": claims.both(claims.always(1), claims.kinetic_energy_is_positive),
         "unstable": claims.both(claims.always(-1), claims.runs_away),

@@ -40,12 +40,14 @@ STABLE_WHERE = Rule(
 
 
 def stable_where(of: Quantity, key: str = "condition_of_stability") -> Quantity:
-    """Condition under which an equilibrium is stable: S > S_0, or S >= S_0 if S = S_0 is known to be stable.
+    """Condition under which an equilibrium is stable: S > S_0, or S >= S_0 if S = S_0 is known to be stable; or the
+    same with < and <=.
 
     of   a result of `stability` that depends on a condition on the symbols
 
-    Check: above and below the boundary, the condition holds if and only if the second derivative is positive.
-    Numerically, the energy has a minimum at the equilibrium if and only if the condition holds.
+    Check: numerically, the energy has a minimum at the equilibrium if and only if the condition holds. If a higher
+    order decides on the boundary, the condition is also compared, above and below the boundary, with the sign of the
+    second derivative.
     Outcomes: with_border, without_border, open (no order decides at the boundary).
     Errors: the stability does not depend on a condition, or depends on a condition for several coordinates.
     Source: Taylor, *Classical Mechanics*, section 4.6.

@@ -139,7 +139,8 @@ def characteristic_equation(facts: Judged, equation: Any) -> bool:
 
 
 def axis_of(different: int, alone: bool | None = None) -> Predicate:
-    """Judge whether the number of distinct moments is `different`."""
+    """Judge whether the number of distinct moments is `different`. If `alone` is given, also judge whether the moment
+    of this axis differs from all others if and only if `alone` is true."""
 
     def is_so(facts: Judged) -> bool:
         moments, k = facts.inputs["moments"], int(facts.symbol.name[-1]) - 1
@@ -159,7 +160,8 @@ def moments_compared(wanted: str) -> Predicate:
 
     With `wanted="always"`, all moments must be equal. With `wanted="never"`, they must not be equal for any values of
     the symbols: every difference that is not identically zero has a fixed sign, and there is at least one such
-    difference.
+    difference. With any other word, the moments must be equal for the value of a symbol that the result states, and
+    neither "always" nor "never" may be true.
     """
 
     def is_so(facts: Judged) -> bool:
@@ -242,7 +244,8 @@ def across(facts: Judged) -> Any:
 
 
 def turns(wanted: str) -> Predicate:
-    """Judge whether the component of the result along the axis is known to be negative, for the word "left"."""
+    """Judge whether the word is "left" if and only if the component of the result along the axis is known to be
+    negative."""
 
     def is_so(facts: Judged) -> bool:
         along = tidied(explicit(Dot(facts.result, facts.inputs["axis"])))
@@ -252,7 +255,8 @@ def turns(wanted: str) -> Predicate:
 
 
 def cosine_is(wanted: int | None, of: Callable[[Any], Any] = lambda cosine: cosine) -> Predicate:
-    """Judge whether the cosine is `wanted`: 1 (parallel), -1 (opposite) or 0 (perpendicular)."""
+    """Judge whether the cosine is `wanted`: 1 (parallel), -1 (opposite), 0 (perpendicular), or None for any other
+    value."""
 
     def is_so(facts: Judged) -> bool:
         cosine = of(facts.result)
@@ -270,8 +274,9 @@ def rotation_cos(angle: Expr) -> Expr:
 
 
 def rate_is(in_space: bool | None, in_body: bool | None) -> Predicate:
-    """Judge whether the rate in space vanishes if and only if `in_space` is true. The rate in the body must vanish if
-    and only if `in_body` is true."""
+    """Judge whether the rate in space vanishes if and only if `in_space` is true, and the rate in the body vanishes if
+    and only if `in_body` is true. With `in_body=None`, the rate in the body may have any value. If this rate is
+    unknown, `in_space` must be None."""
 
     def is_so(facts: Judged) -> bool:
         seen = facts.inputs.get("in_body")
@@ -391,7 +396,8 @@ def _sign(value: Expr) -> int | None:
 
 def order_is(wanted: str) -> Predicate:
     """Judge whether the moment about the axis compares with the other two as `wanted` states: "greatest", "least",
-    between them ("unstable"), or equal to one of them ("marginal")."""
+    between them ("unstable"), equal to one of them ("marginal"), different from two equal ones ("symmetric"), or
+    dependent on the symbols ("conditional")."""
 
     def is_so(facts: Judged) -> bool:
         moments, axis = list(facts.inputs["moments"]), int(facts.inputs["axis_index"])
@@ -467,7 +473,8 @@ def inward_or_outward(facts: Judged, outcome: str) -> bool:
 
 def names_the_axis_of_the_whole(facts: Judged, outcome: str) -> bool:
     """Whether the axis of the whole body that the sentence names is the index of the symbol, as in I_z, and is parallel
-    to the axis of the part."""
+    to the axis of the part. If there is no parallel axis, or if the moment is not the moment of a part, the sentence
+    must not name one."""
     seen, whole, turn = facts.words.get("seen"), facts.words.get("whole"), facts.inputs.get("turn")
     if turn is None:
         in_its_way = seen != "mapped" or not facts.subject.body.is_of_particles

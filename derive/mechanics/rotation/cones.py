@@ -96,7 +96,7 @@ def axis_number(inertia: Quantity) -> int:
     found = [k for k in range(3) if is_zero(moments[(k + 1) % 3, (k + 1) % 3] - moments[(k + 2) % 3, (k + 2) % 3])]
     if len(found) != 1:
         how = "all three are equal" if found else "all three differ"
-        message = f"one axis of symmetry needs two equal principal moments, but {how}"
+        message = f"one axis of symmetry needs exactly two equal principal moments, but {how}"
         raise Rejected(Complaint("no-symmetry", message))
     return found[0]
 

@@ -236,7 +236,7 @@ def quoted(body: Body, about: str, axis: str) -> dict[str, str]:
 
 
 def pairs_left_by_symmetry(body: Body, point: Point) -> tuple[Pair, ...]:
-    """Return the entries to integrate.
+    """Return the entries that need steps of their own; the other entries follow from the symmetry of the body.
 
     For a round body about a point on its axis, I_yy = I_xx and the products vanish. The products also vanish if, for
     each axis, the plane through the point and normal to this axis is a mirror plane of the body.

@@ -44,7 +44,7 @@ __all__ = ["principal_axes", "principal_moments"]
 class PrincipalOf(Fact):
     """The tensor from which principal moments were derived."""
 
-    missing = "is not the principal moments of a tensor"
+    missing = "is not a result of `principal_moments`"
     tensor: Quantity
 
 

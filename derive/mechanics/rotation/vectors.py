@@ -304,7 +304,8 @@ def kinetic_energy(
 def _energy_by_components(inertia: Any, omega: Any) -> list[Form]:
     """Return a list with the kinetic energy as an explicit sum, (1/2) w^2/14 (M a^2/12) (13 1^2 + 10 2^2 + 5 3^2).
 
-    The list is empty unless the axes are principal axes with moments that are not all equal.
+    The list is empty unless the axes are principal axes with moments that are not all equal, the angular velocity is
+    not along one of these axes, and the ratios of all moments and of all components are numbers.
     """
     (w, along), (I, moments) = size_and_rest(omega), factored_matrix(inertia)
     terms = [Factors(moment, n**2) for moment, n in zip(moments.diagonal(), along, strict=True) if n != 0]
@@ -415,7 +416,7 @@ def cosine_between(a: Quantity, b: Quantity, key: str = "cosine", angle: str = "
 
 
 def _angle_by_components(u: Any, v: Any) -> Expr:
-    """Return the angle from u to v in their plane."""
+    """Return the angle between u and v, from 0 to pi."""
     across, along = tidied(Norm(Cross(u, v))), tidied(Dot(u, v))
     return atan2(across, along)
 

@@ -110,9 +110,10 @@ def frequency_squared_about(
 
     of        a potential energy, an effective potential energy, or a Lagrangian, J
     at        an equilibrium of `of`, as `equilibria` yields it; or, for an effective potential energy, the condition of
-    a steady motion of the same Lagrangian, as `steady_motion` yields it
+              a steady motion of the same Lagrangian, as `steady_motion` yields it
     without   the symbol to eliminate with the condition of the steady motion; by default the symbol whose elimination
-    gives the shortest result
+              gives the shortest result
+
     During the oscillation, the momenta of the cyclic coordinates have the values of the steady motion.
     Second route: d'Alembert's principle gives equations for all coordinates, including the cyclic ones. To first order
     in the displacements, the determinant of these equations vanishes for oscillations of this frequency.

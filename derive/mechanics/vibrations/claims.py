@@ -126,7 +126,8 @@ def is_driving_term(changes: bool) -> Naming:
 
 
 def constants_as_told(facts: Judged, outcome: str) -> bool:
-    """Whether the general motion becomes the result if the constants have the values that the sentence states."""
+    """Whether the general motion becomes the result if the constants have the values that the sentence states; true if
+    no step derives a general motion."""
     if "general" not in facts.quantities:
         return True
     values = {told.left: told.right for told in (facts.inputs["first"], facts.inputs["second"])}
@@ -463,7 +464,7 @@ def oscillates_by_itself(facts: Judged, displacement: Any) -> bool:
 
 
 def uncoupled_as_told(facts: Judged, outcome: str) -> bool:
-    """Whether the word for the coupling is right."""
+    """Whether the word for the coupling is correct, and the sentence names the equations of these coordinates."""
     coupling, own = facts.words["coupling"], list(facts.inputs["own"])
     every = range(Matrix(facts.inputs["mass"]).shape[0])
     if (coupling != "others") != all(_is_uncoupled(facts, i) for i in every):
@@ -552,7 +553,8 @@ def modes_linear(displaced: bool, lossy: bool | None, driven: bool) -> Predicate
 
 
 def drifts_as_told(facts: Judged, outcome: str) -> bool:
-    """If the sentence says that no force acts to any order: whether a uniform motion satisfies the equations."""
+    """Whether a uniform motion satisfies the equations; true if the sentence does not say that no force acts to any
+    order."""
     if "drift" not in facts.inputs:
         return True
     points = trial_points(set().union(*map(letters_of, facts.inputs["left"])))
@@ -560,8 +562,8 @@ def drifts_as_told(facts: Judged, outcome: str) -> bool:
 
 
 def _of_square(sign: int | None, of: Callable[[Judged], Expr] = lambda facts: facts.inputs["squared"]) -> Predicate:
-    """Judge whether an expression has the sign `sign`. Numbers for which the equilibrium exists decide between 1 and
-    -1. The assumptions and ranges of the symbols decide whether the sign is 0, or unknown (None)."""
+    """Judge whether an expression has the sign `sign`; None stands for an unknown sign. The signs 1 and -1 are tested
+    with numbers for which the equilibrium exists, and 0 and None with the assumptions and ranges of the symbols."""
     return sign_where_it_exists(sign, of) if sign else always_sign(sign, of)
 
 
@@ -744,7 +746,7 @@ def starts_as_all_are_told(facts: Judged, outcome: str) -> bool:
 
 
 def taken_out_by_its_condition(facts: Judged, outcome: str) -> bool:
-    """Whether the condition holds with the stated value of the eliminated symbol."""
+    """Whether the condition holds with the stated value of the eliminated symbol; true if no symbol is eliminated."""
     told, where = facts.inputs.get("taken_out"), facts.quantities["where"].value
     if told is None or not isinstance(where, Relation):
         return True

@@ -1,7 +1,7 @@
 """Small motions with drag: the exponents s of eta = a e^(s t), if the determinant det(M s^2 + C s + K) factors.
 
-A factor a s^2 + b s + c belongs to one damped oscillator, with the decay rate b/2a and the frequency
-sqrt(c/a - b^2/4a^2). A factor a s + b belongs to a displacement that decays at the rate b/a; if b/a is
+A factor a s^2 + b s + c belongs to one damped oscillator, with the decay rate b/(2 a) and the frequency
+sqrt(c/a - b^2/(4 a^2)). A factor a s + b belongs to a displacement that decays at the rate b/a; if b/a is
 negative, the displacement grows.
 """
 
@@ -181,6 +181,7 @@ DAMPED_FREQUENCY = Rule(
 
 def _frequency(equations: DampedModes, own: Quantity, root: CharacteristicRoot, number: str) -> Quantity:
     """Frequency of a damped oscillation, sqrt(omega_0^2 - beta^2).
+
     Outcomes: oscillating, conditional, overdamped (the result is half the difference of the two decay rates).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.5; Landau, Lifshitz, *Mechanics*, section 25.
     """

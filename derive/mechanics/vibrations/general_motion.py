@@ -368,7 +368,7 @@ def _of_motion(sought: Sought, constants: tuple[Symbol, Symbol], parents: Sequen
 
 
 def _kinds_of_constants(sought: Sought, constants: tuple[Symbol, Symbol]) -> Mapping[Symbol, str]:
-    """Return the kinds of the constants; in (A + B t) e^(-b t/2a) the constant B has the kind of a rate."""
+    """Return the kinds of the constants; in (A + B t) e^(-b t/(2 a)) the constant B has the kind of a rate."""
     own = sought.q.kind
     rate = kind_of_dimension(dimension_of_kind(own) / dimension_of_kind("time"))
     return dict(zip(constants, (own, (rate or "") if sought.sort == "critically_damped" else own), strict=True))

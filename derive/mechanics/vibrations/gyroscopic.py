@@ -315,8 +315,8 @@ def linear_stability(
     positive and distinct.
 
     linear   all equations of the system, as `linearised` yields them
-    letter   the symbol that a condition is solved for; by default the symbol that occurs as a square, if there is
-             exactly one such symbol
+    letter   the symbol that a condition is solved for, if possible; by default the symbol that occurs as a square, if
+             there is exactly one such symbol
 
     Gyroscopic forces, which are linear in the rates, may stabilise an equilibrium that is not a minimum of the
     potential energy. If only gyroscopic forces stabilise an equilibrium, drag on every coordinate makes the

@@ -25,10 +25,11 @@ OF_SIGN = {1: "oscillating", -1: "growing", 0: "free", None: "conditional"}  # s
 
 @dataclass(frozen=True)
 class Equations(Generic[Kind]):
-    """Linear equations of coordinates that are coupled to each other, and the linear system of these equations.
+    """Linear equations of a group of coordinates that are not coupled to coordinates outside the group, and the linear
+    system of these equations.
 
     every     the equations of the whole system
-    block     the indices of the coupled coordinates
+    block     the indices of the coordinates of the group
     letter    the symbol of the unknown in the characteristic equation
     start     the beginning of all keys
     before    the count of the modes of other coordinates that come first in the numbering
@@ -45,7 +46,7 @@ class Equations(Generic[Kind]):
 
     @property
     def linear(self) -> list[Quantity]:
-        """The equations of the coupled coordinates."""
+        """The equations of the group."""
         return [self.every[i] for i in self.block]
 
     @property
@@ -66,7 +67,7 @@ class Equations(Generic[Kind]):
         return {} if self.is_whole else {f"equation_{n}": each for n, each in enumerate(self.linear, 1)}
 
     def with_motion(self, motion: Sequence[Expr]) -> list[Expr]:
-        """Substitute a motion of the coupled coordinates into their equations, and return the residuals."""
+        """Substitute a motion of the coordinates of the group into their equations, and return the residuals."""
         return with_motion(self.linear, self.together, motion)
 
     def factors_of_amplitudes(self, course: Expr) -> MatrixBase:

@@ -96,11 +96,11 @@ def solution(
     case: str | None = None,
     key: str | None = None,
 ) -> Quantity:
-    """Motion q(t) that satisfies a linear equation with constant coefficients and initial values, q = C_1 e^(s_1 t) +
-    C_2 e^(s_2 t) + a particular motion, where s_1 and s_2 are the roots of a s^2 + b s + c.
+    """Motion q(t) that satisfies a linear equation with constant coefficients and initial values. If a s^2 + b s + c
+    has two different roots s_1 and s_2, then q = C_1 e^(s_1 t) + C_2 e^(s_2 t) + a particular motion.
 
     equation     a q_ddot + b q_dot + c q = f(t), where f is a sum of powers of t, exponentials, sines and cosines; the
-    equation may be of first order, a = 0, or solved for q_ddot or q_dot
+                 equation may be of first order, a = 0, or solved for q_ddot or q_dot
     q            the coordinate of the equation of motion
     start        the value of q at t = 0
     start_rate   the rate of q at t = 0, for an equation of second order; 0 by default
@@ -108,8 +108,8 @@ def solution(
 
     The steps that lead to the motion are the characteristic equation, its roots and the general motion with two
     constants; for an oscillation without damping, only the general motion.
-    Second route: the trial e^(s t) is substituted into the equation, which gives the characteristic equation. The
-    motion is substituted back into the equation; it has the given value and rate at t = 0.
+    Second route: the trial e^(s t) is substituted into the equation, which gives the characteristic equation. Check:
+    the motion is substituted back into the equation, and has the given value and rate at t = 0.
     Outcomes: oscillates (without damping), underdamped, critically_damped, overdamped, runs_away (a free motion grows,
     for example because c/a is negative), uniform (no force depends on position or rate), slows (no force depends on
     position: the rate decays), relaxes (first order), accumulates (first order, without q).

@@ -61,17 +61,18 @@ def normal_modes(linear: Sequence[Quantity], symbol: str | None = None, key: str
     linear in the rates, the squares of the frequencies are in ascending order, and roots without a formula come last.
     If the order depends on the symbols, it is the order for one set of numbers.
     A coordinate that is not coupled to any other has its own frequency, without a determinant and without a shape. The
-    symbol of this frequency is omega_x for the coordinate x, and omega_2 for x_2. If no coordinates are coupled and all
-    frequencies are equal, the only step is `frequency_1`, with the symbol omega_0. If only some coordinates are
-    coupled, these have the lower numbers. Each group of coupled coordinates has its own determinant; with several
-    groups, the keys are characteristic_equation_1, characteristic_equation_2, ...
+    symbol of this frequency is by default omega_x for the coordinate x, and omega_2 for x_2. If no coordinates are
+    coupled and all frequencies are equal, the only step is `frequency_1`, by default with the symbol omega_0. If only
+    some coordinates are coupled, these have the lower numbers. Each group of coupled coordinates has its own
+    determinant; with several groups, the keys are characteristic_equation_1, characteristic_equation_2, ...
     Only the ratios of the entries of a shape have a meaning. For one coordinate without drag the steps are
     `frequency_squared`, for omega_0^2, and `frequency`; only the step `frequency` is returned. With gyroscopic forces,
-    which are linear in the rates and do no work, each mode is a motion in cosines and sines, not a shape. With drag the
+    which are linear in the rates and do no work, each mode is a motion in time, not a shape. With drag the
     keys are decay_1, decay_2, ... for the decay rates, and frequency_1, frequency_2, ... for the quadratic factors of
     the determinant. If the determinant has only one factor, the keys are `decay` and `frequency`.
-    Second route: the motion satisfies the linear equations, and the shapes are orthogonal with respect to M. For each
-    shape, omega^2 is Rayleigh's quotient of stiffness and mass. The sum of all omega^2 is the trace of M^-1 K.
+    Second route: the trial a cos(omega t) is substituted into the equations, which gives the characteristic equation;
+    for a shape of each frequency, omega^2 is Rayleigh's quotient of stiffness and mass. Check: the motion satisfies the
+    linear equations, the shapes are orthogonal with respect to M, and the sum of all omega^2 is the trace of M^-1 K.
     Outcomes: oscillating, growing (omega^2 < 0; kappa is the rate), free (omega = 0), conditional (the sign of omega^2
     depends on the symbols); if two or more modes have the same frequency: oscillating_repeated, growing_repeated,
     free_repeated, conditional_repeated; for a root without a formula: ordered (numbered among all roots), ordered_part
@@ -127,7 +128,7 @@ def _of_block(
     number: str,
     name: str,
 ) -> tuple[Quantity, ...]:
-    """Return the modes of coordinates that are coupled only to each other: frequencies, then shapes."""
+    """Return the frequencies and the shapes or motions of coordinates that are coupled only to each other."""
     whole = linear[0].needed(Linear)
     part = whole.part(block)
     if not part.is_gyroscopic:

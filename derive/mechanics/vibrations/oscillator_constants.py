@@ -21,7 +21,7 @@ from derive.steps.rule import Rule, Shown
 from derive.steps.signs import sign_known
 from derive.steps.step import Quantity, same_value
 
-FREQUENCIES = ("vibrations.frequency", "vibrations.uncoupled_frequency")  # of one coordinate by itself
+FREQUENCIES = ("vibrations.frequency", "vibrations.uncoupled_frequency")  # rules for one coordinate
 
 OSCILLATOR_CONSTANT = Rule(
     "vibrations.oscillator_constant",

@@ -86,6 +86,7 @@ def motions_by_modes(
     start_rate   the rates of the displacements at t = 0; a rate that is not listed is 0
     case         `underdamped`, `critically_damped` or `overdamped`, if the symbols leave the case open
 
+    The formula is for modes that oscillate without drag; other modes contribute the motions of their oscillators.
     Keys: of_t_x for a coordinate x; a given `key` replaces of_t.
     Check: the motion is substituted back into all linear equations; the motion has the given values and rates at t = 0.
     Outcomes: generic, zero (this coordinate does not move).
