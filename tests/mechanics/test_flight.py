@@ -427,3 +427,8 @@ def test_a_flight_that_begins_downwards_has_no_greatest_height_later(tmp_path: P
         ("[flight, landing_x, landing_speed]", "[flight, landing_x, landing_speed, top]"),
     )
     assert any("only before the motion begins" in each.message for each in complaints(tmp_path, text))
+
+
+def test_a_plane_that_the_particle_departs_from_and_does_not_meet_again_is_refused(tmp_path: Path) -> None:
+    (leaves,) = complaints(tmp_path, edited(SPHERE, (FLOOR, "floor: {through: [0, 2*R/3], along: [-1, 0]}")))
+    assert "departs on the plane, and does not rise above it" in leaves.message

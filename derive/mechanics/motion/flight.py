@@ -761,6 +761,9 @@ def _time_to(known: InFlight, target: Plane) -> Expr | None:
         message = f"`lands`: the particle {how} below the plane, at the distance {h} from it"
         help_line = "the free side is on the left of `along`; state with `assume:` which side the particle is on"
         raise Rejected(Complaint("not-decided", message, help=help_line))
+    if side == 0 and (towards in (0, -1) or bend in (0, 1)):
+        message = "`lands`: the particle departs on the plane, and does not rise above it and come back"
+        raise Rejected(Complaint("contradiction", message, help="give a plane that the particle does not depart from"))
     inside = tidied(v**2 - 4 * a * h)
     if bend == -1:
         return presented(tidied((-v - sqrt(inside)) / (2 * a)))
