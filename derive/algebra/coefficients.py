@@ -66,7 +66,7 @@ def coefficients(value: Expr, letters: Sequence[Symbol]) -> list[tuple[tuple[int
 
 
 def is_multiplied_out(value: Expr) -> bool:
-    """Whether the value is a sum of products of numbers and positive integer powers, without brackets; the base of each
+    """Whether the value is a sum of products of rational numbers and positive integer powers; the base of each
     power is a symbol, or the sine or cosine of a symbol."""
     return all(_is_power(factor) for term in Add.make_args(value) for factor in Mul.make_args(term))
 

@@ -128,7 +128,8 @@ def rational_in_range(letter: Any, number: Expr) -> Expr:
 
 
 def fulfilling(point: Mapping[Any, Any]) -> dict[Any, Any]:
-    """The point, with the numbers of some symbols changed so that the numbers satisfy the assumed relations."""
+    """The point, with the numbers of some symbols changed so that, if possible, the numbers satisfy the assumed
+    relations."""
     order = known_order()
     return order.at(point, _fits) if order else dict(point)
 

@@ -111,7 +111,7 @@ def _by_secant(total: Expr) -> Expr:
 
 
 def _of_two_letters(function: type, angle: Expr) -> Expr:
-    """The unevaluated sine or cosine of a sum or difference of two symbols."""
+    """The sine or cosine of a sum or difference of two symbols; it is unevaluated if the symbols are real."""
     if not all(letter.is_real for letter in angle.free_symbols):
         return function(angle)
     turned = angle.could_extract_minus_sign()
@@ -196,7 +196,7 @@ def _has_roots(value: Expr) -> bool:
 
 
 def _denested(value: Expr) -> Expr:
-    """Simplify nested roots by the square: (8 sqrt(2) - 11) sqrt(146 + 103 sqrt(2))/14 becomes sqrt(2 - sqrt(2))/2."""
+    """Simplify nested roots by taking the root of the square: (8 sqrt(2) - 11) sqrt(146 + 103 sqrt(2))/14 becomes sqrt(2 - sqrt(2))/2."""
     number, letters = value.as_independent(*value.free_symbols, as_Add=False) if value.free_symbols else (value, 1)
     nested = [f for f in Mul.make_args(number) if f.is_Pow and f.exp.is_Rational and f.base.atoms(Pow)]
     if not nested or number.is_Add or any(abs(f.exp) != Rational(1, 2) for f in nested):

@@ -1,1 +1,1 @@
-"""Solves for a symbol, finds roots, solves linear systems, writes results as in a textbook; no physics."""
+"""Solve for a symbol, find roots, solve linear systems, and write results as in a textbook; no physics."""
