@@ -1,4 +1,4 @@
-r"""The commands that a document defines with `\newcommand`, `\def`, `\DeclareMathOperator` and their like."""
+r"""The commands that a document defines with `\newcommand`, `\def`, `\DeclareMathOperator` and similar commands."""
 
 from __future__ import annotations
 

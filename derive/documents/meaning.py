@@ -540,7 +540,8 @@ class Meaning:
         return sympy.diff(term.xreplace(put_in), by)
 
     def rate_of(self, symbol: Symbol, by: Symbol, partial: bool) -> Expr:
-        """Return the derivative of a letter by another: its rate, zero, or a symbol if nothing is known about it."""
+        """Return the derivative of a letter with respect to another one: a rate or a symbol for the derivative; zero if
+        the first letter is not known to depend on the other."""
         if symbol in self.sums:
             term, index, bounds = self.sums[symbol]
             if self.has_index(by, index):
@@ -738,7 +739,8 @@ class Meaning:
         return value
 
     def range_of(self, bound: Node | None) -> str:
-        """Return a bound as a word; a sum from 1 to N is written without its bounds, too."""
+        """Return a bound as a word; empty for 1 and for N, n, d and s, so that such a sum equals a sum without
+        bounds."""
         if bound is None or (isinstance(bound, Num) and bound.text == "1"):
             return ""
         letter = _letter_in(bound)

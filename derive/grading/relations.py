@@ -250,7 +250,7 @@ def verdict_on_equation_for(left: Read, right: Read, target: Target, key: Key) -
 
 
 def _solved(rest: Expr, symbol: Symbol, left: Read, target: Target, key: Key) -> Verdict | None:
-    """Judge the solution of an equation that is a power of the answer or linear in it."""
+    """Judge the solutions of a short equation for the symbol of the answer; None if no solution is found."""
     try:
         found = sympy.solve(rest, symbol) if sympy.count_ops(rest) < 80 else []
     except FAULTS:

@@ -251,7 +251,8 @@ def _towards(trial: Trial, unknown: Expr, state: State, sign: float) -> State:
 # equilibrium.
 BEGUN = 0.03
 FLIGHTS = 3  # number of sets of numbers
-# The greatest difference between a formula and a simulated flight, relative to 1 plus the size of the value.
+# The greatest difference between a formula for a position and a simulated flight, relative to 1 plus the size of the
+# value; ten times as much for the time of a landing.
 FLOWN = 1e-4
 
 

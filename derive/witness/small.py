@@ -155,7 +155,8 @@ UNSTABLE = frozenset(["unstable", "unstable_along"])
 
 def stability(claim: Claim) -> Verdict | None:
     """Test the stability that the step states: no small displacement may grow at a stable equilibrium, and some small
-    displacement must grow at an unstable equilibrium."""
+    displacement must grow at an unstable equilibrium, unless an eigenvalue is zero, so that the linear motion does not
+    decide."""
     inputs = claim.judged.inputs
     if "coordinates" not in inputs or "place" not in inputs:
         return None

@@ -113,7 +113,7 @@ def tested_by(prescribed: Prescribed) -> Callable[..., Any]:
 
 
 class Tape:
-    """Formulas as operations; `inputs` are the symbols whose values vary from point to point.
+    """Formulas as operations.
 
     inputs   the symbols whose values vary from point to point
 
