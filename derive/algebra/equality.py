@@ -120,8 +120,8 @@ def equal(left: Any, right: Any, nonzero: Sequence[Expr] = ()) -> Verdict:
     """Compare two scalars, two matrices entry by entry, or two relations.
 
     The grade of a matrix is the grade of its least certain entry. Relations count as equal if they are shown to be
-    equivalent. `nonzero` lists factors that may be divided out: factors of an equation are known not to vanish, and factors
-    of an inequality are known to be positive.
+    equivalent. `nonzero` lists factors that may be divided out: factors of an equation are known not to vanish, and
+    factors of an inequality are known to be positive.
     """
     given: tuple[Any, Any] = (left, right)
     if not all(isinstance(value, Basic | MatrixBase | int) for value in given):

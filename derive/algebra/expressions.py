@@ -159,7 +159,8 @@ class Cross(VectorNode):
 
 class CarriedRate(VectorNode):
     """The rate dA/dt in space of a vector A. The components of A are along axes that rotate with the angular velocity
-    omega. Arguments: A, omega, and the coordinates that move; without coordinates, A changes in the body only with the time.
+    omega. Arguments: A, omega, and the coordinates that move; without coordinates, A changes in the body only where it
+    contains the time.
 
     The value is the rate of the components plus the rate of the rotated vector. The second rate is found by
     differentiating R(t) A, where R(t) is the rotation by |omega| t about omega, and not as omega x A.

@@ -1,7 +1,8 @@
 """Taylor series of a formula along a motion: each symbol has its own series, and the series are added and multiplied.
 
-The arithmetic needs no derivatives. If x = x_0 + x_1 s + ... and y = y_0 + y_1 s + ..., the coefficients of x y are the sums of
-x_j y_(k-j). The coefficients of sin u and cos u follow from each other by (sin u)' = u' cos u and (cos u)' = -u' sin u.
+The arithmetic needs no derivatives. If x = x_0 + x_1 s + ... and y = y_0 + y_1 s + ..., the coefficients of x y are the
+sums of x_j y_(k-j). The coefficients of sin u and cos u follow from each other by (sin u)' = u' cos u and (cos u)' =
+-u' sin u.
 The coefficients of y = x^a follow from x y' = a x' y, and the coefficients of y = exp(u) from y' = u' y.
 
 Source: Griewank, Walther, *Evaluating Derivatives*, ch. 13 (Taylor arithmetic).

@@ -135,7 +135,7 @@ class CharacteristicRoot:
     value     for a conservative system, lambda = omega^2; for a gyroscopic system, the frequency or the rate of growth.
               For a damped system, the rate of decay: b/2a for a quadratic factor and b/a for a linear factor
     sign      1 if the motion oscillates, 0 if it is free, -1 if it grows; None if this is unknown. For a damped system:
-              1 if the motion is underdamped, 0 if critically damped, -1 if overdamped; for a rate of decay b/a, its sign
+              1 if the motion is underdamped, 0 if critically damped, -1 if overdamped; the sign of a rate of decay b/a
     columns   the mode shapes of a conservative system, orthogonal with respect to M; empty if the root has no formula
     turn      1 if the frequency is a root of the factor, -1 if minus the frequency is one; 0 if this is unknown
     """

@@ -159,7 +159,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         return list(made(self.described.named, self.parts_by_name))
 
     def place_of_mark(self, node: Tree, name: str, letters: InLetters) -> MatrixBase:
-        """Return the position of a place that a drawing in the file names."""
+        """Return the position of a place that is written in the file, by its name or by components."""
         faults = Faults()
         written = PLACE.read(node, name, faults)
         faults.stop()
@@ -530,8 +530,8 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         return self.lagrangian if is_pushed else self.potential_energy
 
     def _assume_momenta(self) -> None:
-        """Assume that each constant momentum with a positive symbol is positive, and that any other constant momentum is
-        not zero, if this matters."""
+        """Assume that each constant momentum with a positive symbol is positive, and that any other constant momentum
+        is not zero, if this matters."""
         left = [q.symbol for name, q in self.coordinates.items() if name not in self.cyclic]
         for symbol in (momentum.symbol for momentum in self.cyclic.values()):
             if symbol.is_positive:
