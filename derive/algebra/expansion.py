@@ -120,7 +120,7 @@ def expanded(f: Expr, x: Symbol, to: Expr, power: Rational | None = None) -> Ser
 
 
 def in_small(f: Expr, x: Symbol, to: Expr) -> Expr:
-    """The expression in terms of the small quantity."""
+    """The expression in terms of the small quantity; at infinity, without exponentials that vanish there."""
     if to in (oo, -oo):
         return tidied(_without_what_dies(f.subs(x, (1 if to == oo else -1) / SMALL)))
     return tidied(f.subs(x, to + SMALL))

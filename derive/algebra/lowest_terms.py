@@ -229,8 +229,8 @@ def _without_common(top: Terms, bottom: Terms) -> tuple[Terms, Terms]:
 
 
 def _quotient(top: Terms, divisor: Terms) -> Terms | None:
-    """The quotient of two sums; None if the divisor has only one term, or if there is a remainder, which is mostly
-    detected modulo a prime."""
+    """The quotient of two sums; None if the divisor has only one term, or if no quotient without remainder is found.
+    Most remainders are detected modulo a prime."""
     places = _places([*top, *divisor])
     first = next(iter(_places(divisor)), None)
     if first is None or len(divisor) < 2 or not set(_places(divisor)) <= set(_places(top)):

@@ -214,7 +214,8 @@ def _with(
 
 
 def compared(left: Expr, mark: str, right: Expr, takes_roots: bool = True) -> Relation:
-    """Write gamma < omega_0, not 4 gamma^2 < 4 omega_0^2, if both sides are squares of positive expressions."""
+    """Divide both sides by common factors, and move a number to the right side. Write gamma < omega_0, not 4 gamma^2 <
+    4 omega_0^2, if both sides are squares of positive expressions."""
     shared = common_factor([left, right])
     if shared.is_positive:
         left, right = tidied(left / shared), tidied(right / shared)

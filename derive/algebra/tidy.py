@@ -46,7 +46,7 @@ from derive.algebra.squares import differences_of_squares
 
 
 def tidied(value: Any) -> Any:
-    """The explicit value in its tidy form, entry by entry for a matrix."""
+    """The explicit value in its tidy form, entry by entry for a matrix and side by side for a relation."""
     value = without_abs(_signs_squared(explicit(value)))
     if isinstance(value, Relation):
         return Relation(tidied(value.left), value.operator, tidied(value.right))
@@ -120,7 +120,8 @@ def _of_two_letters(function: type, angle: Expr) -> Expr:
 
 
 def _two_turning(term: Expr) -> tuple[int, dict[type, set[Symbol]]] | None:
-    """The sign of a term, and the angles of its sines and of its cosines, if it is such a product; else None."""
+    """The sign of a term, and the angles of its sines and of its cosines, if it is plus or minus a product of two sines
+    or cosines with different symbols as angles; else None."""
     number, product = term.as_coeff_Mul()
     if abs(number) != 1 or len(product.args) != 2 or not product.is_Mul:
         return None

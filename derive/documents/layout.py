@@ -69,7 +69,7 @@ LONGEST_INLINE = 2_000  # the most characters of a formula in a sentence
 
 
 class Cue(StrEnum):
-    """Words before a formula that say where it comes from."""
+    """Words near a formula that say where the formula comes from."""
 
     GIVEN = "given"
     DEFINED = "let"

@@ -455,7 +455,8 @@ class _Reader:
         return Open(span, "apply", (as_function, Mul(span, (("", head), ("", as_product)))))
 
     def is_differential(self) -> bool:
-        """Whether `d` begins a differential: always in an integral, elsewhere as one of two readings."""
+        """Whether `d`, or a command for it, begins a differential. Outside of an integral, a plain `d` has two
+        readings."""
         token = self.peek()
         if token is None:
             return False

@@ -413,7 +413,8 @@ class _Comparison:
         return Verdict(outcome, f"{where}: {wrong[0][1].because}{others}")
 
     def one_for_all(self, value: Expr, right: MatrixBase) -> Verdict:
-        """Judge a number for a matrix: right if the matrix is a multiple of the unit matrix or has one component."""
+        """Judge a number for a matrix: it may be right if the matrix is a multiple of the unit matrix, or a vector with
+        only one nonzero component."""
         rows, columns = right.shape
         if rows == columns and are_surely_equal(value, right[0, 0]) and right == right[0, 0] * sympy.eye(rows):
             return Verdict(Outcome.CONVENTION, "as the moment about every axis")

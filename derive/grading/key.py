@@ -100,7 +100,7 @@ class Key:
     steps         each step of the derivation with its value, to recognise an answer to another question
     definitions   the value of each symbol that a step introduces
     allowed       symbols that the problem defines, such as beta = b/2m; an answer may contain them
-    points        whether the problem has points; without points each answer counts 1
+    points        whether the problem has points; without points each part counts 1
     """
 
     problem: str

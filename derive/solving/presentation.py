@@ -41,7 +41,7 @@ SHORT = 40  # greatest length of a value whose products of sines and cosines are
 
 
 def presented(value: Expr, *, in_sums: bool = True) -> Expr:
-    """The value in textbook form: factored, or as separate terms, whichever is shorter.
+    """The shortest of a few textbook forms of the value, such as factored or as separate terms.
 
     in_sums     whether products of sines and cosines may become sums
     """

@@ -378,7 +378,7 @@ def _check_letter(key: str, symbol: Any, result: Any, means: Mapping[Any, Any]) 
 
 
 def check_can_hold(key: str, result: Any) -> None:
-    """Reject a relation that can never hold, such as a value that is less than itself."""
+    """Reject a strict inequality or `!=` between two identical sides, which can never hold."""
     if isinstance(result, Relation) and result.operator in {"<", ">", "!="} and result.left == result.right:
         raise Unverified(Complaint("unverified", f"`{key}` can never hold: {short(result)}"))
 

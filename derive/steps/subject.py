@@ -18,7 +18,8 @@ from derive.errors import Complaint, Rejected
 
 
 class Mixed(Enum):
-    """The value of a property in which united subjects differ. It agrees with no value."""
+    """The value of a property in which united subjects differ. It counts as different from every value, including
+    itself."""
 
     SEVERAL = "several"
 

@@ -84,7 +84,7 @@ def followed(
 ) -> Run | None:
     """The motion from a state, for a time `length` or until `event`; None if the motion cannot be computed.
 
-    free   the dynamics of the system without its constraints, in place of the dynamics of the trial
+    free   the dynamics of the system without some of its constraints, in place of the dynamics of the trial
     """
     try:
         return Run(free or trial.dynamics, start, length, event, length / (MOMENTS if event is None else WATCHED))
@@ -258,7 +258,7 @@ FLOWN = 1e-4
 
 def flight(claim: Claim) -> Verdict | None:
     """Test a component of the position in a free flight: the motion is simulated until the constraint force vanishes,
-    then without constraints."""
+    then without the constraints that end there."""
     fact, i = claim.judged.inputs["flight"], int(claim.judged.inputs["component"])
     count = 0
     for trial, start, free in _begun(claim, fact):
@@ -277,8 +277,8 @@ def flight(claim: Claim) -> Verdict | None:
 
 
 def landing(claim: Claim) -> Verdict | None:
-    """Test the time at which a free flight ends: the flight is simulated without constraints until the particle meets
-    the surface."""
+    """Test the time at which a free flight ends: the flight is simulated, without the constraints that ended at its
+    beginning, until the particle meets the surface."""
     fact, target = claim.judged.inputs["flight"], claim.judged.inputs["target"]
     x, y = fact.point.place
     if target is not None:
@@ -306,7 +306,7 @@ def landing(claim: Claim) -> Verdict | None:
 
 def _begun(claim: Claim, fact: Any) -> Iterator[tuple[Trial, State, Dynamics]]:
     """Yield trials, each with the state in which the force of the constraint vanishes, and with the dynamics of the
-    system without this constraint.
+    system without the constraints that end there.
 
     fact   the flight: the position where it begins, and the motion before it
     """
