@@ -110,7 +110,7 @@ def is_isochronous(f: Expr, q: Symbol, amplitude: Symbol, squared_frequency: Exp
     then satisfies S_dot^2 = w D'^2 (S(A)^2 - S^2)/(4 D), which is a simple harmonic oscillation if w D'^2/(4 D) is the
     constant omega^2.
     """
-    height = tidied(f.subs(q, 0))  # D(A), if w(0) = 1
+    height = tidied(f.subs(q, 0))  # D(A), if w(0) = 1 and D(0) = 0
     here = height.subs(amplitude, q)
     weight = -f.subs(amplitude, 0) / here
     separable = f - weight * (height - here)

@@ -69,7 +69,7 @@ from derive.documents.syntax import (
 from derive.errors import DeriveError
 from derive.units import read_unit
 
-Value: TypeAlias = Any  # an expression, or an immutable matrix: SymPy has no types
+Value: TypeAlias = Any  # an expression or an immutable matrix: SymPy has no common type for them
 LARGEST_POWER = 60
 MOST_TERMS = 20  # the most terms of a sum whose limits are numbers
 LONGEST_NUMBER = 60

@@ -269,7 +269,9 @@ def damped(claim: Claim) -> Verdict | None:
                 {DECAYS: -stated, GROWS: -stated, OVERDAMPED: stated - decay}.get(claim.outcome, 1j * stated - decay),
             )
         if np.min(np.abs(found - wanted), initial=np.inf) > size:
-            return claim.refuted("no small motion of the described system decays at this rate", near.trial, near.state)
+            return claim.refuted(
+                "no small motion of the described system has this rate of decay or frequency", near.trial, near.state
+            )
         count += 1
     return seen(count, "equilibria")
 
