@@ -59,7 +59,7 @@ def grade(answer: str, part: Part, key: Key, seconds: float = SECONDS) -> Graded
     except OutOfTime:
         verdict = Verdict(Outcome.UNREADABLE, f"too large: it takes more than {seconds:g} s to compare")
     except RecursionError:
-        verdict = Verdict(Outcome.UNREADABLE, "too large: it is nested too deep")
+        verdict = Verdict(Outcome.UNREADABLE, "too large: it is nested too deeply")
     except MemoryError:
         verdict = Verdict(Outcome.UNREADABLE, "too large: it takes too much memory")
     except FAULTS as error:

@@ -135,4 +135,4 @@ def ratio(name: Any, expr: Expr, letters: Sequence[Symbol], against: Word, keys:
             symbol = stand_in("x", positive=True) if expr.is_positive else stand_in("x")
             return Parameter(name, symbol, "number", (letter, symbol / rest), keys)
     message = f"`{against}` is not proportional to one of its letters, so it cannot be the parameter of a diagram"
-    rejected("wrong-argument", message, against.place, "such as `omega` or `omega/omega_c`")
+    rejected("wrong-argument", message, against.place, "write a letter or a ratio, such as `omega` or `omega/omega_c`")
