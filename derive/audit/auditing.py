@@ -34,7 +34,7 @@ from derive.documents.syntax import Add, Cases, Int, Letter, Mat, Node, Text
 SECONDS = 3.0  # seconds of processor time for one claim
 LEAST_SECONDS = 0.4  # the limit for a claim once a document has used much time
 USUAL_SECONDS = 0.3  # the usual processor time of a claim
-MOST_LATE = 40.0  # the limit falls linearly with the seconds used beyond the usual time, to zero at this number
+MOST_LATE = 40.0  # the limit falls linearly with the seconds beyond the usual time; at this number it would be zero
 SECONDS_OF_SEARCH = 2.0  # seconds of processor time for the search for a change that makes a claim right
 MOST_INDICES = 12
 MOST_ROWS = 10  # number of claims whose terms may be missing in the next row
