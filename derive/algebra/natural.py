@@ -49,7 +49,7 @@ from derive.algebra.tidy import common_factor, tidied
 MOST_TOGETHER = 3  # greatest number of quantities that one form may use
 SIGNS_OF_A_SYMBOL = 2  # a symbol counts as much as this number of operations
 HALF = Rational(1, 2)
-LONGEST = 120  # an expression that is longer than this (`length`) is not rewritten
+LONGEST = 120  # an expression that is longer than this (`_size`) is not rewritten
 INVERSES = {acos: cos, asin: sin, atan: tan}
 
 

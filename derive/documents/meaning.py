@@ -71,11 +71,11 @@ from derive.units import read_unit
 
 Value: TypeAlias = Any  # an expression or an immutable matrix: SymPy has no common type for them
 LARGEST_POWER = 60
-MOST_TERMS = 20  # the most terms of a sum whose limits are numbers
+MOST_TERMS = 20  # greatest difference of the limits of a sum or product whose terms are written out
 LONGEST_NUMBER = 60
 MOST_BITS = 4000  # the most bits of a power of a number
 LARGEST_DETERMINANT = 6
-MOST_NESTED_TERMS = 2000  # the most terms of nested sums
+MOST_NESTED_TERMS = 2000  # the most terms of nested sums and products that are written out
 
 
 class Meaningless(Exception):

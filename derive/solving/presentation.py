@@ -34,7 +34,7 @@ from derive.algebra.tidy import tidied
 from derive.steps.signs import sign_for_all
 
 ZERO = Integer(0)
-LARGEST = 2500  # number of operations up to which an expression is multiplied out and factored
+LARGEST = 2500  # greatest length of an expression that is multiplied out and factored
 
 
 SHORT = 40  # greatest length of a value whose products of sines and cosines are written as sums

@@ -24,7 +24,7 @@ from derive.witness.geometry import Reals, State
 from derive.witness.tape import NotComputable
 from derive.witness.trial import EXACT, HOLDS, Contradiction, Formulas, Given, Trial
 
-LONG = 12.0  # duration of a simulated motion, with masses, lengths and g of order one
+LONG = 12.0  # usual duration of a simulated motion, with masses, lengths and g of order one
 CALLS = 6000  # largest number of evaluations of the accelerations in one motion
 MOMENTS, WATCHED = 12, 80  # least number of integration steps: without an event, and with an event, which may be short
 CLEAR = 0.1  # margin by which a condition must be satisfied, because a short event might not be detected
