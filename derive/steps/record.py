@@ -129,8 +129,8 @@ A = TypeVar("A")
 
 
 def question(answered: Callable[..., A]) -> Callable[..., A]:
-    """Decorate a function with which a verb queries the record. The answers are stored with the result of the verb,
-    which is used again only if they are still the same."""
+    """Decorate a function with which a verb queries the record. The answers are stored with the result of the verb. A
+    stored result is used again only if the answers are still the same."""
     QUESTIONS[answered.__name__] = answered
 
     @wraps(answered)
