@@ -281,7 +281,7 @@ def _has_fractions_inside(value: Expr) -> bool:
 def _shorter_as_product(value: Expr) -> Expr:
     """The value or its factored form, whichever is shorter: (l + x)^2, not l^2 + 2 l x + x^2.
 
-    A long value is left unchanged: SymPy may need minutes to find that it is not a product.
+    A long value is left unchanged, because factoring it may take long.
     """
     return value if length(value) > LONGEST_PRODUCT else min((value, factored(value)), key=length)
 

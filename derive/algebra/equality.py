@@ -457,7 +457,7 @@ def _without_factors(expr: Expr, known: Sequence[Expr]) -> Expr:
 
 
 def _without_factor(expr: Expr, known: Expr) -> Expr:
-    """The expression without any power of a factor that is known to be positive or not to vanish."""
+    """The expression without any whole power of a factor that is known to be positive or not to vanish."""
     left: list[Expr] = []
     for factor in Mul.make_args(together(expr)):
         base, power = factor.as_base_exp()

@@ -665,7 +665,8 @@ def _main(statements: list[Statement]) -> Statement | None:
 
 
 def _columns(cells: list[list[Token]]) -> Iterator[list[Token]]:
-    """Yield the tokens of each equation of a row of `align`; every second `&` separates two equations."""
+    """Yield the tokens of each equation of a row of `align`; every second `&` separates two equations, if both have a
+    relation sign."""
     column: list[Token] = []
     for number, cell in enumerate(cells):
         begins = next((each for each in cell if each.kind is not Kind.SPACE), None)
@@ -730,7 +731,7 @@ def _is_relation(token: Token) -> bool:
 
 
 def _next_piece(tokens: list[Token]) -> list[Token]:
-    """Return the tokens up to the next comma or word outside of brackets."""
+    """Return the tokens up to the next comma, semicolon, word or arrow outside of brackets."""
     found = []
     for token, depth in depths(tokens):
         if depth == 0 and (token.is_mark(",", ";") or token.is_command(*WORDS, *ARROWS)):
