@@ -202,7 +202,8 @@ def _inhomogeneous(comparison: _Comparison, typed: Relation) -> Verdict | None:
 
 
 def _scalings(given: Expr, wanted: Expr) -> list[Expr]:
-    """Return an equation multiplied by each factor that makes one of its terms equal to a term of the right one."""
+    """Return an equation multiplied by factors that make one of its terms equal to a term of the right equation; at
+    most four results, first those with the most equal terms."""
     terms = [sympy.Add.make_args(each) for each in (given, wanted)]
     found: dict[Expr, Expr] = {}
     for term in terms[0][:6]:

@@ -180,7 +180,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
                     state_static_friction(contact, self.by_name.one)
 
     def _draw_forces(self) -> None:
-        """Draw the forces on each particle and each body."""
+        """Draw the forces on the particles, bodies and pulleys."""
         run = current_run.get()
         steps = run.established if run is not None else ()
         at_rest, along = _forces_found(steps, self.system)
