@@ -43,7 +43,7 @@ def open_problem(problem_id: str, root: str | Path | None = None) -> Opened:
 
 @dataclass(frozen=True)
 class Answer:
-    """One result of a problem that has been derived again.
+    """One result of a derived problem.
 
     value   the SymPy expression that the page prints; for a relation, the whole relation
     sympy   the expression as plain SymPy text, which can be read without derive; for two roots, a list of two texts

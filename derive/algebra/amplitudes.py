@@ -51,8 +51,8 @@ class Determinant(ScalarNode):
     def dimension(self, of: DimensionOf) -> Dimension | None:
         """The dimension of a product of nonzero entries with one entry from each row and column.
 
-        The dimension is assumed to be the same for all such products. The result is None if every such product
-        vanishes, or if the dimension of an entry of the chosen product is unknown.
+        The dimension is assumed to be the same for all such products. The result is None if there is no such
+        product, or if the dimension of an entry of the chosen product is unknown.
         """
         matrix = self.args[0]
         for entry in matrix:
@@ -65,9 +65,10 @@ class Determinant(ScalarNode):
 
 
 def determinant_of(matrix: MatrixBase) -> Expr:
-    """Compute the determinant without division, in the ring of polynomials in the symbols of the matrix.
+    """Compute the determinant from the characteristic polynomial, without division by a pivot.
 
-    Functions and roots count as symbols, because SymPy would cancel factors after each step without a ring.
+    Functions and roots count as symbols of the domain of the entries: without such a domain, SymPy would cancel factors
+    after each step.
     """
     parts = matrix.atoms(Function, Pow)
     named = {part: Dummy() for part in sorted(parts, key=str) if not (part.is_Pow and part.exp.is_Integer)}

@@ -40,7 +40,8 @@ class Coefficient(NamedTuple):
 
 
 class Factored(NamedTuple):
-    """A sum with the common factors of its terms in front; `is_prime` is true only if no shorter one exists."""
+    """A sum with the common factors of its terms in front; `is_prime` is true only if the sum is known not to be a
+    product of other sums."""
 
     value: Expr
     is_prime: bool
@@ -49,7 +50,7 @@ class Factored(NamedTuple):
 def coefficients(value: Expr, letters: Sequence[Symbol]) -> list[tuple[tuple[int, ...], Coefficient]]:
     """The tuples of powers of these symbols that occur in the value, in descending order, each with its coefficient.
 
-    Raises `Outside` if the value is not a polynomial, or is too large.
+    Raises `Outside` if the value is not a polynomial of the ring `Expanded`, or is too large.
     """
     ring = _Kept.ring = Expanded() if _Kept.ring.is_full else _Kept.ring
     form = ring.form(value)
@@ -66,7 +67,7 @@ def coefficients(value: Expr, letters: Sequence[Symbol]) -> list[tuple[tuple[int
 
 
 def is_multiplied_out(value: Expr) -> bool:
-    """Whether the value is a sum of products of numbers and positive integer powers, without brackets; the base of each
+    """Whether the value is a sum of products of rational numbers and positive integer powers; the base of each
     power is a symbol, or the sine or cosine of a symbol."""
     return all(_is_power(factor) for term in Add.make_args(value) for factor in Mul.make_args(term))
 

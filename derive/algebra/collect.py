@@ -67,7 +67,7 @@ def _alike_together(terms: Iterable[Expr]) -> list[Expr]:
 def _by_directions(value: Expr) -> tuple[Expr, list[Expr]] | None:
     """Split k u - k l u/|u| into the part without a direction u/|u| and the terms with a direction.
 
-    The result is None if there is no such direction.
+    The result is None if there is no such direction, or if the value is not a polynomial in the directions.
 
     With s = u/|u|, which is 1 or -1, |u| is s u and s^2 is 1, so only the first power of each s is left.
     """
@@ -182,7 +182,8 @@ def _common_number(numbers: Sequence[Expr]) -> Expr | None:
 
 
 def _gathered(value: Expr, letters: Sequence[Symbol]) -> list[tuple[tuple[int, ...], Coefficient]]:
-    """As `coefficients`, but empty if the value is not a polynomial in these symbols."""
+    """The result of `coefficients`, or of SymPy if that raises `Outside`; empty if the value is not a polynomial in
+    these symbols."""
     try:
         return coefficients(value, letters)
     except Outside:
@@ -193,7 +194,7 @@ def _gathered(value: Expr, letters: Sequence[Symbol]) -> list[tuple[tuple[int, .
 
 
 def _has_root_of(term: Expr, moving: Sequence[Symbol]) -> bool:
-    """Whether the term contains a root with a coordinate, as the force of a spring does."""
+    """Whether the term contains a root with a coordinate, such as sqrt(a^2 + x^2)."""
     return any(root.base.has(*moving) for root in _roots_in(term))
 
 
@@ -230,8 +231,8 @@ def _with_its_rates(coefficient: Coefficient, rates: list[tuple[Symbol, int]], h
 
 
 def _with_one(product: Expr) -> Expr:
-    """Divide a sum by the denominator if one of its terms is the denominator: (1 + r^2/p^2) r_dot^2, the square of a
-    velocity plus a correction, not (p^2 + r^2) r_dot^2/p^2."""
+    """Divide a sum by the symbols of the denominator if they are one of its terms: (1 + r^2/p^2) r_dot^2, the square of
+    a velocity plus a correction, not (p^2 + r^2) r_dot^2/p^2."""
     above, below = product.as_numer_denom()
     sums = [part for part in Mul.make_args(above) if part.is_Add]
     number, letters = below.as_coeff_Mul()
@@ -280,7 +281,7 @@ def _has_fractions_inside(value: Expr) -> bool:
 def _shorter_as_product(value: Expr) -> Expr:
     """The value or its factored form, whichever is shorter: (l + x)^2, not l^2 + 2 l x + x^2.
 
-    A long value is left unchanged: SymPy may need minutes to find that it is not a product.
+    A long value is left unchanged, because factoring it may take long.
     """
     return value if length(value) > LONGEST_PRODUCT else min((value, factored(value)), key=length)
 
@@ -316,8 +317,12 @@ def _shorter(term: Expr) -> Expr:
 
 
 def spread_or_by_terms(value: Expr, *others: Expr) -> Expr:
-    """Return one product or a sum of tidy terms, whichever is shorter; `others` are further forms of the value to
-    choose from."""
+    """Return one product or a sum of tidy terms, whichever is shorter; `others` are further forms of the value, whose
+    tidy terms are also tried.
+
+    If a sine or cosine remains in the denominator, return the tidy terms of the first of the others, or of the value if
+    there are no others.
+    """
     if tidied(value).as_numer_denom()[1].has(sin, cos):
         return by_terms(others[0] if others else value)
     forms = [spread(value), by_terms(value.expand()), *(by_terms(other) for other in others)]

@@ -119,9 +119,9 @@ class Verdict:
 def equal(left: Any, right: Any, nonzero: Sequence[Expr] = ()) -> Verdict:
     """Compare two scalars, two matrices entry by entry, or two relations.
 
-    The grade of a matrix is the grade of its least certain entry. Relations count as equal if each follows from the
-    other. `nonzero` lists factors that may be divided out: factors of an equation are known not to vanish, and factors
-    of an inequality are known to be positive.
+    The grade of a matrix is the grade of its least certain entry. Relations count as equal if they are shown to be
+    equivalent. `nonzero` lists factors that may be divided out: factors of an equation are known not to vanish, and
+    factors of an inequality are known to be positive.
     """
     given: tuple[Any, Any] = (left, right)
     if not all(isinstance(value, Basic | MatrixBase | int) for value in given):
@@ -277,7 +277,7 @@ def _refutation(sample: Sample) -> Verdict:
 
 
 def _equivalent(left: Any, right: Any, nonzero: Sequence[Expr]) -> Verdict:
-    """Whether two equations or inequalities are equivalent. The main test is the ratio of their residuals: for
+    """Decide whether two equations or inequalities are equivalent. The main test is the ratio of their residuals: for
     inequalities its sign must be known, for equations it must not vanish."""
     if not (isinstance(left, Relation) and isinstance(right, Relation)):
         return Verdict(Grade.REFUTED, "a relation against a value")
@@ -356,13 +356,14 @@ def _cleared(left: Relation, right: Relation) -> tuple[Relation, Relation] | Non
 
 
 def _known_sign(factor: Expr) -> int | None:
-    """Return 1 if the factor is positive for all allowed values of its symbols, -1 if it is negative, else None."""
+    """Return 1 if the factor is known to be positive for all allowed values of its symbols, -1 if it is known to be
+    negative, else None."""
     above, below = (strict_sign_within(part) for part in factor.as_numer_denom())
     return above * below if above and below else None
 
 
 def _never_vanishes(factor: Expr) -> bool:
-    """Whether the factor is nonzero and defined for all allowed values of its symbols."""
+    """Whether the factor is known to be nonzero and defined for all allowed values of its symbols."""
     return all(part.is_nonzero or never_vanishes_within(part) for part in factor.as_numer_denom())
 
 
@@ -456,7 +457,7 @@ def _without_factors(expr: Expr, known: Sequence[Expr]) -> Expr:
 
 
 def _without_factor(expr: Expr, known: Expr) -> Expr:
-    """The expression without any power of a factor that is known to be positive or not to vanish."""
+    """The expression without any whole power of a factor that is known to be positive or not to vanish."""
     left: list[Expr] = []
     for factor in Mul.make_args(together(expr)):
         base, power = factor.as_base_exp()

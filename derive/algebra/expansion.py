@@ -120,7 +120,7 @@ def expanded(f: Expr, x: Symbol, to: Expr, power: Rational | None = None) -> Ser
 
 
 def in_small(f: Expr, x: Symbol, to: Expr) -> Expr:
-    """The expression in terms of the small quantity."""
+    """The expression in terms of the small quantity; at infinity, without exponentials that vanish there."""
     if to in (oo, -oo):
         return tidied(_without_what_dies(f.subs(x, (1 if to == oo else -1) / SMALL)))
     return tidied(f.subs(x, to + SMALL))
@@ -191,9 +191,10 @@ def _quotient(f: Expr, power: Rational | None) -> Series:
 
 def _taylor(f: Expr, up_to: int) -> tuple[dict[int, Expr], int]:
     """The nonzero Taylor coefficients by their powers, and the lowest of these powers. Raises `NoExpansion` if a
-    coefficient is infinite or undefined.
+    coefficient is infinite or undefined, or if no nonzero coefficient is found although f is not constant.
 
-    The series ends at the power `up_to`, or at its first nonzero coefficient if this comes later.
+    The series ends at the power `up_to`, or at its first nonzero coefficient if this comes later, but not after the
+    power `HIGHEST`.
     """
     found: dict[int, Expr] = {}
     derivative, factorial = f, Integer(1)

@@ -159,7 +159,8 @@ class Cross(VectorNode):
 
 class CarriedRate(VectorNode):
     """The rate dA/dt in space of a vector A. The components of A are along axes that rotate with the angular velocity
-    omega. Arguments: A, omega, and the coordinates that move; without coordinates, A is constant in the body.
+    omega. Arguments: A, omega, and the coordinates that move; without coordinates, A changes in the body only where it
+    contains the time.
 
     The value is the rate of the components plus the rate of the rotated vector. The second rate is found by
     differentiating R(t) A, where R(t) is the rotation by |omega| t about omega, and not as omega x A.
@@ -194,7 +195,8 @@ def _rotation_onto_z(n: Matrix) -> Matrix:
 
 
 class BodyRate(VectorNode):
-    """dA/dt as seen in the body. Arguments: A, and the coordinates that move; by default A is constant."""
+    """dA/dt as seen in the body. Arguments: A, and the coordinates that move; without coordinates, A changes only where
+    it contains the time."""
 
     def _evaluated(self, a: Matrix, *moving: Symbol) -> ImmutableMatrix:
         return column(*(explicit(TimeRate(component, *moving)) for component in a))
@@ -417,7 +419,8 @@ class Outer(MatrixNode):
 
 
 def _entries(vector: Value, text: TextOf) -> str:
-    """The text of a vector; a name is put in `Matrix(...)`, so that the text can be indexed."""
+    """The text of a vector; a vector without explicit entries is put in `Matrix(...)`, so that the text can be
+    indexed."""
     return text(vector) if isinstance(vector, MatrixBase) else f"Matrix({text(vector)})"
 
 

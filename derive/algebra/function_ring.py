@@ -2,8 +2,8 @@
 
 Roots and absolute values are split into those of their factors, as far as the signs of the factors allow it. A root or
 an absolute value becomes a new letter, which is a variable of the ring with a relation, r^q = p or |p|^2 = p^2. A power
-with a sum as its exponent becomes a product, exp(u + v) = exp u exp v. For an unknown function, only one property is
-used: equal arguments give equal values.
+with a sum as its exponent becomes a product, exp(u + v) = exp u exp v. For a function without a rule in this module,
+only one property is used: equal arguments give equal values.
 
 The new letters may depend on one another, so a form with terms may still be zero. A form without terms is zero,
 provided that it contains no division by zero.
@@ -54,7 +54,7 @@ from derive.algebra.sparse_polynomials import ONE, Form, Outside, Terms
 from derive.algebra.trig_polynomials import ONES, TrigRing, terms_of_angle
 
 HIGHEST = 500  # highest power of a sum, and highest multiple of an angle
-PRIMES = 2**15  # largest trial divisor when a number under a root is factored
+PRIMES = 2**15  # largest trial divisor when a number is factored
 _QUOTIENTS = {tan: (sin, cos), cot: (cos, sin), tanh: (sinh, cosh)}
 _INVERSES = {sec: cos, csc: sin}
 

@@ -102,8 +102,8 @@ def _antiderivative_of_factor(inside: Expr, x: Symbol) -> Expr | None:
 
 @lru_cache(maxsize=1024)
 def _odd_powers(inside: Expr, x: Symbol) -> Expr | None:
-    """The antiderivative of sin^p(u) cos^q(u) if p or q is odd, by a substitution: c = cos u in
-    sin^3 u = (1 - cos^2 u) sin u. None for any other product."""
+    """The antiderivative of sin^p(u) cos^q(u), with u linear in x, if p or q is odd, by a substitution: c = cos u in
+    sin^3 u = (1 - cos^2 u) sin u. None for any other product, and for a single sine or cosine."""
     powers = dict(factor.as_base_exp() for factor in Mul.make_args(inside))
     angle = next((f.args[0] for f in powers if isinstance(f, sin | cos)), None)
     if angle is None or powers.keys() - {sin(angle), cos(angle)}:

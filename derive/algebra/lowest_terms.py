@@ -67,7 +67,8 @@ def factored(value: Expr) -> Expr:
 
 
 def shared_factor(values: Sequence[Expr]) -> Product:
-    """The common factor of all values, divided by their common denominator; the numerical factor is positive."""
+    """The common factor of all nonzero values, divided by their common denominator; the numerical factor is
+    positive."""
     parts = [part for value in values if (part := _with_plus_first(_factors(value))).number]
     if not parts:
         return Product(S.One, {})
@@ -228,7 +229,8 @@ def _without_common(top: Terms, bottom: Terms) -> tuple[Terms, Terms]:
 
 
 def _quotient(top: Terms, divisor: Terms) -> Terms | None:
-    """The quotient of two sums; None if there is a remainder, which is mostly detected modulo a prime."""
+    """The quotient of two sums; None if the divisor has only one term, or if no quotient without remainder is found.
+    Most remainders are detected modulo a prime."""
     places = _places([*top, *divisor])
     first = next(iter(_places(divisor)), None)
     if first is None or len(divisor) < 2 or not set(_places(divisor)) <= set(_places(top)):

@@ -49,7 +49,7 @@ from derive.algebra.tidy import common_factor, tidied
 MOST_TOGETHER = 3  # greatest number of quantities that one form may use
 SIGNS_OF_A_SYMBOL = 2  # a symbol counts as much as this number of operations
 HALF = Rational(1, 2)
-LONGEST = 120  # an expression that is longer than this (`length`) is not rewritten
+LONGEST = 120  # an expression that is longer than this (`_size`) is not rewritten
 INVERSES = {acos: cos, asin: sin, atan: tan}
 
 
@@ -68,8 +68,8 @@ class Shortened:
 
 
 def shortened(value: Any, quantities: Mapping[Symbol, Expr], kept: Collection[Symbol] = ()) -> Shortened | None:
-    """Return the shortest form of an expression or an equation in which quantities replace symbols; None if no shorter
-    form is found.
+    """Return the shortest form found for an expression or a relation in which quantities replace symbols; None if no
+    shorter form is found.
 
     quantities   symbol -> its value in other symbols
     kept         symbols that must not be eliminated, such as the coordinates
@@ -159,7 +159,8 @@ def _eliminations(quantities: Mapping[Symbol, Expr], kept: Collection[Symbol]) -
 
 @lru_cache(maxsize=4096)
 def _solutions(name: Symbol, value: Expr, kept: frozenset[Symbol]) -> tuple[tuple[Symbol, Expr], ...]:
-    """Return the symbols for which the equation name = formula can be solved, each with its value."""
+    """Return the symbols, except those in `kept`, for which the equation name = formula can be solved, each with its
+    value."""
     left, right = name, value
     for sign in (1, -1):
         if function := INVERSES.get(type(sign * value)):
@@ -213,7 +214,8 @@ def _with(
 
 
 def compared(left: Expr, mark: str, right: Expr, takes_roots: bool = True) -> Relation:
-    """Write gamma < omega_0, not 4 gamma^2 < 4 omega_0^2, if both sides are squares of positive expressions."""
+    """Divide both sides by common factors, and move a number to the right side. Write gamma < omega_0, not 4 gamma^2 <
+    4 omega_0^2, if both sides are squares of positive expressions."""
     shared = common_factor([left, right])
     if shared.is_positive:
         left, right = tidied(left / shared), tidied(right / shared)
@@ -230,7 +232,8 @@ def compared(left: Expr, mark: str, right: Expr, takes_roots: bool = True) -> Re
 def _relation(
     value: Relation, known: Mapping[Expr, Expr], quantities: Mapping[Symbol, Expr], is_motion: bool
 ) -> Shortened:
-    """Rewrite both sides term by term, and divide them by a common factor."""
+    """Rewrite both sides; divide an equation whose right side is zero, and a relation with two nonzero sides, by common
+    factors, except an equation of motion with two nonzero sides."""
     used = tuple(quantities)
     if value.operator == "=" and value.left.is_Symbol and value.left not in {*known, *value.right.free_symbols}:
         return Shortened(Relation(value.left, "=", _written(value.right, known)), used)
@@ -250,7 +253,7 @@ def _relation(
 
 
 def _written(value: Expr, known: Mapping[Expr, Expr]) -> Expr:
-    """Substitute, and return the shortest of a few forms of the result."""
+    """Substitute, and return a short form of the result."""
     put_in = value.subs(known)
     if put_in == value:
         return value

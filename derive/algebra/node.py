@@ -112,7 +112,7 @@ def as_expr(value: Any) -> Any:
 
 
 def explicit(expr: Value) -> Value:
-    """The expression with every node evaluated, and matrices as explicit matrices."""
+    """The expression with every node evaluated, and matrices without names as explicit matrices."""
     if isinstance(expr, MatrixBase):
         return ImmutableDenseMatrix(expr.applyfunc(explicit))
     if isinstance(expr, Basic):

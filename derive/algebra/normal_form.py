@@ -92,7 +92,8 @@ def _is_nothing(divisor: Expr) -> bool:
 
 
 def _hides_angles(expr: Expr) -> bool:
-    """Whether a sine is under a root, for example, or an angle contains pi, so that angles must be compared."""
+    """Whether a sine, cosine or tangent is under a root or in an absolute value, or an angle contains pi or an inverse
+    function. Angles must then be compared."""
     under = (root for root in expr.atoms(Pow, Abs) if not (root.is_Pow and root.exp.is_Integer))
     angles = (function.args[0] for function in expr.atoms(sin, cos, tan))
     return any(each.has(sin, cos, tan) for each in under) or any(each.has(acos, asin, atan, pi) for each in angles)

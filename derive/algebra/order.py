@@ -40,8 +40,8 @@ class Order:
 
     def with_relation(self, difference: Expr, strict: bool, sign_of: SignOf) -> Order:
         """Return these relations and a further one: the difference is greater than zero, or may be zero if the relation
-        is not strict. Raise `Contradiction` if the further relation contradicts these relations. A relation that adds
-        nothing is left out."""
+        is not strict. Raise `Contradiction` if the further relation is known to contradict these relations. A relation
+        that is known to follow from them is left out."""
         there, below = together(self.put_in(difference)).as_numer_denom()
         there = expand(there) if sign_of(below) == 1 else expand(there / below)
         sign = 0 if there.is_zero else sign_of(there)
@@ -88,7 +88,7 @@ class Order:
 
     def at(self, point: Mapping[Expr, Expr], fits: Callable[[Expr, Expr], bool]) -> dict[Expr, Expr]:
         """The point, with the numbers of replaced symbols changed so that they satisfy the relations. The amounts are
-        made smaller until the numbers fit their symbols (`fits`)."""
+        made smaller until the numbers fit their symbols (`fits`), or until `PARTS` sizes have been tried."""
         missing = set().union(*(v.free_symbols for v in self.replaced.values())) - {*self.amounts.values(), *point}
         free = {**point, **{s: Rational(7 + 2 * n, 5) for n, s in enumerate(sorted(missing, key=str))}}
         wanted = [(s, value) for s, value in self.replaced.items() if s in point]
@@ -105,7 +105,7 @@ def _letter_replaced(
     difference: Expr, strict: bool, sign_of: SignOf
 ) -> tuple[Symbol, Expr, Symbol] | tuple[None, None, None]:
     """A symbol in which the difference is linear, its value, and a new amount: with this value, the difference equals
-    the amount."""
+    the amount. Each of the three is None if no symbol is found."""
     amount = Dummy("more", positive=True) if strict else Dummy("more", nonnegative=True)
     for letter in sorted((s for s in difference.free_symbols if isinstance(s, Symbol)), key=str):
         slope = difference.diff(letter)

@@ -128,7 +128,8 @@ def rational_in_range(letter: Any, number: Expr) -> Expr:
 
 
 def fulfilling(point: Mapping[Any, Any]) -> dict[Any, Any]:
-    """The point, with the numbers of some symbols changed so that the numbers satisfy the assumed relations."""
+    """The point, with the numbers of some symbols changed so that, if possible, the numbers satisfy the assumed
+    relations."""
     order = known_order()
     return order.at(point, _fits) if order else dict(point)
 
@@ -139,7 +140,7 @@ def _fits(letter: Any, number: Expr) -> bool:
 
 
 def without_abs(value: Any) -> Any:
-    """Remove absolute values whose argument has a known sign in the ranges of its symbols."""
+    """Remove absolute values whose argument has a known sign by the ranges of its symbols or the assumed relations."""
     known = _KNOWN.get()
     if not hasattr(value, "atoms") or not (value.free_symbols & known.keys() or known_order().touches(value)):
         return value
@@ -172,8 +173,8 @@ def _drawn_out(root: Pow) -> Expr | None:
 
 
 def sign_within(expr: Expr) -> int | None:
-    """The sign, 1 or -1, of all values inside the ranges of the symbols; None if no common sign is known. The ends of
-    the ranges do not count."""
+    """The sign, 1 or -1, of all values inside the ranges of the symbols for which the assumed relations hold; None if
+    no common sign is known. The ends of the ranges do not count."""
     signs = [_sign_of_factor(factor) for factor in Mul.make_args(expr)]
     return None if None in signs else prod(sign for sign in signs if sign)
 

@@ -187,7 +187,7 @@ def value_at(expr: Expr, point: SamplePoint) -> Expr:
 
 
 def is_zero_everywhere(expr: Expr) -> bool | None:
-    """Whether the expression is zero at all sampled points; None if no value is found."""
+    """Whether the expression is zero at all sampled points where its value is found; None if no value is found."""
     found: bool | None = None
     letters = letters_of(expr)
     for point in islice(points(letters, seed_of(expr)), 6 if letters else 1):
@@ -259,7 +259,7 @@ def as_sympy(x: Any) -> Expr:
 
 _OF_ZERO = -(10**30)
 # Largest size of a power (the exponent times the number of bits of the base) and largest argument of a function in
-# `_GROWING`. Larger values would hide the other terms of a sum.
+# `_GROWING`; a whole power may have four times this size. Larger values would hide the other terms of a sum.
 _LARGEST = 300
 _MOST = 60  # greatest number of bits of the integer part of a function's argument
 _GROWING = {"exp", "sinh", "cosh", "tanh", "coth", "sech", "csch", "erf"}

@@ -104,13 +104,13 @@ def half_swing(f: Expr, q: Symbol, amplitude: Expr, digits: int) -> Rational | N
 
 
 def is_isochronous(f: Expr, q: Symbol, amplitude: Symbol, squared_frequency: Expr) -> bool:
-    """Whether the swing with q_dot^2 = f takes the same time for every amplitude A.
+    """Whether it is shown that the swing with q_dot^2 = f has this squared angular frequency for every amplitude A.
 
     This is shown for f = w(q) (D(A) - D(q)), the form that conservation of energy gives. The coordinate S = sqrt(D(q))
     then satisfies S_dot^2 = w D'^2 (S(A)^2 - S^2)/(4 D), which is a simple harmonic oscillation if w D'^2/(4 D) is the
     constant omega^2.
     """
-    height = tidied(f.subs(q, 0))  # D(A), if w(0) = 1
+    height = tidied(f.subs(q, 0))  # D(A), if w(0) = 1 and D(0) = 0
     here = height.subs(amplitude, q)
     weight = -f.subs(amplitude, 0) / here
     separable = f - weight * (height - here)

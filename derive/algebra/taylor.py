@@ -1,7 +1,8 @@
 """Taylor series of a formula along a motion: each symbol has its own series, and the series are added and multiplied.
 
-No derivatives are computed. If x = x_0 + x_1 s + ... and y = y_0 + y_1 s + ..., the coefficients of x y are the sums of
-x_j y_(k-j). The coefficients of sin u and cos u follow from each other by (sin u)' = u' cos u and (cos u)' = -u' sin u.
+The arithmetic needs no derivatives. If x = x_0 + x_1 s + ... and y = y_0 + y_1 s + ..., the coefficients of x y are the
+sums of x_j y_(k-j). The coefficients of sin u and cos u follow from each other by (sin u)' = u' cos u and (cos u)' =
+-u' sin u.
 The coefficients of y = x^a follow from x y' = a x' y, and the coefficients of y = exp(u) from y' = u' y.
 
 Source: Griewank, Walther, *Evaluating Derivatives*, ch. 13 (Taylor arithmetic).
@@ -110,7 +111,8 @@ def _of_quotient(expr: Expr, paths: Mapping[Symbol, Sequence[Expr]], order: int)
 
 
 def _beginnings(below: Expr, paths: Mapping[Symbol, Sequence[Expr]], order: int) -> Iterator[tuple[int, Series]]:
-    """Yield the powers with nonzero coefficients, the lowest first, each with the series of `below`."""
+    """Yield the powers whose coefficients are not shown to vanish, the lowest first, each with the series of `below`; a
+    longer series follows a shorter one."""
     for deep in (DEEPEST // 4, DEEPEST):
         under = taylor(below, paths, order + deep)
         yield from ((n, under) for n, part in enumerate(under[: deep + 1]) if not vanishes(part))

@@ -46,7 +46,7 @@ from derive.algebra.squares import differences_of_squares
 
 
 def tidied(value: Any) -> Any:
-    """The explicit value in its tidy form, entry by entry for a matrix."""
+    """The explicit value in its tidy form, entry by entry for a matrix and side by side for a relation."""
     value = without_abs(_signs_squared(explicit(value)))
     if isinstance(value, Relation):
         return Relation(tidied(value.left), value.operator, tidied(value.right))
@@ -111,7 +111,7 @@ def _by_secant(total: Expr) -> Expr:
 
 
 def _of_two_letters(function: type, angle: Expr) -> Expr:
-    """The unevaluated sine or cosine of a sum or difference of two symbols."""
+    """The sine or cosine of a sum or difference of two symbols; it is unevaluated if the symbols are real."""
     if not all(letter.is_real for letter in angle.free_symbols):
         return function(angle)
     turned = angle.could_extract_minus_sign()
@@ -120,7 +120,8 @@ def _of_two_letters(function: type, angle: Expr) -> Expr:
 
 
 def _two_turning(term: Expr) -> tuple[int, dict[type, set[Symbol]]] | None:
-    """The sign of a term, and the angles of its sines and of its cosines, if it is such a product; else None."""
+    """The sign of a term, and the angles of its sines and of its cosines, if it is plus or minus a product of two sines
+    or cosines with different symbols as angles; else None."""
     number, product = term.as_coeff_Mul()
     if abs(number) != 1 or len(product.args) != 2 or not product.is_Mul:
         return None
@@ -196,7 +197,8 @@ def _has_roots(value: Expr) -> bool:
 
 
 def _denested(value: Expr) -> Expr:
-    """Simplify nested roots by the square: (8 sqrt(2) - 11) sqrt(146 + 103 sqrt(2))/14 becomes sqrt(2 - sqrt(2))/2."""
+    """Simplify nested roots, as the root of the square: (8 sqrt(2) - 11) sqrt(146 + 103 sqrt(2))/14 becomes
+    sqrt(2 - sqrt(2))/2."""
     number, letters = value.as_independent(*value.free_symbols, as_Add=False) if value.free_symbols else (value, 1)
     nested = [f for f in Mul.make_args(number) if f.is_Pow and f.exp.is_Rational and f.base.atoms(Pow)]
     if not nested or number.is_Add or any(abs(f.exp) != Rational(1, 2) for f in nested):

@@ -119,7 +119,8 @@ class Finer(Exception):
 
 
 class TrigRing(Ring):
-    """The polynomials in letters, in exp(i q) for angles q, and in the reciprocals of sums that are divisors."""
+    """The polynomials in letters, in exp(i q) for angles q, in square roots, and in the reciprocals of sums that are
+    divisors."""
 
     work = WORK
 

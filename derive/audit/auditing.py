@@ -34,7 +34,7 @@ from derive.documents.syntax import Add, Cases, Int, Letter, Mat, Node, Text
 SECONDS = 3.0  # seconds of processor time for one claim
 LEAST_SECONDS = 0.4  # the limit for a claim once a document has used much time
 USUAL_SECONDS = 0.3  # the usual processor time of a claim
-MOST_LATE = 40.0  # the limit falls linearly with the seconds used beyond the usual time, to zero at this number
+MOST_LATE = 40.0  # the limit falls linearly with the seconds beyond the usual time; at this number it would be zero
 SECONDS_OF_SEARCH = 2.0  # seconds of processor time for the search for a change that makes a claim right
 MOST_INDICES = 12
 MOST_ROWS = 10  # number of claims whose terms may be missing in the next row
@@ -74,8 +74,8 @@ def claims_of(document: Document) -> tuple[list[Claim], Facts, list[tuple[Row, s
                     read.append((None, error.message))
                     faults.append(error.message)
                 except RecursionError:
-                    read.append((None, "this formula is nested too deep"))
-                    faults.append("this formula is nested too deep")
+                    read.append((None, "this formula is nested too deeply"))
+                    faults.append("this formula is nested too deeply")
             nodes[id(statement)] = read
             sides += [node for node, _ in read if node is not None]
             first = nodes.get(id(_head(statement)), read)[0][0]
@@ -224,7 +224,7 @@ class _Auditor:
         except OutOfTime:
             claim.verdict = Verdict(Outcome.UNDECIDED, f"this takes more than {seconds:.1g} seconds")
         except RecursionError:
-            claim.verdict = Verdict(Outcome.UNDECIDED, "this formula is nested too deep")
+            claim.verdict = Verdict(Outcome.UNDECIDED, "this formula is nested too deeply")
         search = min(seconds, SECONDS_OF_SEARCH)
         display, undecided = claim.row.block.display, claim.verdict.outcome is Outcome.UNDECIDED
         if claim.verdict.outcome is Outcome.DEFINES or (undecided and display):

@@ -28,7 +28,7 @@ PLUS_MINUS = Symbol("±", real=True)
 POINTS = 4
 CLOSE = Rational(1, 10**9)
 MOST_COMBINED = 6  # number of the last equations that are combined
-LARGEST_GOAL = 400  # the most operations of an equation that is compared
+LARGEST_GOAL = 400  # equations with more operations are not compared after substitution
 MOST_SIGNS = 3  # number of absolute values whose signs are tried
 STRICT = ("<", ">", "<<", ">>", "!=")
 CONVERTED = 0.01  # two bounds with a greater relative difference are not one bound in different units
@@ -619,7 +619,7 @@ class Decision:
         return Verdict(Outcome.UNDECIDED, "an equation that does not follow from the rows before it")
 
     def is_lagrange_form(self, symbols: set[Symbol]) -> bool:
-        """Whether an equation relates the derivatives of one letter by a coordinate and by its rate."""
+        """Whether an equation has derivatives of one letter, some by a coordinate and some by a rate."""
         derivatives = [self.meaning.derivatives[each] for each in symbols if each in self.meaning.derivatives]
         letters = {letter.identity for letter, _, _ in derivatives}
         dots = {
@@ -631,7 +631,7 @@ class Decision:
         return len(letters) == 1 and {0, 1} <= dots
 
     def holds_in_motion_only(self, left: Value, right: Value) -> bool:
-        """Whether a second rate or a rate of a momentum, as equations of motion give, is on one side only."""
+        """Whether a second rate, or a rate of a letter that usually names a momentum, is on one side only."""
         letters = self.meaning.symbols
         for each in left.free_symbols ^ right.free_symbols:
             letter = letters.get(each)
@@ -674,7 +674,8 @@ def _solves(equation: Expr, letter: Symbol, value: Expr) -> bool:
 
 
 def _combination(wanted: Expr, equations: list[tuple[Expr, int]]) -> tuple[int, ...] | None:
-    """Return the claims of two or three equations whose sum or difference is a multiple of the wanted one."""
+    """Return the claims of two or three equations whose sum, with some choice of signs, gives a multiple of the wanted
+    equation."""
     goal = fingerprint(wanted)
     for count in (2, 3):
         for chosen in combinations(equations, count):
@@ -754,7 +755,7 @@ def changing_letters(symbols: set[Symbol], meaning: Meaning) -> tuple[Symbol, ..
 
 
 def small_letters(symbols: set[Symbol], meaning: Meaning) -> list[tuple[Symbol, ...]]:
-    """Return the sets of letters that can be small: those that change, with their rates, or one letter alone."""
+    """Return the sets of letters that can be small: all that change, with the angles, or one letter alone."""
     changing = changing_letters(symbols, meaning)
     single = [(each,) for each in sorted(symbols, key=str)]
     return ([changing] if changing else []) + single
@@ -809,7 +810,7 @@ def _approximate_multiple(wanted: Expr, equation: Expr, meaning: Meaning) -> boo
 
 
 def counterexample(left: Value, right: Value) -> str:
-    """Return an example with numbers, as text, in which two sides differ."""
+    """Return an example with numbers, as text, in which two sides differ; an empty text if none is found."""
     symbols = sorted(left.free_symbols | right.free_symbols, key=str)
     for point in _simple_points(symbols):
         for one, other in zip(_entries(left), _entries(right), strict=False):

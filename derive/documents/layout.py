@@ -55,7 +55,7 @@ ARROWS = {
     "lor": "or", "leadsto": "implies",
 }  # fmt: skip
 WIDE = {"quad", "qquad", "qq", "hspace", "hfill", "hskip"}
-# Words of the package physics, such as `\qthen`, and their like.
+# Commands of the package physics that print a word, such as `\qthen`.
 SPOKEN = {
     "qif": "if", "qthen": "then", "qelse": "else", "qotherwise": "otherwise", "qunless": "unless", "qgiven": "given",
     "qusing": "using", "qassume": "assume", "qsince": "since", "qlet": "let", "qfor": "for", "qall": "all",
@@ -69,7 +69,7 @@ LONGEST_INLINE = 2_000  # the most characters of a formula in a sentence
 
 
 class Cue(StrEnum):
-    """Words before a formula that say where it comes from."""
+    """Words near a formula that say where the formula comes from."""
 
     GIVEN = "given"
     DEFINED = "let"
@@ -398,7 +398,7 @@ class _Reading:
 
 
 def _without_definitions(tokens: list[Token]) -> list[Token]:
-    """Leave out the commands that are defined inside of a formula; they are already known."""
+    """Leave out the definitions of commands inside a formula; these commands are already known."""
     found: list[Token] = []
     at = 0
     while at < len(tokens):
@@ -443,7 +443,7 @@ def _simplified(tokens: list[Token]) -> list[Token]:
             found += [*_environment_sign(token, "begin", name), *inner, *_environment_sign(token, "end", name)]
         elif token.is_command("eval") and at < len(tokens) and tokens[at].is_command("cdot"):
             while at < len(tokens) and not tokens[at].is_command(*ARROWS, "\\\\", "qc", "quad", "qquad"):
-                at += 1  # the note `| \\cdot 2` says by what both sides are multiplied
+                at += 1  # the note `| \cdot 2` says by what both sides are multiplied
         elif token.is_command("hline", "midrule", "toprule", "bottomrule", "centering"):
             continue
         elif token.is_command("qq"):
@@ -633,7 +633,7 @@ def _is_alignment(tokens: Sequence[Token], begin: int) -> bool:
 
 
 def statements_of(cells: list[list[Token]], row: Row, before: Statement | None) -> list[Statement]:
-    """Return the statements of a row; a row that begins with a relation follows from the statement before it."""
+    """Return the statements of a row; a row that begins with a relation continues the statement before it."""
     found: list[Statement] = []
     for column in _columns(cells):
         for tokens, link, words in _pieces(column):
@@ -665,7 +665,8 @@ def _main(statements: list[Statement]) -> Statement | None:
 
 
 def _columns(cells: list[list[Token]]) -> Iterator[list[Token]]:
-    """Yield the tokens of each equation of a row of `align`; every second `&` separates two equations."""
+    """Yield the tokens of each equation of a row of `align`; every second `&` separates two equations, if both have a
+    relation sign."""
     column: list[Token] = []
     for number, cell in enumerate(cells):
         begins = next((each for each in cell if each.kind is not Kind.SPACE), None)
@@ -730,7 +731,7 @@ def _is_relation(token: Token) -> bool:
 
 
 def _next_piece(tokens: list[Token]) -> list[Token]:
-    """Return the tokens up to the next comma or word outside of brackets."""
+    """Return the tokens up to the next comma, semicolon, word or arrow outside of brackets."""
     found = []
     for token, depth in depths(tokens):
         if depth == 0 and (token.is_mark(",", ";") or token.is_command(*WORDS, *ARROWS)):
@@ -762,7 +763,7 @@ def _link(said: str) -> str:
 
 
 def _without_range(tokens: list[Token]) -> list[Token]:
-    r"""Leave out the range of an index behind an equation: `\\quad (i = 1, 2, \\ldots, n)`."""
+    r"""Leave out the range of an index after an equation: `\quad (i = 1, 2, \ldots, n)`."""
     if not tokens or not tokens[-1].is_mark(")"):
         return tokens
     begins = [at for at, (token, depth) in enumerate(depths(tokens)) if depth == 0 and token.is_mark("(")]
@@ -806,7 +807,7 @@ def _chain(tokens: list[Token], row: Row, link: str, words: str) -> Statement | 
         else:
             relations.append(relation)
             sides.append([])
-    if relations[:1] == ["to"] and any(each.is_mark(":") for each in sides[0]):  # `F: A \\to B` is a kind of function
+    if relations[:1] == ["to"] and any(each.is_mark(":") for each in sides[0]):  # `F: A \to B` is a kind of function
         sides[0] = sides[0][next(i for i, each in enumerate(sides[0]) if each.is_mark(":")) + 1 :]
     for side in sides:
         while len(side) > 1 and side[-1].is_mark(".", ",", ";", ":"):

@@ -1,4 +1,4 @@
-r"""The commands that a document defines with `\newcommand`, `\def`, `\DeclareMathOperator` and their like."""
+r"""The commands that a document defines with `\newcommand`, `\def`, `\DeclareMathOperator` and similar commands."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from derive.documents.source import Span
 from derive.documents.tokens import DEEPEST_CALLS, MOST_TOKENS, Kind, Token, TooLarge, tokens_of
 
 MOST_MACROS = 2000
-MOST_UNCLOSED = 100  # definitions whose braces are not closed
+MOST_UNCLOSED = 100  # the search for definitions ends if the braces of more definitions are not closed
 
 
 @dataclass(frozen=True)

@@ -69,13 +69,13 @@ from derive.documents.syntax import (
 from derive.errors import DeriveError
 from derive.units import read_unit
 
-Value: TypeAlias = Any  # an expression, or an immutable matrix: SymPy has no types
+Value: TypeAlias = Any  # an expression or an immutable matrix: SymPy has no common type for them
 LARGEST_POWER = 60
-MOST_TERMS = 20  # the most terms of a sum whose limits are numbers
+MOST_TERMS = 20  # greatest difference of the limits of a sum or product whose terms are written out
 LONGEST_NUMBER = 60
 MOST_BITS = 4000  # the most bits of a power of a number
 LARGEST_DETERMINANT = 6
-MOST_NESTED_TERMS = 2000  # the most terms of nested sums
+MOST_NESTED_TERMS = 2000  # the most terms of nested sums and products that are written out
 
 
 class Meaningless(Exception):
@@ -292,7 +292,7 @@ class Meaning:
                 return base.dot(base)
             if exponent == -1 or (exponent.is_Integer and base.shape[0] == base.shape[1] and abs(exponent) < 6):
                 return base**exponent
-            raise Meaningless("only the square of a vector has a value", node.span)
+            raise Meaningless("this power of a vector or matrix has no value", node.span)
         if exponent.is_Number and abs(exponent) > LARGEST_POWER:
             raise Meaningless("this power is too high", node.exponent.span)
         if base == 0 and exponent.is_negative:
@@ -460,7 +460,7 @@ class Meaning:
             if not isinstance(letter, Letter):
                 raise Meaningless("this is not a variable of differentiation", letter.span)
             if self.facts.is_vector(letter, self.scope):
-                raise Meaningless("this is a derivative by a vector", letter.span)
+                raise Meaningless("this is a derivative with respect to a vector", letter.span)
             by.append((self.symbol(letter), order))
         of = _inner_letter(node.of)
         if of is not None and not self.facts.is_vector(of, self.scope) and not self.facts.is_tensor(of, self.scope):
@@ -535,12 +535,13 @@ class Meaning:
             if self.has_index(symbol, index):
                 member = self.symbols.get(symbol)
                 if member is None or symbol == index:
-                    raise Meaningless("this is the derivative of a sum by one of its members", letter.span)
+                    raise Meaningless("this is the derivative of a sum with respect to one of its members", letter.span)
                 put_in[symbol] = self.symbol(_replaced(member, sub=member.sub.replace(index.name, letter.sub)))
         return sympy.diff(term.xreplace(put_in), by)
 
     def rate_of(self, symbol: Symbol, by: Symbol, partial: bool) -> Expr:
-        """Return the derivative of a letter by another: its rate, zero, or a symbol if nothing is known about it."""
+        """Return the derivative of a letter with respect to another one: a rate or a symbol for the derivative; zero if
+        the first letter is not known to depend on the other."""
         if symbol in self.sums:
             term, index, bounds = self.sums[symbol]
             if self.has_index(by, index):
@@ -738,7 +739,8 @@ class Meaning:
         return value
 
     def range_of(self, bound: Node | None) -> str:
-        """Return a bound as a word; a sum from 1 to N is written without its bounds, too."""
+        """Return a bound as a word; empty for 1 and for N, n, d and s, so that such a sum equals a sum without
+        bounds."""
         if bound is None or (isinstance(bound, Num) and bound.text == "1"):
             return ""
         letter = _letter_in(bound)
@@ -793,7 +795,8 @@ class Meaning:
         return str(symbol.name).replace(f"_{index.name}", f"_{mark}")
 
     def of_nabla(self, node: Nabla) -> Any:
-        """Return a gradient, divergence, curl or Laplacian; the derivatives of a letter by x, y and z are symbols."""
+        """Return a gradient, divergence, curl or Laplacian; the derivatives of a letter with respect to x, y and z are
+        symbols."""
         axes = [self.symbol(Letter(node.span, each)) for each in "xyz"]
         of = _inner_letter(node.of) or (node.of.head if isinstance(node.of, Apply) else None)
         if isinstance(node.of, Open) and node.of.kind == "apply":

@@ -305,7 +305,7 @@ class _Reader:
         letters = _split(tokens, lambda each: each.is_mark(","))
         try:
             if len(letters) > 1 and all(len(each) == 1 for each in letters):
-                return Vec(span, tuple(self.inside(each, span) for each in letters))  # `\\sum_{i,j}`
+                return Vec(span, tuple(self.inside(each, span) for each in letters))  # `\sum_{i,j}`
             return self.inside(tokens, span)
         except Unreadable:
             return Text(span, "".join(each.text for each in tokens))
@@ -398,7 +398,7 @@ class _Reader:
     # Factors
 
     def factor(self) -> Node:
-        """Return an atom with its scripts and primes, or the function of a bracket after a letter."""
+        """Return a differential, an atom with its scripts and primes, or a letter with the bracket after it."""
         self.skip_spacing()
         token = self.peek()
         if token is None:
@@ -455,7 +455,8 @@ class _Reader:
         return Open(span, "apply", (as_function, Mul(span, (("", head), ("", as_product)))))
 
     def is_differential(self) -> bool:
-        """Whether `d` begins a differential: always in an integral, elsewhere as one of two readings."""
+        """Whether `d`, or a command for it, begins a differential. Outside of an integral, a plain `d` has two
+        readings."""
         token = self.peek()
         if token is None:
             return False
@@ -518,7 +519,7 @@ class _Reader:
         return self.scripted(made)
 
     def subscripted(self, atom: Node) -> Node:
-        """Return a letter with its subscript only: the letter after `d`."""
+        """Return a letter with its subscripts and primes, but without superscripts: the letter after `d`."""
         while isinstance(atom, Letter) and (token := self.peek()) is not None and token.kind is Kind.SCRIPT:
             if token.text != "_":
                 break
@@ -538,7 +539,7 @@ class _Reader:
                 continue
             following = self.peek(1)
             if token.is_command(",", "!", ":", ";") and following is not None and following.kind is Kind.SCRIPT:
-                self.at += 1  # `90\\,^\\circ`
+                self.at += 1  # `90\,^\circ`
                 continue
             if token.is_mark("'"):
                 self.at += 1
@@ -816,7 +817,7 @@ class _Reader:
         return Mul(self.since(token), (("", number), ("", unit)))
 
     def unit(self, tokens: list[Token]) -> str:
-        r"""Return a unit as a word: `m/s^2` for `m/s^2`, `m.s^{-2}` and `\\metre\\per\\second\\squared`."""
+        r"""Return a unit as a word: `m/s^2` for `m/s^2`, `m.s^{-2}` and `\metre\per\second\squared`."""
         word = ""
         for token in without_spaces(tokens):
             if token.kind in (Kind.OPEN, Kind.CLOSE):
@@ -1213,7 +1214,7 @@ class _Reader:
     # Brackets
 
     def closing_of(self, opener: Token) -> tuple[int, bool]:
-        """Return the position of the bracket that closes the one at the current position."""
+        """Return the position of the bracket that closes the one at the current position, and whether it is found."""
         depth = 0
         for at in range(self.at, len(self.tokens)):
             token = self.tokens[at]
@@ -1312,7 +1313,7 @@ class _Reader:
         return self.of_bars(inner, span)
 
     def quantity(self, token: Token) -> Node:
-        r"""Read `\abs{...}`, `\qty(...)` and their like of the package physics."""
+        r"""Read `\abs{...}`, `\qty(...)` and similar commands of the package physics."""
         if self.next_is_mark("*"):
             self.at += 1
         following = self.peek()
@@ -1467,7 +1468,7 @@ def _is_word(product: Mul) -> bool:
 
 
 def _unit(tokens: Sequence[Token]) -> str:
-    r"""Return a unit after a number: `unit kg m^2` for `\mathrm{kg\,m^{2}}`, or nothing."""
+    r"""Return a unit after a number, `unit kg m^2` for `\mathrm{kg\,m^{2}}`; an empty text if it is not a unit."""
     pieces = ["" if each.kind in (Kind.OPEN, Kind.CLOSE) else each.text for each in tokens]
     if "".join(pieces) in ("^circ", "^degree"):
         return "degrees"

@@ -1,7 +1,8 @@
 """The verdict on a formula: equal, equal under a convention that is stated, or what is wrong with it.
 
-The first of these tests that succeeds gives the verdict: equal; equal with the definitions of the problem; equal under
-a convention; the opposite sign; another quantity of the problem; another dimension; a factor; a term; special values.
+The first of these tests that succeeds gives the verdict: equal; equal with the definitions of the problem; equal up to
+rounded decimals; equal under a convention; the opposite sign; another quantity of the problem; another dimension;
+letters that the problem does not have; a factor; a term; special values.
 """
 
 from __future__ import annotations
@@ -190,7 +191,8 @@ class _Comparison:
         return None
 
     def is_free(self, chosen: tuple[Symbol, ...]) -> bool:
-        """Whether the Lagrangian changes with the sign of an angle, but not if another sign changes with it."""
+        """Whether the Lagrangian changes if the sign of an angle changes, but not if the sign of a coordinate that is
+        not an angle changes as well."""
         if len(chosen) != 1 or self.key.kinds.get(chosen[0]) != "angle":
             return False
         lagrangian = next((each.value for each in self.key.steps if "lagrangian" in each.key), None)
@@ -228,7 +230,7 @@ class _Comparison:
 
     @staticmethod
     def changes_a_term(difference: Expr, value: Expr, right: Expr, rates: set[Symbol]) -> bool:
-        """Whether two energies have the same term without coordinates with another number, which is a slip."""
+        """Whether a term without coordinates has different numerical factors in the two energies, which is a slip."""
         mine, theirs = (
             [term for term in Add.make_args(sympy.expand(each)) if term != 0 and not term.free_symbols & rates]
             for each in (value, right)
@@ -351,7 +353,7 @@ class _Comparison:
             verdicts = [self.of_scalar(each, wanted[0]) for each in given]
             best = min(verdicts, key=lambda each: each.rank)
             if best.is_right:
-                return Verdict(Outcome.EXTRA, "one of the two signs is right, the other is too much")
+                return Verdict(Outcome.EXTRA, "one of the two signs is right; the other one is superfluous")
             return best
         verdicts = [self.of_scalar(given[0], each) for each in wanted]
         best = min(verdicts, key=lambda each: each.rank)
@@ -411,7 +413,8 @@ class _Comparison:
         return Verdict(outcome, f"{where}: {wrong[0][1].because}{others}")
 
     def one_for_all(self, value: Expr, right: MatrixBase) -> Verdict:
-        """Judge a number for a matrix: right if the matrix is a multiple of the unit matrix or has one component."""
+        """Judge a number for a matrix: it may be right if the matrix is a multiple of the unit matrix, or a vector with
+        only one nonzero component."""
         rows, columns = right.shape
         if rows == columns and are_surely_equal(value, right[0, 0]) and right == right[0, 0] * sympy.eye(rows):
             return Verdict(Outcome.CONVENTION, "as the moment about every axis")

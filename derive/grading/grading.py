@@ -59,7 +59,7 @@ def grade(answer: str, part: Part, key: Key, seconds: float = SECONDS) -> Graded
     except OutOfTime:
         verdict = Verdict(Outcome.UNREADABLE, f"too large: it takes more than {seconds:g} s to compare")
     except RecursionError:
-        verdict = Verdict(Outcome.UNREADABLE, "too large: it is nested too deep")
+        verdict = Verdict(Outcome.UNREADABLE, "too large: it is nested too deeply")
     except MemoryError:
         verdict = Verdict(Outcome.UNREADABLE, "too large: it takes too much memory")
     except FAULTS as error:
@@ -555,7 +555,7 @@ class _Grading:
         return Graded(self.part.label, self.answer, overall, tuple(verdicts), points)
 
     def contradicts(self, found: dict[str, tuple[Verdict, list[_Statement]]]) -> _Statement | None:
-        """Return a wrong second answer to a question, or None; a result with another name is not one."""
+        """Return a wrong second answer to a question, or None; a result with another name does not count."""
         names = {each.name for _, of in found.values() for each in of}
         for statement in self.left_over:
             own = statement.name is None or statement.name in names

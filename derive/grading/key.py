@@ -42,7 +42,7 @@ from derive.steps.homogeneity import dimension_of, dimension_table
 from derive.steps.step import Step
 
 ONE: Expr = Integer(1)
-_NAMED_RATES = (TimeRate, CarriedRate, BodyRate, Slope, At)  # a relation with one of these defines it
+_NAMED_RATES = (TimeRate, CarriedRate, BodyRate, Slope, At)  # a relation with one of these on its left side gives it
 
 
 @dataclass(frozen=True)
@@ -100,7 +100,7 @@ class Key:
     steps         each step of the derivation with its value, to recognise an answer to another question
     definitions   the value of each symbol that a step introduces
     allowed       symbols that the problem defines, such as beta = b/2m; an answer may contain them
-    points        whether the problem has points; without points each answer counts 1
+    points        whether the problem has points; without points each part counts 1
     """
 
     problem: str
@@ -185,7 +185,8 @@ def key_of(
 
 
 def _with_points(targets: list[Target], points: Mapping[str, Fraction] | None) -> Iterator[Target]:
-    """Divide the points of a part among its answers, in proportion to their own points in the rubric."""
+    """Divide the points of a part among its answers, in proportion to their own points in the rubric, or equally if an
+    answer has no points of its own."""
     if points is None:
         yield from (replace(each, own=Fraction(1, len(targets)), whole=Fraction(1, len(targets))) for each in targets)
         return

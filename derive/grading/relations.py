@@ -202,7 +202,8 @@ def _inhomogeneous(comparison: _Comparison, typed: Relation) -> Verdict | None:
 
 
 def _scalings(given: Expr, wanted: Expr) -> list[Expr]:
-    """Return an equation multiplied by each factor that makes one of its terms equal to a term of the right one."""
+    """Return an equation multiplied by factors that make one of its terms equal to a term of the right equation; at
+    most four results, first those with the most equal terms."""
     terms = [sympy.Add.make_args(each) for each in (given, wanted)]
     found: dict[Expr, Expr] = {}
     for term in terms[0][:6]:
@@ -250,7 +251,7 @@ def verdict_on_equation_for(left: Read, right: Read, target: Target, key: Key) -
 
 
 def _solved(rest: Expr, symbol: Symbol, left: Read, target: Target, key: Key) -> Verdict | None:
-    """Judge the solution of an equation that is a power of the answer or linear in it."""
+    """Judge the solutions of a short equation for the symbol of the answer; None if no solution is found."""
     try:
         found = sympy.solve(rest, symbol) if sympy.count_ops(rest) < 80 else []
     except FAULTS:

@@ -1,6 +1,6 @@
 """The slip in a wrong formula (a factor, a sign or a term), and special values for which the formula is right.
 
-Each proposal is tested exactly. The values at a few points only exclude proposals that cannot be right.
+Each proposal is tested by `equal`. The values at a few points only exclude proposals that cannot be right.
 """
 
 from __future__ import annotations
@@ -41,7 +41,8 @@ def are_surely_equal(left: Expr, right: Expr) -> bool:
 
 
 def factor_between(left: Expr, right: Expr) -> Expr | None:
-    """Return left / right if it is a number or a short expression, else None."""
+    """Return left / right if it is found and is a number, a product of powers of symbols, or a short expression; else
+    None."""
     if left == 0 or right == 0:
         return None
     try:
@@ -96,7 +97,7 @@ def _of_terms(answer: Expr, right: Expr, shown: Shown) -> Iterator[Found]:
             yield Outcome.FACTOR, f"the term {shown(term)} has the wrong factor: it is {shown((1 - ratio) * term)} here"
     for term in _grouped(answer, given):
         if len(given) > 1 and are_surely_equal(difference, -term):
-            yield Outcome.EXTRA, f"the term {shown(term)} is too much"
+            yield Outcome.EXTRA, f"the term {shown(term)} is superfluous"
     mine, right_ones = ([each for each in terms if each not in others] for terms, others in
                         ((given, wanted), (wanted, given)))  # fmt: skip
     if len(mine) == len(right_ones) == 1 and len(wanted) > 1:
@@ -133,7 +134,7 @@ def _inside(answer: Expr, right: Expr, shown: Shown) -> Iterator[Found]:
     for total in _sums_in(answer):
         for term in total.args[:MOST_TERMS]:
             if are_surely_equal(_replaced(answer, total, total - term), right):
-                yield Outcome.EXTRA, f"the term {shown(term)} of {shown(total)} is too much"
+                yield Outcome.EXTRA, f"the term {shown(term)} of {shown(total)} is superfluous"
 
 
 def _changes(right: Expr, shown: Shown) -> Iterator[tuple[Outcome, str, Expr]]:

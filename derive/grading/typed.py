@@ -370,7 +370,7 @@ def _without_frame(tokens: list[Token]) -> list[Token]:
 
 
 def _pieces(tokens: list[Token]) -> Iterator[list[Token]]:
-    """Split the tokens into statements at commas, semicolons and ends of rows."""
+    """Split the tokens into statements at commas, semicolons and ends of rows outside of brackets."""
     piece: list[Token] = []
     depth = 0
     for token in tokens:

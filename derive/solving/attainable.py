@@ -76,8 +76,8 @@ def _is_inside(number: Expr, known: Range) -> bool:
 
 
 def existence(of: Quantity, solution: Relation) -> Relation | None:
-    """The condition under which the solution of an equation exists; None if it always exists, or for an inequality.
-    Rejects an equation whose solution never exists."""
+    """The condition under which the solution of an equation exists; None if there is no such condition, and for an
+    inequality. Rejects an equation whose solution is known never to exist."""
     alone, solved = solution.sides
     exists, never = reached(alone, solved) if solution.operator == "=" else (None, False)
     if never:

@@ -19,8 +19,8 @@ from derive.steps.signs import sign_for_all
 
 ZERO = Integer(0)
 MOST = 5  # greatest number of equations that are solved together
-LONGEST_IN_WORDS = 8  # greatest length of an unknown in a sentence
-LONGEST = 20  # greatest length of an unknown that is written in terms of earlier unknowns
+LONGEST_IN_WORDS = 8  # greatest length of the value of an unknown in a sentence
+LONGEST = 20  # greatest length of the value of an unknown that is written in terms of earlier unknowns
 
 
 @dataclass(frozen=True)

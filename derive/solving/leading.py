@@ -172,8 +172,8 @@ def _rest_of_entry(value: Expr, found: Expr, x: Symbol, place: Expr, power: Rati
 def _shrinks(
     value: Expr, found: Expr, x: Symbol, place: Expr, power: Rational, side: int, point: Any, distances: Any
 ) -> bool | None:
-    """Whether the remainder, divided by the power of the small quantity, is smaller at the closer distance; None if the
-    remainder has no value."""
+    """Whether the remainder, divided by the power of the small quantity, shrinks fast enough (`SLOWEST`) from the
+    farther to the closer distance; None if the remainder has no value."""
     sizes = []
     for near in distances:
         there = {**point, x: _at(place, near, point, side)}

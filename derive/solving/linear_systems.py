@@ -69,7 +69,7 @@ LAMBDA, OMEGA, S = (
     Dummy("omega", positive=True),
     Dummy("s", real=True),
 )  # the symbol of the root in each of the three classes
-# conservative systems: greatest number of coordinates, and of coordinates times symbols
+# conservative systems: greatest number of coordinates, and, above three coordinates, of coordinates times symbols
 LARGEST, LETTERS = 12, 40
 LARGEST_WITH_RATES = 4  # greatest number of coordinates of any other system
 FINEST = 60  # for a uniform chain, the angles (a/b) (pi/2) are tried with whole numbers b below this number
@@ -134,8 +134,8 @@ class CharacteristicRoot:
 
     value     for a conservative system, lambda = omega^2; for a gyroscopic system, the frequency or the rate of growth.
               For a damped system, the rate of decay: b/2a for a quadratic factor and b/a for a linear factor
-    sign      1 if the motion oscillates, 0 if it is free, -1 if it grows; None if this is unknown. For a damped system,
-              -1 if the motion is overdamped; for a rate of decay b/a, its sign
+    sign      1 if the motion oscillates, 0 if it is free, -1 if it grows; None if this is unknown. For a damped system:
+              1 if the motion is underdamped, 0 if critically damped, -1 if overdamped; the sign of a rate of decay b/a
     columns   the mode shapes of a conservative system, orthogonal with respect to M; empty if the root has no formula
     turn      1 if the frequency is a root of the factor, -1 if minus the frequency is one; 0 if this is unknown
     """
@@ -165,7 +165,7 @@ Kind = TypeVar("Kind", bound="LinearSystem")
 
 @dataclass(frozen=True)
 class LinearSystem:
-    """The matrices M, G + C and K; the condition `exists` is assumed to hold."""
+    """The matrices M, G + C and K; the condition `exists`, if it is given, is assumed to be true."""
 
     mass: MatrixBase
     turning: MatrixBase
@@ -194,7 +194,8 @@ class LinearSystem:
 
     @cached_property
     def is_minimum(self) -> bool:
-        """Whether the potential energy is known to have a minimum, so that no motion grows."""
+        """Whether the potential energy is known to have a minimum and the kinetic energy is known to be nowhere
+        negative, so that no motion grows."""
         return is_positive_definite(self.stiffness, self.sign) and sign_of_form(self.mass, self.sign) in (0, 1)
 
     def written(self, letter: Symbol) -> Expr:
@@ -351,7 +352,7 @@ def _values_of(factor: Factor) -> list[Expr] | None:
 
 
 def _discriminant(a: Expr, b: Expr, c: Expr) -> Expr:
-    """b^2 - 4 a c in its shorter form."""
+    """The discriminant b^2 - 4 a c in the shorter of two forms."""
     common = gcd(b**2, a * c)
     apart = factor(common) * (factor(b**2 / common) - 4 * factor(a * c / common))
     return min((tidied(b**2 - 4 * a * c), apart), key=length)
@@ -557,8 +558,8 @@ class Gyroscopic(LinearSystem):
         """The amplitudes in terms of the root OMEGA, or of its formula if this is rational; the first nonzero amplitude
         is 1.
 
-        The result is None if the root is repeated or zero, or if no simple form is found. For a growing motion OMEGA is
-        the rate kappa, with omega = -i kappa: e^(i omega t) = e^(kappa t).
+        The result is None if the root is repeated or zero, if its `turn` is unknown, or if no simple form is found. For
+        a growing motion OMEGA is the rate kappa, with omega = -i kappa: e^(i omega t) = e^(kappa t).
         """
         if root.times > 1 or root.sign == 0 or not root.turn:
             return None
@@ -639,7 +640,7 @@ class Damped(LinearSystem):
     def column(self, root: CharacteristicRoot) -> MatrixBase | None:
         """The amplitudes, if they do not depend on the exponent.
 
-        The result is None if they do, or if there is not exactly one column.
+        The result is None if they do, if the root is repeated, or if there is not exactly one column.
         """
         columns = _null_columns(self.at(S), Poly(root.factor.at(S), S)) if root.times == 1 else []
         return None if len(columns) != 1 or columns[0].has(S) else ImmutableDenseMatrix(columns[0].applyfunc(tidied))
@@ -649,7 +650,7 @@ class Damped(LinearSystem):
 
 
 def _with_root(plain: Expr, before: Expr, root: Expr, by_terms: bool = False) -> Expr:
-    """Write u + v sqrt(D) in its shortest form, with u = `plain` and v = `before`.
+    """Write u + v sqrt(D) in the shortest of a few forms, with u = `plain`, v = `before` and sqrt(D) = `root`.
 
     by_terms   whether u +- sqrt(v^2 D) is also tried
     """
@@ -671,7 +672,8 @@ def size_of(value: Expr) -> float:
 
 
 def _is_power_of_one_sum(value: Expr) -> bool:
-    """Whether the only root in the product is a power of a sum, such as m A^2/(l^2 + m c A)^(3/2)."""
+    """Whether the only root in the product is a power of a sum with an exponent above 1 or below -1, such as
+    m A^2/(l^2 + m c A)^(3/2)."""
     halves = [p for p in Mul.make_args(value) if not p.as_base_exp()[1].is_Integer]
     return len(halves) == 1 and halves[0].base.is_Add and abs(halves[0].exp) > 1
 

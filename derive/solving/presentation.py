@@ -34,14 +34,14 @@ from derive.algebra.tidy import tidied
 from derive.steps.signs import sign_for_all
 
 ZERO = Integer(0)
-LARGEST = 2500  # number of operations up to which an expression is multiplied out and factored
+LARGEST = 2500  # greatest length of an expression that is multiplied out and factored
 
 
 SHORT = 40  # greatest length of a value whose products of sines and cosines are written as sums
 
 
 def presented(value: Expr, *, in_sums: bool = True) -> Expr:
-    """The value in textbook form: factored, or as separate terms, whichever is shorter.
+    """The shortest of a few textbook forms of the value, such as factored or as separate terms.
 
     in_sums     whether products of sines and cosines may become sums
     """
@@ -72,7 +72,7 @@ def without_positive(value: Expr, *, in_equation: bool = False) -> Expr:
 
 
 def without_sine_below(value: Expr) -> Expr:
-    """Remove sines from the denominator: (1 - cos a)/(1 + cos a), not (1 - cos a)^2/sin^2 a."""
+    """Remove sines from the denominator where possible: (1 - cos a)/(1 + cos a), not (1 - cos a)^2/sin^2 a."""
     above, below = factored(value).as_numer_denom()
     for sine in sorted(below.atoms(sin), key=str):
         c, mark = cos(sine.args[0]), Dummy("c", real=True)
@@ -106,7 +106,7 @@ LONGEST_SQUARED = 120  # greatest number of operations of a quadratic form in wh
 
 def by_letters(value: Expr, letters: Sequence[Symbol]) -> Expr:
     """Write a polynomial of first or second degree in the symbols in a short form, such as completed squares. Any other
-    expression has its tidy form."""
+    expression is returned in its tidy form."""
     value = explicit(value)
     present = [p for p in letters if value.has(p)]
     if not present:

@@ -57,9 +57,11 @@ def solved_for_letter(expr: Expr, letter: Symbol) -> Expr | None:
 
 
 def positive(value: Expr, letter: Symbol | None = None) -> Relation:
-    """The condition v > 0 without positive factors, solved for a symbol if possible.
+    """The condition v > 0 without positive factors, solved for the symbol if possible.
 
-    Otherwise, a difference of two terms becomes a relation between the terms, as in M g > k l.
+    letter   the symbol; by default the only symbol whose square occurs
+
+    An unsolved difference of two terms becomes a relation between the terms, as in M g > k l.
     """
     above, below = tidied(value).as_numer_denom()
     core = expand(without_positive(above) * without_positive(below))  # a/b has the same sign as a b
@@ -129,7 +131,7 @@ def solved_in_letters(of: Quantity, value: Expr, mark: str, letter: Any) -> Rela
 
 
 def conditions_told(**conditions: Relation | None) -> dict[str, tuple[Relation, Relation]]:
-    """Return the conditions that a sentence states by their roles, each with its tidied form."""
+    """Return, by role, the conditions that a sentence states, each with its tidied form."""
     return {
         role: (each, Relation(tidied(each.left), each.operator, tidied(each.right)))
         for role, each in conditions.items()

@@ -45,8 +45,8 @@ INVERSE = {cos: acos, sin: asin, tan: atan}
 
 @dataclass(frozen=True)
 class ValueOf(Fact):
-    """The unknown of the equation of a root, so that the root can replace it even if the root has a different
-    symbol."""
+    """The unknown of the equation that a root solves. The root can replace this unknown even if the root has a
+    different symbol."""
 
     missing = "is not a root of an equation"
     unknown: Expr
@@ -117,7 +117,7 @@ def left_over(expr: Expr, unknown: Expr) -> bool:
 
 
 def is_number(quantity: Quantity) -> bool:
-    """Whether the quantity is a value, not an equation."""
+    """Whether the quantity is a scalar value, not a relation, a vector or a tensor."""
     return isinstance(quantity.value, Expr) and not isinstance(quantity.value, Relation)
 
 

@@ -327,8 +327,9 @@ def _of_root(factor: Expr, roots: list[Expr], q: Symbol) -> list[Zero]:
 def _allowed(zero: Zero, sign: int | None, q: Symbol) -> list[Zero]:
     """Return a zero with this sign if the coordinate can have this value; otherwise return nothing.
 
-    If the sign is unknown, a zero of a positive coordinate gets the condition that its value is positive. A value such
-    as l^2 needs no condition: its letters are assumed not to vanish.
+    If the sign is unknown, a zero of a positive coordinate gets the condition that its value is positive; raise
+    `Unsolved` if it already has another condition. A value such as l^2 needs no condition: its letters are assumed not
+    to vanish.
     """
     if not q.is_positive:
         return [zero]
@@ -341,7 +342,7 @@ def _allowed(zero: Zero, sign: int | None, q: Symbol) -> list[Zero]:
 
 
 def _is_square_of_letters(value: Expr) -> bool:
-    """Whether the value is positive if its symbols do not vanish, such as l^2 for a momentum l.
+    """Whether a value that need not be positive is positive if its symbols do not vanish, such as l^2 for a momentum l.
 
     If the result is true, record the assumption that these symbols do not vanish.
     """

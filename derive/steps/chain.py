@@ -20,7 +20,8 @@ BY_MOTION = "by the equations of motion"  # end of a claim that is true only for
 
 
 def without_repeats(forms: Sequence[Form], symbol: Any) -> list[Form]:
-    """Merge successive forms with the same expression, and leave out the symbol of the step itself."""
+    """Merge successive forms with the same expression, except a rounded form, and leave out forms that are only the
+    symbol of the step."""
     kept: list[Form] = []
     for form in [form for form in forms if form.expr != symbol] or forms[-1:]:
         if kept and kept[-1].expr == form.expr and form.because != "rounded":
@@ -48,7 +49,7 @@ def bindings_of(quantities: Sequence[Quantity]) -> dict[Any, Any]:
 
 
 def left_side_evidence(key: str, symbol: Any, first: Form, bindings: Mapping[Any, Any]) -> list[Evidence]:
-    """Check that the left side equals the first line, if it is an expression."""
+    """Check that the left side, if it is not only a name, equals the first line, if this is not a relation."""
     is_name = symbol is None or isinstance(symbol, Symbol | MatrixSymbol | MatrixBase)
     if is_name or isinstance(first.expr, Relation):
         return []

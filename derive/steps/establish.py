@@ -242,7 +242,8 @@ def establish(
 
 
 def _witnessed(quantity: Quantity, judged: Judged) -> Quantity:
-    """Add evidence from the motion of the described system, if there is a test for it."""
+    """Add evidence from the motion of the described system, if there is a test for it; reject a result that contradicts
+    this motion."""
     found = {fact for each in quantity.ancestors() for fact in each.facts if isinstance(fact, Witness)}
     by_kind = {kind: [fact for fact in found if type(fact) is kind] for kind in {type(fact) for fact in found}}
     if any(len(facts) > 1 for facts in by_kind.values()):
@@ -377,7 +378,7 @@ def _check_letter(key: str, symbol: Any, result: Any, means: Mapping[Any, Any]) 
 
 
 def check_can_hold(key: str, result: Any) -> None:
-    """Reject a relation that can never hold, such as a value that is less than itself."""
+    """Reject a strict inequality or `!=` between two identical sides, which can never hold."""
     if isinstance(result, Relation) and result.operator in {"<", ">", "!="} and result.left == result.right:
         raise Unverified(Complaint("unverified", f"`{key}` can never hold: {short(result)}"))
 

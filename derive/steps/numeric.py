@@ -242,7 +242,8 @@ def _with_numbers(series: Quantity, amounts: Mapping[Symbol, Amount]) -> SwingTi
 
 
 def _quarter_by_gauss(time: SwingTime, amounts: Mapping[Symbol, Amount]) -> Expr:
-    """Return the integral over q from 0 to the amplitude A, with q = A (1 - s^2), by Gauss-Legendre quadrature."""
+    """Return the integral of dq/sqrt(f) from 0 to the amplitude A, with q = A (1 - s^2), by Gauss-Legendre
+    quadrature."""
     from mpmath import mp
 
     f, q, amplitude, _ = time.args

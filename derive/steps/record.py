@@ -1,7 +1,8 @@
 """The record of one run of a script: the quantities that the script has established, and the coordinates that it has
 named.
 
-A symbol denotes one quantity in a run.
+A symbol denotes one quantity in a run, or a general quantity and cases of it. Only coordinates and their rates may have
+several values.
 """
 
 from __future__ import annotations
@@ -114,7 +115,7 @@ def recorded(run: Run | None = None) -> Iterator[Run]:
 
 @contextmanager
 def unrecorded() -> Iterator[None]:
-    """Derive steps that only a check needs. The run keeps only their assumptions."""
+    """Derive steps that only a check needs. The run does not keep these steps, but it keeps their assumptions."""
     run = current_run.get() or Run()
     token = current_run.set(replace(run, established=[], cases=[], drawings=[], defined=[], memory=None, call=None))
     try:
@@ -128,8 +129,8 @@ A = TypeVar("A")
 
 
 def question(answered: Callable[..., A]) -> Callable[..., A]:
-    """Decorate a function with which a verb queries the record. The answers are stored with the result of the verb,
-    which is used again only if they are still the same."""
+    """Decorate a function with which a verb queries the record. The answers are stored with the result of the verb. A
+    stored result is used again only if the answers are still the same."""
     QUESTIONS[answered.__name__] = answered
 
     @wraps(answered)
@@ -203,7 +204,8 @@ def coordinate_named(symbol: Symbol, kind: str) -> None:
 
 @question
 def free_letter(name: str, *indices: str) -> str:
-    """Return the usual symbol of a result or, if the problem already uses it, a symbol with another textbook letter.
+    """Return the usual symbol of a result or, if the problem already uses it, a symbol with another textbook letter. If
+    the problem uses all of these, return the usual symbol.
 
     name      the usual symbol, with its own index
     indices   further indices with which the symbol must also be free
@@ -228,7 +230,7 @@ def given_letters() -> set[str]:
 
 def assume(condition: Relation, in_words: bool = False) -> None:
     """Assume a condition on the symbols. The page states the assumption, unless a step states it (`in_words`). Reject a
-    condition that contradicts an earlier assumption."""
+    condition that is known to contradict the earlier assumptions."""
     run = current_run.get()
     if run is not None and condition not in run.assumed:
         _check_agrees(condition, run.assumed)
@@ -294,7 +296,8 @@ def add_definition(quantity: Quantity) -> None:
 
 
 def check_not_defined(key: str, symbol: Any, value: Any = None) -> None:
-    """Reject a step whose key or symbol is the name of a quantity under `define:`, unless it has the same value."""
+    """Reject a step whose key is the name of a quantity under `define:`, and a step whose symbol contains such a name,
+    unless the value of the step follows from the definition."""
     run = current_run.get()
     if run is None:
         return

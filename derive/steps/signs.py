@@ -92,7 +92,7 @@ def sign_where(value: Expr, exists: Relation | None) -> int | None:
 
 
 def truth_known(relation: Relation | None) -> bool | None:
-    """Return whether the relation is known to hold; None if this is unknown. No relation counts as true."""
+    """Return whether the relation is true; None if this is unknown. A missing relation counts as true."""
     sign = sign_known(relation.residual) if relation is not None else 0
     return relation is None or (None if sign is None else sign in SIGNS_OF[relation.operator])
 
@@ -121,7 +121,7 @@ def _sign_of_factor(factor: Expr, by_numbers: bool) -> int | None:
 
 
 def _is_square_that_lasts(base: Expr, power: Expr) -> bool:
-    """Whether a factor is an even power of a real symbol that is assumed not to vanish."""
+    """Whether a factor is an even power of a real symbol that is in a denominator or is assumed not to vanish."""
     lasts = power.is_negative or Relation(base, "!=", Integer(0)) in assumed()
     return bool(base.is_Symbol and base.is_real and power.is_even and lasts)
 
@@ -158,8 +158,8 @@ def _sign_by_numbers(expr: Expr) -> int | None:
 
 
 def taken_positive(value: Expr) -> int | None:
-    """Return the sign of a value. If it is unknown, assume that the value is positive, or for a number times squares
-    that no square is zero."""
+    """Return the sign of a value. If it is unknown, assume that the value is positive or, for a number times
+    squares, that no square is zero."""
     sign = 1 if tidied(value) in taken_as_positive() else sign_known(value)
     if sign is not None:
         return sign

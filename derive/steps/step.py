@@ -96,8 +96,8 @@ class Step:
 
     @property
     def grade(self) -> Grade:
-        """Return the grade of the step: the grade of the least certain line, or of the most certain route or check if
-        this is lower."""
+        """Return the grade of the step: the lowest grade among its lines, its test at trial numbers, and the most
+        certain of its other routes and checks."""
         needed = [e for e in self.evidence if e.compared is Compared.LINES or e.claim == TRIALS]
         routes = [e.grade for e in self.evidence if e not in needed]
         surest = [max(routes, key=LEAST_SURE_FIRST.index)] if routes else []

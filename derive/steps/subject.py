@@ -18,7 +18,8 @@ from derive.errors import Complaint, Rejected
 
 
 class Mixed(Enum):
-    """The value of a property in which united subjects differ. It agrees with no value."""
+    """The value of a property in which united subjects differ. It counts as different from every value, including
+    itself."""
 
     SEVERAL = "several"
 
@@ -127,7 +128,8 @@ def _apart(key: str, field: str, one: tuple[str, Any], other: tuple[str, Any]) -
 
 
 def called(value: Any) -> str:
-    """Return the name by which a message calls a property; an empty text for a long value."""
+    """Return the name by which a message calls a property; an empty text for a long expression, or for a value of
+    another type without a name."""
     if isinstance(value, Mixed):
         return "several"
     name = getattr(value, "called", "") or getattr(value, "name", None)

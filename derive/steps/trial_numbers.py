@@ -54,8 +54,8 @@ def _drawn(letters: list[Any]) -> Iterator[Point]:
 
 
 def _size(i: int, n: int) -> Expr:
-    """Return the size of the number for the symbol with index i at point n. The scales of two symbols take many
-    pairs."""
+    """Return the size of the number for the symbol with index i at point n. Many pairs of scales occur for any two
+    symbols."""
     scale = SCALES[(n % 5 * (i + 1) + n // 5 * (2 * i + 1) + i // 5 * (n % 3)) % 5] if n % 3 else 1
     return Rational(PRIMES[(11 * i + 5 * n + i * n) % 29], 7 + i) * scale
 
@@ -204,7 +204,8 @@ def _side(condition: Relation, point: Point) -> bool | None:
 
 
 def _narrowed(condition: Relation, one: Point, other: Point) -> tuple[Point, ...]:
-    """Return two points close to each other: the condition holds only at the first of them."""
+    """Return two points close to each other: the condition holds only at the first of them. Return nothing if the
+    condition has no meaning at a point between the given ones."""
     for _ in range(HALVINGS):
         middle = {s: (number + other[s]) / 2 for s, number in one.items()}
         side = _side(condition, middle)

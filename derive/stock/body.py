@@ -122,7 +122,7 @@ def read(written: GivenBody, symbols: Mapping[str, Declared], faults: Faults) ->
 
 
 def _without(written: GivenBody) -> tuple[tuple[Word, set[str]], ...]:
-    """Return some keys, each with the answers that do not depend on it."""
+    """Return the keys of `DEPENDING` that the author wrote, each with the answers that do not depend on it."""
     own = {f"{name.replace(' ', '_')}_": keys for name, keys in written.bodies.items()}
     asks = [*BodyAnswers(Asked(DescribedBody("", (), True))).asks()]
     every = {f"{prefix}{name}" for prefix in own or [""] for name in asks}

@@ -175,7 +175,7 @@ def _components(written: RotationKeys, name: str, kind: str, known: InLetters) -
 
 
 def _without(written: RotationKeys) -> tuple[tuple[Word, set[str]], ...]:
-    """Return some keys, each with the answers that do not depend on it."""
+    """Return the keys `rate` and `torque`, if the author wrote them, each with the answers that do not depend on it."""
     asks = {*RotationAnswers(DescribedRotation()).asks()}
     of_rate = {name for name in asks if name.startswith(("stability", "wobble"))}
     without_torque = ("inertia_tensor", "spin", "angular_momentum", "kinetic_energy", "angle_between", "torque")

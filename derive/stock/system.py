@@ -159,7 +159,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         return list(made(self.described.named, self.parts_by_name))
 
     def place_of_mark(self, node: Tree, name: str, letters: InLetters) -> MatrixBase:
-        """Return a place of the system, as it is written in the file."""
+        """Return the position of a place that is written in the file, by its name or by components."""
         faults = Faults()
         written = PLACE.read(node, name, faults)
         faults.stop()
@@ -180,7 +180,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
                     state_static_friction(contact, self.by_name.one)
 
     def _draw_forces(self) -> None:
-        """Draw the forces on each particle and each body."""
+        """Draw the forces on the particles, bodies and pulleys."""
         run = current_run.get()
         steps = run.established if run is not None else ()
         at_rest, along = _forces_found(steps, self.system)
@@ -215,7 +215,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         return {step.symbol: step for step in steps if step.symbol in drawn and isinstance(step.value, Expr)}
 
     def _motions_with_forces(self, steps: Sequence[Quantity]) -> list[str]:
-        """Return, in space, the keys of the equations of motion that contain constraint forces."""
+        """Return, in space, the keys of the equations of motion that contain constraint forces; in a plane, nothing."""
         forces = {each.force for each in self.system.constraints}
         is_plane = len(self.system.places[0].components) == 2
         laws = [each for each in steps if each.key.startswith("motion_") and not is_plane]
@@ -530,7 +530,8 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         return self.lagrangian if is_pushed else self.potential_energy
 
     def _assume_momenta(self) -> None:
-        """Assume that each constant momentum is positive, or that it is not zero, if this matters."""
+        """Assume that each constant momentum with a positive symbol is positive, and that any other constant momentum
+        is not zero, if this matters."""
         left = [q.symbol for name, q in self.coordinates.items() if name not in self.cyclic]
         for symbol in (momentum.symbol for momentum in self.cyclic.values()):
             if symbol.is_positive:

@@ -64,13 +64,14 @@ def equation(claim: Claim) -> Verdict | None:
 
 
 def substitution(claim: Claim) -> Verdict | None:
-    """Test whether substituted values agree with the constraints, and whether the equation holds with these values."""
+    """Test whether substituted rates agree with the constraints, and whether the equation holds with the substituted
+    values."""
     contradiction = _fits_together(claim)
     return equation(claim) if contradiction is None else contradiction
 
 
 def _fits_together(claim: Claim) -> Verdict | None:
-    """Test whether the described system has a state with all given values of coordinates and rates."""
+    """Refute given values of rates that contradict the constraints; None if there is no such contradiction."""
     letters = {*claim.blueprint.coordinates, *claim.blueprint.rates}
     plain = [each for each in claim.states_given if each.target in letters]
     if not plain or not claim.blueprint.of.conditions:

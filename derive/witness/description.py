@@ -143,7 +143,7 @@ def with_functions(part: Any, known: Mapping[Symbol, Expr]) -> Any:
 class Meeting:
     """A collision of two particles, or of one particle with an object at rest.
 
-    start, end    the positions of the colliding particles; `start` is None for an object at rest
+    start, end    the colliding particles, each as a `Force` at its position; `start` is None for an object at rest
     normal        the direction of the impulse on `end`; empty if the colliding objects stay together
     restitution   the ratio of the speed of separation to the speed of approach
     letters       the symbol of the impulse, or the symbols of its components

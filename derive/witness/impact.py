@@ -85,8 +85,9 @@ def _given_share(of: Impact, trial: Trial, state: State) -> Reals:
 
 
 def _equations(of: Impact, trial: Trial, state: State) -> tuple[Reals, Reals, Reals, Reals, list[Symbol]]:
-    """The mass matrix, and for each unknown impulse: its effect on the momenta, twice, the speed required after the
-    impact, and its symbol."""
+    """The mass matrix, and four arrays with an entry for each unknown impulse: the change of the momenta, the row that
+    gives the speed along the impulse (here equal to this change), the required speed after the impact, and the
+    symbol."""
     matrix, _ = trial.dynamics.inertia(state)
     at = trial.dynamics.placed(state)
     places = iter(at.forces[len(of.impulses) :])

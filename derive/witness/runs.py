@@ -24,7 +24,7 @@ from derive.witness.geometry import Reals, State
 from derive.witness.tape import NotComputable
 from derive.witness.trial import EXACT, HOLDS, Contradiction, Formulas, Given, Trial
 
-LONG = 12.0  # duration of a simulated motion, with masses, lengths and g of order one
+LONG = 12.0  # usual duration of a simulated motion, with masses, lengths and g of order one
 CALLS = 6000  # largest number of evaluations of the accelerations in one motion
 MOMENTS, WATCHED = 12, 80  # least number of integration steps: without an event, and with an event, which may be short
 CLEAR = 0.1  # margin by which a condition must be satisfied, because a short event might not be detected
@@ -84,7 +84,7 @@ def followed(
 ) -> Run | None:
     """The motion from a state, for a time `length` or until `event`; None if the motion cannot be computed.
 
-    free   the dynamics of the system without its constraints, in place of the dynamics of the trial
+    free   the dynamics of the system without some of its constraints, in place of the dynamics of the trial
     """
     try:
         return Run(free or trial.dynamics, start, length, event, length / (MOMENTS if event is None else WATCHED))
@@ -251,13 +251,14 @@ def _towards(trial: Trial, unknown: Expr, state: State, sign: float) -> State:
 # equilibrium.
 BEGUN = 0.03
 FLIGHTS = 3  # number of sets of numbers
-# The greatest difference between a formula and a simulated flight, relative to 1 plus the size of the value.
+# The greatest difference between a formula for a position and a simulated flight, relative to 1 plus the size of the
+# value; ten times as much for the time of a landing.
 FLOWN = 1e-4
 
 
 def flight(claim: Claim) -> Verdict | None:
     """Test a component of the position in a free flight: the motion is simulated until the constraint force vanishes,
-    then without constraints."""
+    then without the constraints that end there."""
     fact, i = claim.judged.inputs["flight"], int(claim.judged.inputs["component"])
     count = 0
     for trial, start, free in _begun(claim, fact):
@@ -276,8 +277,8 @@ def flight(claim: Claim) -> Verdict | None:
 
 
 def landing(claim: Claim) -> Verdict | None:
-    """Test the time at which a free flight ends: the flight is simulated without constraints until the particle meets
-    the surface."""
+    """Test the time at which a free flight ends: the flight is simulated, without the constraints that ended at its
+    beginning, until the particle meets the surface."""
     fact, target = claim.judged.inputs["flight"], claim.judged.inputs["target"]
     x, y = fact.point.place
     if target is not None:
@@ -305,7 +306,7 @@ def landing(claim: Claim) -> Verdict | None:
 
 def _begun(claim: Claim, fact: Any) -> Iterator[tuple[Trial, State, Dynamics]]:
     """Yield trials, each with the state in which the force of the constraint vanishes, and with the dynamics of the
-    system without this constraint.
+    system without the constraints that end there.
 
     fact   the flight: the position where it begins, and the motion before it
     """

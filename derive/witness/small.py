@@ -155,7 +155,8 @@ UNSTABLE = frozenset(["unstable", "unstable_along"])
 
 def stability(claim: Claim) -> Verdict | None:
     """Test the stability that the step states: no small displacement may grow at a stable equilibrium, and some small
-    displacement must grow at an unstable equilibrium."""
+    displacement must grow at an unstable equilibrium, unless an eigenvalue is zero, so that the linear motion does not
+    decide."""
     inputs = claim.judged.inputs
     if "coordinates" not in inputs or "place" not in inputs:
         return None
@@ -268,7 +269,9 @@ def damped(claim: Claim) -> Verdict | None:
                 {DECAYS: -stated, GROWS: -stated, OVERDAMPED: stated - decay}.get(claim.outcome, 1j * stated - decay),
             )
         if np.min(np.abs(found - wanted), initial=np.inf) > size:
-            return claim.refuted("no small motion of the described system decays at this rate", near.trial, near.state)
+            return claim.refuted(
+                "no small motion of the described system has this rate of decay or frequency", near.trial, near.state
+            )
         count += 1
     return seen(count, "equilibria")
 

@@ -48,7 +48,7 @@ from derive.algebra.ranges import POSITIVE, range_of
 Numbers: TypeAlias = NDArray[np.complex128]
 Operation: TypeAlias = tuple[Callable[..., Any], tuple[int, ...]]
 
-LARGEST = 20_000  # largest size of a `Tape`
+LARGEST = 20_000  # largest number of nodes of a `Tape`
 
 
 class NotComputable(Exception):
@@ -113,7 +113,7 @@ def tested_by(prescribed: Prescribed) -> Callable[..., Any]:
 
 
 class Tape:
-    """Formulas as operations; `inputs` are the symbols whose values vary from point to point.
+    """Formulas as operations.
 
     inputs   the symbols whose values vary from point to point
 

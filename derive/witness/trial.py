@@ -38,8 +38,8 @@ HOLDS = {
 
 
 class Contradiction(Exception):
-    """Given values are impossible in the described system; `of_rates` is true if only the values of rates are
-    impossible."""
+    """No state of the described system with the given values is found; `of_rates` is true if coordinates are found, but
+    no rates."""
 
     def __init__(self, of_rates: bool):
         super().__init__()

@@ -51,7 +51,8 @@ class Equilibria:
         return tuple(_branch(rest, self.coordinate, judged) for rest, judged in pairs)
 
     def keys(self, shown: Collection[str]) -> tuple[str, ...]:
-        """Return the keys of the equilibria that parts ask for, or of all equilibria if parts ask for none."""
+        """Return the keys of the equilibria, and of the steps about their stability, that parts ask for; if parts ask
+        for none, the keys of all equilibria."""
         every = [q.key for q in (*self.rests, *self.judged)]
         return tuple(key for key in every if key in shown) or tuple(q.key for q in self.rests)
 
@@ -134,4 +135,4 @@ def ratio(name: Any, expr: Expr, letters: Sequence[Symbol], against: Word, keys:
             symbol = stand_in("x", positive=True) if expr.is_positive else stand_in("x")
             return Parameter(name, symbol, "number", (letter, symbol / rest), keys)
     message = f"`{against}` is not proportional to one of its letters, so it cannot be the parameter of a diagram"
-    rejected("wrong-argument", message, against.place, "such as `omega` or `omega/omega_c`")
+    rejected("wrong-argument", message, against.place, "write a letter or a ratio, such as `omega` or `omega/omega_c`")

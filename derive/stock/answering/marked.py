@@ -1,4 +1,4 @@
-"""`marks` and `like` under `drawings:`: points, lines, lengths, arrows, angles and turns that a problem adds."""
+"""`marks` and `like` under `drawings:`: points, lines, curves, lengths, arrows, angles, turns that a problem adds."""
 
 from __future__ import annotations
 

@@ -194,7 +194,7 @@ class Plotted:
         for label in self.drawing.labels:
             if not _LETTER.fullmatch(label):
                 message = f"`{label}` is not a letter, so it cannot name an axis"
-                rejected("wrong-argument", message, label.place, "such as `x`, `r_1` or `theta`")
+                rejected("wrong-argument", message, label.place, "write a letter, such as `x`, `r_1` or `theta`")
         names = self.drawing.labels or [None] * len(shown)
         return [replace(each, label=scalar(name)) if name else each for name, each in zip(names, shown, strict=True)]
 

@@ -62,7 +62,7 @@ def drawn(answers: Any, about: str = "", is_named: bool = False, key: str = "", 
 
 
 def _masses(answers: Any, origin: Point) -> list[Mark]:
-    """Return the centres of the parts of a body, with their masses."""
+    """Return the centres of the parts of a body that are not cut out, with the masses of these parts."""
     parts = [part for part in getattr(answers.body, "parts", ()) if part.sign > 0]
     return [point_mark(origin.seen(part.centre), part.body.mass) for part in parts]
 

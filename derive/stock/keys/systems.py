@@ -349,7 +349,8 @@ def _lagrangian(written: SystemKeys, letters: InLetters) -> tuple[Expr, str | No
 
 
 def _without(written: SystemKeys, found: Sequence[str], impulses: Sequence[str]) -> tuple[tuple[Word, set[str]], ...]:
-    """Return some keys, each with the answers that do not depend on it."""
+    """Return the keys `at`, `conserved` and `impact`, if the author wrote them, each with answers that do not depend on
+    it."""
     of_each = ("motion", "momentum", "acceleration")
     one = {f"{name}_{q}" for name in of_each for q in written.coordinates}
     general = one | {*found, *INDIFFERENT_TO_STATES}
