@@ -448,7 +448,9 @@ def highest_power(facts: Judged, power: Any) -> bool:
 
 
 def for_short_times(facts: Judged, time: Any) -> bool:
-    return is_zero(time * facts.inputs["letter"] - 1) and depends_on_time(facts.inputs["kept"])
+    """Whether the time is the inverse of the small letter, and the terms that are left out change with the time."""
+    left_out = tidied(explicit(facts.inputs["value"]) - explicit(facts.inputs["kept"]))
+    return is_zero(time * facts.inputs["letter"] - 1) and depends_on_time(left_out)
 
 
 def goes_to(facts: Judged, place: Any) -> bool:
