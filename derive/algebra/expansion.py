@@ -191,10 +191,9 @@ def _quotient(f: Expr, power: Rational | None) -> Series:
 
 def _taylor(f: Expr, up_to: int) -> tuple[dict[int, Expr], int]:
     """The nonzero Taylor coefficients by their powers, and the lowest of these powers. Raises `NoExpansion` if a
-    coefficient is infinite or undefined, or if no nonzero coefficient is found although f is not constant.
+    coefficient is infinite or undefined, or if a derivative of an order above `HIGHEST` would be needed.
 
-    The series ends at the power `up_to`, or at its first nonzero coefficient if this comes later, but not after the
-    power `HIGHEST`.
+    The series ends at the power `up_to`, or at its first nonzero coefficient if this comes later.
     """
     found: dict[int, Expr] = {}
     derivative, factorial = f, Integer(1)
@@ -213,6 +212,6 @@ def _taylor(f: Expr, up_to: int) -> tuple[dict[int, Expr], int]:
             return found, min(found)
         if derivative == 0:
             break
-    if not found and derivative != 0:
+    if derivative != 0 and (not found or up_to > HIGHEST):
         raise NoExpansion(f)
     return found, min(found, default=0)

@@ -73,6 +73,8 @@ class Order:
 
     def sign(self, expr: Expr, sign_of: SignOf) -> int | None:
         """The sign of an expression; None if the relations do not determine the sign."""
+        if expr == 0:
+            return 0
         for difference in self.positive:
             ratio = cancel(expr / difference)
             if ratio.is_number and ratio.is_real:

@@ -57,6 +57,11 @@ def test_an_order_below_the_leading_term_is_none() -> None:
         expanded(x**3, x, Integer(0), Rational(2))
 
 
+def test_a_series_that_needs_too_many_derivatives_is_not_cut_off() -> None:
+    with pytest.raises(NoExpansion):
+        expanded(x**9 * cos(x), x, Integer(0), Rational(13))
+
+
 def test_the_node_stands_for_its_terms_and_has_the_dimension_of_the_whole() -> None:
     node = Expansion(sin(x), x, Integer(0), Integer(3))
     assert equal(explicit(node), x - x**3 / 6)

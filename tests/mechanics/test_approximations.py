@@ -94,7 +94,7 @@ def test_a_sine_of_the_time_is_expanded_for_short_times_alone() -> None:
     phi, motion = wheel()
     at_rest = equation_in_limit(motion, W)
     assert equal(left(at_rest), l * phi.acceleration + g * sin(phi.symbol))
-    assert dict(at_rest.step.names)["short"] == 1 / W
+    assert dict(at_rest.step.roles)["short"] == 1 / W
     assert "t" in {s.name for s in left(equation_in_limit(motion, W, 0, 3, key="third")).free_symbols}
 
 
