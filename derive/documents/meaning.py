@@ -268,8 +268,6 @@ class Meaning:
             return left * right
         if mark == "cdot" and left.shape[0] == right.shape[0] and left.shape[1] == right.shape[1] == 1:
             return left.dot(right)
-        if mark == "times" and right.shape[1] != 1 or left.shape[1] == 1:
-            raise Meaningless("the shapes of these matrices do not fit", span)
         raise Meaningless("the shapes of these matrices do not fit", span)
 
     def of_frac(self, node: Frac) -> Any:
@@ -576,7 +574,6 @@ class Meaning:
         pairs: dict[int, Symbol] = {}
         factors: list[Any] = []
         open_signs: list[int] = []
-        before: Node | None = None
         nodes: list[Node] = []
         for item in node.items:
             if isinstance(item, Sign):
@@ -588,18 +585,9 @@ class Meaning:
                 letter = _inner_letter(item.of)
                 if letter is None or item.order != 1:
                     raise Meaningless("this differential has no single variable", item.span)
-                if (
-                    before is not None
-                    and not isinstance(before, Sign)
-                    and len(open_signs) > 1
-                    and _all_signs_first(node)
-                ):
-                    pairs[open_signs.pop()] = self.symbol(letter)
-                else:
-                    pairs[open_signs.pop()] = self.symbol(letter)
+                pairs[open_signs.pop()] = self.symbol(letter)
             else:
                 nodes.append(item)
-            before = item
         if open_signs:
             raise Meaningless("an integral sign has no differential", signs[open_signs[-1]][1].span)
         inner = Meaning(
@@ -879,11 +867,6 @@ def _letter_in(node: Node) -> Letter | None:
 
 
 _inner_letter = _letter_in
-
-
-def _all_signs_first(node: Int) -> bool:
-    kinds = [isinstance(each, Sign) for each in node.items]
-    return kinds == sorted(kinds, reverse=True)
 
 
 def _with_index(node: Node, index: Letter, value: Integer) -> Node:

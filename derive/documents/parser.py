@@ -1107,11 +1107,10 @@ class _Reader:
         signs: list[Node] = [Sign(token.span, lower, upper, token.text.startswith("o")) for _ in range(count)]
         items: list[Node] = signs
         before, self.in_integral = self.in_integral, True
-        needed = count
         try:
             while True:
                 self.skip_spacing()
-                needed += self.factors_of_integral(items)
+                self.factors_of_integral(items)
                 missing = sum(isinstance(each, Sign) for each in items) - sum(_orders(each) for each in items)
                 following = self.peek()
                 if missing > 0 and following is not None and following.is_mark("+", "-") and self.differential_ahead():
@@ -1127,7 +1126,7 @@ class _Reader:
         token = self.peek()
         return token is not None and token.kind is Kind.SCRIPT
 
-    def factors_of_integral(self, items: list[Node]) -> int:
+    def factors_of_integral(self, items: list[Node]) -> None:
         """Read the factors up to the end of the product, and merge inner integrals into this one."""
         while not self.ends():
             self.skip_spacing()
@@ -1159,7 +1158,6 @@ class _Reader:
                 items += split
             else:
                 items.append(factor)
-        return 0
 
     def differential_ahead(self) -> bool:
         """Whether a differential follows outside of brackets."""

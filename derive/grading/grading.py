@@ -53,7 +53,7 @@ def grade(answer: str, part: Part, key: Key, seconds: float = SECONDS) -> Graded
         with limited(seconds), within(key.ranges), in_order(key.order):
             return replace(_Grading(answer, part, key).graded(), most=most)
     except Unread as error:
-        verdict = Verdict(Outcome.UNREADABLE, error.message, marked=_marked(error, answer))
+        verdict = Verdict(Outcome.UNREADABLE, error.message, marked=_marked(error))
     except TooLarge:
         verdict = Verdict(Outcome.UNREADABLE, "too large: the answer has too many tokens")
     except OutOfTime:
@@ -67,7 +67,7 @@ def grade(answer: str, part: Part, key: Key, seconds: float = SECONDS) -> Graded
     return Graded(part.label, answer, verdict, (), Fraction(0), most)
 
 
-def _marked(error: Unread, answer: str) -> str:
+def _marked(error: Unread) -> str:
     """Return the line of the answer with a caret under the place of the error."""
     if error.source is None or error.span is None:
         return ""
@@ -355,7 +355,7 @@ class _Grading:
             assert statement.fault is not None
             raise statement.fault
         found = self.as_relation(statement, target) if target.is_relation else self.as_value(statement, target)
-        if number is not None and (number.rank <= found.rank or not _has_letters(statement, target)):
+        if number is not None and (number.rank <= found.rank or not _has_letters(statement)):
             return number
         return found
 
@@ -502,7 +502,7 @@ class _Grading:
         return found
 
     def of_number(self, read: Read, text: str, unit: Any, target: Target, number: Number) -> Verdict:
-        single = len(read.decimals) <= 1 and _is_plain_decimal(read, text)
+        single = len(read.decimals) <= 1 and _is_plain_decimal(text)
         places = _places(read.value, text) if single else 0
         figures = figures_of(text) if single else 0
         return verdict_on_number(read.value, single, figures, unit, target, number, places)
@@ -587,7 +587,7 @@ def _has_two_signs(value: Any) -> bool:
     return PLUS_MINUS in getattr(value, "free_symbols", ())
 
 
-def _has_letters(statement: _Statement, target: Target) -> bool:
+def _has_letters(statement: _Statement) -> bool:
     return any(read.value.free_symbols for read in statement.last if hasattr(read.value, "free_symbols"))
 
 
@@ -600,7 +600,7 @@ def _repeated(values: list[Expr], distinct: list[Expr], wanted: list[Expr]) -> l
     return found
 
 
-def _is_plain_decimal(read: Read, text: str) -> bool:
+def _is_plain_decimal(text: str) -> bool:
     """Whether a number is one decimal, with or without a power of ten."""
     import re
 
