@@ -367,7 +367,8 @@ class Plot:
 
     @property
     def letters_of_curves(self) -> set[Symbol]:
-        """Return the symbols in the curves and outlines, except the two coordinates of the plane of an outline."""
+        """Return the symbols in all values that determine the curves and outlines, except the ends of the range and the
+        two coordinates of the plane of an outline."""
         others = [other.expr for other in self.others]
         outlines = [value for each in self.outlines for value in (each.expr, *each.corners)]
         in_plane = {letter for each in self.outlines for letter in each.plane}
