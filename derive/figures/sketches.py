@@ -1,7 +1,7 @@
 """The drawing of a system, from its description: `sketch("pendulum", System(...))`.
 
 The bodies, springs, strings, rods, wires, surfaces and joints of the description are drawn. A particle that no drawn
-part holds is drawn with the lines of its coordinates and the curve on which it moves. No part is guessed.
+part holds is drawn with lines and curves that show its coordinates. No part is guessed.
 """
 
 from __future__ import annotations
