@@ -414,7 +414,7 @@ def _reach(of: Any, drawn: Sequence[_Drawn], scene: Connections) -> float:
 
 
 def _set_apart(lines: Sequence[tuple[Vector, Vector]]) -> list[float]:
-    """Return the shift of each arrow to its left, in points; only an arrow that would cover an earlier one is shifted."""
+    """Return the shift of each arrow to its left, in points; 0 for an arrow that covers no earlier arrow."""
     found = []
     for i, (start, end) in enumerate(lines):
         along = unit(plus(end, start, -1.0))
