@@ -62,12 +62,14 @@ class Mark:
 
     @property
     def directions(self) -> tuple[Position, ...]:
-        """Return one direction that must not point at the viewer, or two directions whose angle must be visible."""
+        """Return one direction that should not point at the viewer, or two directions whose angle should be visible."""
         return ()
 
     def tip(self, numbers: InNumbers, reach: float) -> Vector | None:
-        """Return the position of the arrowhead, which must not be at a corner of a body; `reach` is the size of the
-        bodies."""
+        """Return the position of the arrowhead, which should not be at a corner of a body; None without an arrowhead.
+
+        `reach` is the size of the bodies.
+        """
         return None
 
     def in_words(self) -> InWords | None:
