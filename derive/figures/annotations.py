@@ -34,7 +34,7 @@ PIECES = 200  # number of short pieces of an axis; each is tested for a disc in 
 PAST = 0.3  # length of the part of an axis outside a body, relative to the size of the body
 SHORTEST = 11.0  # length of the shortest dimension line that has room for its two arrowheads, in points
 OUTSIDE = 13.0  # length of the arrows outside a shorter dimension line, in points
-FORCE = 58.0  # length of the greatest force in force diagrams, in points
+FORCE = 58.0  # unit of the lengths of arrows in force diagrams, in points
 APPLIED = 26.0  # length of a given force in the drawing of a system, in points
 ASIDE = 12.0  # distance between a body and its dimension line, in points
 SHORT = 3  # the components of a point are described only if they contain at most this many operations
@@ -43,7 +43,7 @@ HOLLOW = 2.3  # radius of the circle for a point on a body, in points
 EYE = 3.4  # radius of the circle for an axis along the line of sight, in points
 POSITIVE = 26.0, 11.0  # in points: distance from a particle to its arrow of a positive direction, and half its length
 AROUND_BODY = 115, 169  # in degrees: the part of a circle that the arrow of a positive rotation covers
-ROUND = 10.0  # least radius of a rotation arrow, in points
+ROUND = 10.0  # least radius of the arrow of a `Turn`, in points
 STAND, CLEARANCE = 16.0, 8.0  # least height of a support, and least height of a body above the ground, in points
 
 

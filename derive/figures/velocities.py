@@ -30,7 +30,7 @@ from derive.mechanics.model.system import System
 from derive.steps.step import is_zero
 
 ZERO, ONE = Integer(0), Integer(1)
-AXIS = Rational(3, 5)  # length of the axes of a flight, relative to the circle on which it begins
+AXIS = Rational(3, 5)  # length of the axes of a flight, relative to the radius of the circle on which it begins
 LONG, THROWN = Rational(2, 5), Rational(4, 5)  # lengths of arrows, relative to the size of the drawing
 TURNED = (pi / 9, pi / 5)  # angles of the dashed rods in the drawing of an impact
 SHIFTED = Rational(1, 4)  # displacement of the dashed bodies, relative to the length of a rod
