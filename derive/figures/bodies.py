@@ -255,7 +255,7 @@ def _of_parts(parts: Sequence[Any], whole: Point, named: bool, in_plane: bool) -
             return []
         told = [mark.label for mark in marks]
         marks += [mark for mark in found if mark.label is None or mark.label not in told]
-    # If the body is drawn in its plane, thin rods are drawn over its other parts, so that they are visible as a whole.
+    # If the body is drawn in its plane, thin rods are drawn over the other parts, so that the whole rods are visible.
     return sorted(marks, key=lambda mark: in_plane and isinstance(mark, ThinRod))
 
 

@@ -139,7 +139,7 @@ class ShownMode:
 
     @property
     def turns(self) -> bool:
-        """Whether a body rotates about its centre of mass, which is at rest."""
+        """Whether a body rotates while its centre of mass is at rest."""
         return any(sense and not ways for _, ways, sense in self.moves)
 
     @property
@@ -281,8 +281,8 @@ class Branch:
 
 @dataclass(frozen=True)
 class Diagram:
-    """The equilibria of one coordinate against a parameter, and the potential energy of which they are stationary
-    points.
+    """The equilibria of one coordinate against a parameter, and the potential energy, which is stationary at these
+    equilibria.
 
     against      the name of the horizontal axis: the parameter, or a ratio of symbols
     ends         the ends of the vertical axis, if the problem states them

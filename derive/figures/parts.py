@@ -199,7 +199,7 @@ class RopeMark(_Piecewise):
 
 @dataclass(frozen=True)
 class RopeBelowMark(RopeMark):
-    """A string below a table, which hides the part behind it."""
+    """A string below a table; the table hides the part of the string behind it."""
 
     layer: ClassVar[int] = -3
 

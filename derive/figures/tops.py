@@ -178,7 +178,8 @@ def _parts(placed: Any) -> list[tuple[Any, Expr]]:
 
 
 def _is_on_axis(part: Any) -> bool:
-    """Return whether a part is round about the axis of the whole body, and its z axis has the same direction."""
+    """Return whether a part is round about the axis of the whole body, and its z axis has the same direction as this
+    axis."""
     if not _is_round(part.body):
         return False
     low, high = part.seen(_on_axis(0)), part.seen(_on_axis(1))
