@@ -25,7 +25,7 @@ bold is required.
 An *expression* is a formula of declared symbols, or a number with its unit: `2*a`, `sqrt(g/l)`, `2 cm`, `900 rpm`.
 """
 
-MANY = 8  # a table refers to an earlier table, and does not repeat its keys, if these are at least so many
+MANY = 8  # a table refers to an earlier table with at least this many keys, and does not repeat these keys
 Schema = dict[str, Any]
 
 

@@ -34,7 +34,7 @@ PIECES = 200  # number of short pieces of an axis; each is tested for a disc in 
 PAST = 0.3  # length of the part of an axis outside a body, relative to the size of the body
 SHORTEST = 11.0  # length of the shortest dimension line that has room for its two arrowheads, in points
 OUTSIDE = 13.0  # length of the arrows outside a shorter dimension line, in points
-FORCE = 58.0  # length of the greatest force in force diagrams, in points
+FORCE = 58.0  # unit of the lengths of arrows in force diagrams, in points
 APPLIED = 26.0  # length of a given force in the drawing of a system, in points
 ASIDE = 12.0  # distance between a body and its dimension line, in points
 SHORT = 3  # the components of a point are described only if they contain at most this many operations
@@ -43,7 +43,7 @@ HOLLOW = 2.3  # radius of the circle for a point on a body, in points
 EYE = 3.4  # radius of the circle for an axis along the line of sight, in points
 POSITIVE = 26.0, 11.0  # in points: distance from a particle to its arrow of a positive direction, and half its length
 AROUND_BODY = 115, 169  # in degrees: the part of a circle that the arrow of a positive rotation covers
-ROUND = 10.0  # least radius of a rotation arrow, in points
+ROUND = 10.0  # least radius of the arrow of a `Turn`, in points
 STAND, CLEARANCE = 16.0, 8.0  # least height of a support, and least height of a body above the ground, in points
 
 
@@ -139,7 +139,8 @@ def _along_sight(label: Any, spot: Spot, comes: bool, towards: Spot = (-0.7, 0.7
 
 @dataclass(frozen=True)
 class AxisOfRotation(Mark):
-    """The axis through a point along a direction, a little longer than the body on both sides.
+    """The axis through a point along a direction. It extends beyond the body; only its start is left out if the body
+    would hide it.
 
     With a rate, a rotation arrow surrounds the axis near its far end, and the label is next to this arrow. The arrow is
     right-handed if the rate is positive.
@@ -176,7 +177,8 @@ class AxisOfRotation(Mark):
         return near if is_behind else start
 
     def _to_clear(self, paper: Paper, ring: Vector, along: Vector, radius: float) -> float:
-        """Return how far the rotation arrow moves along the axis, so that it is outside the outline of the bodies."""
+        """Return how far the rotation arrow moves along the axis, so that it is outside the outline of the bodies;
+        0 if no tried distance is enough."""
         outline = hull(paper.spots(*paper.fixed))
         tried = [PAST * paper.reach * step / 4 for step in range(9)]
         for off in tried:
@@ -206,7 +208,7 @@ def measured(line: tuple[Spot, Spot], label: Any, away: Spot, gap: float = 3.0, 
 class LengthMark(_Between):
     """A dimension line between two points, shifted to one side; a length of zero is not drawn.
 
-    aside    the direction of the shift; None for a shift to the left in the drawing
+    aside    the direction of the shift; None for a shift to the left, or upwards if the line is horizontal
     clear    the part of the shift that scales with the drawing, a length
     beyond   a further part of the shift, in points, to leave room for other dimension lines
 
@@ -315,7 +317,7 @@ class ForceArrow(Arrow):
     """A force on a body that is drawn alone. `size` is the length of the arrow in units of FORCE points, so the forces
     of several drawings have one scale.
 
-    inside   whether the arrow is inside the body, so that its label is beside the shaft, away from the other forces
+    inside   whether the arrow is inside the body; the label is then beside the shaft
     """
 
     inside: bool = False
@@ -373,10 +375,9 @@ class PositiveRotation(_Single):
 
 @dataclass(frozen=True)
 class AppliedForce(Arrow):
-    """A given force on a part of a system: an arrow of a fixed length that starts outside this part or, if it pushes,
-    ends outside this part.
+    """A given force on a part of a system: an arrow of a fixed length.
 
-    clear   the distance of this end of the arrow from the point of action, in points
+    clear   the distance from the point of action to the start of the arrow, or to its tip if it pushes, in points
     """
 
     clear: float = 0.0
@@ -491,7 +492,7 @@ class AngleMark(Mark):
 class Turn(Mark):
     """A right-handed rotation arrow about a direction.
 
-    size    its radius relative to the size of the body
+    size    the radius of the arrow relative to the size of the body; very small arrows are drawn larger
     middle  the direction from the centre to the middle of the arrow, by default towards the viewer
     """
 
@@ -515,7 +516,7 @@ class Turn(Mark):
 def _circling(
     centre: Vector, along: Vector, radius: float, label: Any, paper: Paper, middle: Vector | None = None
 ) -> list[Piece]:
-    """Return most of a circle, with an arrowhead at its right-handed end."""
+    """Return most of a circle and its label; the arrowhead shows the right-handed sense about `along`."""
     u, v = across(along)
     towards = paper.stance.eye if middle is None else middle
     front = max(range(360), key=lambda degree: dot(_round(u, v, degree), towards))

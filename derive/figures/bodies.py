@@ -41,7 +41,10 @@ THIN = Rational(1, 40)  # half the drawn thickness of a disc, relative to its ra
 EDGE = 32  # number of steps along each curve of the edge of a flat body
 CUT, SLICE = Rational(11, 20), Rational(1, 20)  # height and thickness of a slice, relative to the height of the body
 BESIDE_IT = 17.0  # distance between the dimension lines of a slice and of the whole height, in points
-TILT, INSIDE = 5 * pi / 18, Rational(4, 5)  # the drawn point of a section: its angle, and its distance relative to b
+TILT, INSIDE = (
+    5 * pi / 18,
+    Rational(4, 5),
+)  # the drawn point of a section: angle, and distance relative to the radius
 CURVED = 48  # number of steps along a curved side; the steps are shorter at the ends, which may be tips
 
 
@@ -114,7 +117,8 @@ def _seen_of(part: Any, point: Point) -> Callable[[Position], Position]:
 def _ends_of_round(
     boundary: Round, seen: Callable[[Position], Position], turn: Position, along: Position
 ) -> list[Position]:
-    """Return the two ends of a round body along an axis that is parallel or perpendicular to the axis of the body."""
+    """Return the two ends of a round body along an axis; an empty list if this axis is neither parallel nor
+    perpendicular to the axis of the body."""
     own = turn.T * along
     if own[2] != 0:
         return [seen(z * Z) for z in boundary.ends] if abs(own[2]) == 1 else []
@@ -251,7 +255,7 @@ def _of_parts(parts: Sequence[Any], whole: Point, named: bool, in_plane: bool) -
             return []
         told = [mark.label for mark in marks]
         marks += [mark for mark in found if mark.label is None or mark.label not in told]
-    # If the body is drawn in its plane, thin rods are drawn over its other parts, so that they are visible as a whole.
+    # If the body is drawn in its plane, thin rods are drawn over the other parts, so that the whole rods are visible.
     return sorted(marks, key=lambda mark: in_plane and isinstance(mark, ThinRod))
 
 

@@ -1,8 +1,8 @@
 """The branches of a bifurcation diagram: where each equilibrium exists, where it is stable, and where this changes.
 
-The conditions of the solution decide both. A second route then uses the potential energy alone: for many values of the
-parameter, the slope of this energy must vanish at the branches and nowhere else, and the energy must have minima at the
-stable branches and nowhere else.
+The conditions of the solution decide where an equilibrium exists and where it is stable. A second route then uses the
+potential energy alone: for a few values of the parameter between two changes, the slope of this energy must vanish at
+the branches and nowhere else, and the energy must have minima at the stable branches and nowhere else.
 """
 
 from __future__ import annotations
@@ -28,10 +28,10 @@ HALVINGS = 80
 TRIED = (0.11, 0.37, 0.68, 0.93)  # parts of an interval of the parameter at which the second route is used
 REAL = 1e-6  # greatest imaginary part of a value that is real within the precision of floating point, relative to 1
 CLOSE = 1e-5  # greatest distance of a zero of the slope from its branch, relative to the vertical axis
-NEAR, DIGITS = 5, 40  # the rise of the energy is found at 10^-5 of the vertical axis, with 40 digits
+NEAR, DIGITS = 5, 40  # near an equilibrium, energies are compared at 10^-5 of the range searched, with 40 digits
 SHRUNK = 1e-6  # at a zero, the slope is smaller than this fraction of the slope beside the zero; at a pole it is larger
 # The second route also counts zeros that are beyond an end of the vertical axis by at most these fractions of its
-# length.
+# length. If the problem does not state the ends of this axis, the whole length is added to the fractions.
 WIDENED = 0.0731, 0.0917
 EDGE = 1e-5  # zeros this close to an end of the coordinate's range are not counted; relative to the vertical axis
 FULL_TURN = 2 * exact_pi
@@ -53,8 +53,8 @@ class BranchLine:
 
 @dataclass(frozen=True)
 class Change:
-    """A value of the parameter at which equilibria change their number or their stability, and the values of the
-    coordinate at which this happens."""
+    """A value of the parameter at which equilibria begin, end or change their stability, and the values of the
+    coordinate there."""
 
     at: float
     places: tuple[float, ...]
@@ -78,7 +78,7 @@ def bifurcations_of(
     axis: tuple[float, float] | None = None,
     is_angle: bool = False,
 ) -> Bifurcations:
-    """Return the lines of a diagram for these numbers; raise `Rejected` if nothing changes within the ends.
+    """Return the lines of a diagram for these numbers; raise `Rejected` if no equilibrium changes within the ends.
 
     axis       the ends of the vertical axis; by default the axis has room for all equilibria
     is_angle   whether two values of the coordinate that differ by a full turn are the same
@@ -149,7 +149,7 @@ def _has_sign(value: Function, is_positive: bool, x: float) -> bool:
 
 
 def _halved(is_left: Callable[[float], bool], low: float, high: float) -> float:
-    """Return the place between two numbers at which a statement ceases to be true."""
+    """Return the number between `low` and `high` at which a statement ceases to be true."""
     for _ in range(HALVINGS):
         middle = (low + high) / 2
         low, high = (middle, high) if is_left(middle) else (low, middle)

@@ -611,7 +611,7 @@ class Connections:
         return (BLOCK[1] / 2 if stands[0] else 0.0, BLOCK[1] / 2 if stands[1] else 0.0)
 
     def _kept_length(self, line: Line) -> Expr | None:
-        """The length of a string or rod if this length is constant and has a symbol; otherwise None."""
+        """The length of a string or rod if this length is constant and is a symbol times a number; otherwise None."""
         constraint = next((c for c in self.system.constraints if c.forces and c.forces == line.forces), None)
         length = constraint.left if constraint is not None else distance_of(line.places[0], line.places[-1])
         return length if length.as_coeff_Mul()[1].is_Symbol and not moving_in(self.system, length) else None

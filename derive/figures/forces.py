@@ -54,7 +54,7 @@ LEAST = Rational(1, 4)  # length of the shortest arrow, relative to the longest 
 # All arrows are enlarged until the shortest arrow at a particle has the length VISIBLE, in units of FORCE points, but
 # at most by the factor LONGER.
 VISIBLE, LONGER = Rational(1, 2), Integer(2)
-ON_A_LINE = Rational(3, 5)  # the scale of all arrows if the forces on each particle are on one line
+ON_A_LINE = Rational(3, 5)  # the least scale of all arrows if each drawing shows a particle with forces on one line
 OFF = Rational(1, 30)  # distance between a rod and the arrow of a force along it, relative to the length of the rod
 APART = 5.0  # the distance between the arrows of two forces on the same line, in points
 ALONG = 1.8  # distance between a surface and the arrow of a force along it, on the side of the body, in points
@@ -91,7 +91,8 @@ def forces_in_state(key: str, system: System, of: Any, found: Mapping[Symbol, Qu
     found   symbol of a constraint force -> the step that derives the force
 
     The lengths of the arrows are to scale for the system at rest, but small forces are drawn larger. If the value of a
-    force is negative, its arrow is reversed. The result is None in space, or if the diagram would be incomplete.
+    force is negative, its arrow is reversed. The result is None in space, if the diagram would be incomplete, or if the
+    sign of a force is unknown.
     """
     acting = _acting(system, of)
     letters = {letter for force in acting for letter in _multipliers(system, force)}
@@ -206,8 +207,8 @@ def _pull(pull: PointForce, found: Mapping[Symbol, Quantity]) -> _Drawn:
 
 
 def draw_alone(system: System, bodies: Sequence[BodyAlone]) -> list[Drawing]:
-    """Return the diagrams of bodies of a system. All diagrams have the same scale of forces, if the forces are known
-    for the same trial numbers."""
+    """Return the diagrams of bodies of a system. If the forces are known for the same trial numbers, all diagrams have
+    the same scale of forces, except that small forces are drawn larger."""
     scene = Connections(system)
     shares = [[_share(size) for size in own] for own in _sizes([each.forces for each in bodies], scene)]
     # All forces are drawn longer if a force on a particle is so small that the particle would cover its arrow.
@@ -307,8 +308,8 @@ def _offset(drawn: _Drawn, of: PlacedBody, scene: Connections) -> tuple[float, f
 
 
 def _acting(system: System, of: Any) -> list[PointForce]:
-    """Return the forces of connections on a body. The normal force of a plane is added if no equation contains its
-    symbol."""
+    """Return the forces of connections on a body. If there are any, the normal force of a fixed plane that the body
+    touches is added, if no equation contains this force."""
     named = [force for each in connections_of(system, Connection) for force in each.on(of)]
     named += _drawn_pulls(system, of)
     return [*named, *_unnamed_normals(system, of)] if named else []
@@ -384,7 +385,8 @@ def _sizes(diagrams: Sequence[Sequence[_Drawn]], scene: Connections) -> list[lis
 
 
 def _magnitudes(drawn: Sequence[_Drawn], scene: Connections) -> list[float] | None:
-    """Return the magnitudes of the forces for trial numbers that satisfy the assumptions; None without such numbers."""
+    """Return the magnitudes of the forces for trial numbers that satisfy the assumptions, and for which no surface
+    pulls; None without such numbers."""
     values = [explicit(with_numbers(as_expr(each.value).subs(scene.values).subs(scene.values))) for each in drawn]
     letters = sorted(set().union(*(value.free_symbols for value in values)), key=str)
     angles = {s for value in values for f in value.atoms(sin, cos) for s in f.free_symbols}
@@ -412,7 +414,7 @@ def _reach(of: Any, drawn: Sequence[_Drawn], scene: Connections) -> float:
 
 
 def _set_apart(lines: Sequence[tuple[Vector, Vector]]) -> list[float]:
-    """Return the shift of each arrow to its left, in points, so that no arrow covers another."""
+    """Return the shift of each arrow to its left, in points; 0 for an arrow that covers no earlier arrow."""
     found = []
     for i, (start, end) in enumerate(lines):
         along = unit(plus(end, start, -1.0))

@@ -1,4 +1,4 @@
-"""Links: lines from a fixed or known point to a particle, with their angles, found from the formulas of the positions.
+"""Links: lines from a fixed or known point to a moving point, and their angles, from the formulas of the positions.
 
 A link is the line along which polar coordinates are measured; it does not show a physical part. Numerical samples
 exclude most pairs of points that are not links; algebra decides about the remaining pairs.
@@ -24,9 +24,10 @@ SAMPLES = (0.37, 0.83)
 
 @dataclass(frozen=True)
 class Link:
-    """A vector between two points, with a length that does not depend on an angle or on time.
+    """A vector between two points.
 
-    The length may depend on coordinates that are lengths; then `is_constant` is false.
+    The links of particles have a length that does not depend on an angle or on time. If the length depends on
+    coordinates, `is_constant` is false.
     """
 
     start: Location

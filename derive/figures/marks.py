@@ -62,12 +62,14 @@ class Mark:
 
     @property
     def directions(self) -> tuple[Position, ...]:
-        """Return one direction that must not point at the viewer, or two directions whose angle must be visible."""
+        """Return one direction that should not point at the viewer, or two directions whose angle should be visible."""
         return ()
 
     def tip(self, numbers: InNumbers, reach: float) -> Vector | None:
-        """Return the position of the arrowhead, which must not be at a corner of a body; `reach` is the size of the
-        bodies."""
+        """Return the position of the arrowhead, which should not be at a corner of a body; None without an arrowhead.
+
+        `reach` is the size of the bodies.
+        """
         return None
 
     def in_words(self) -> InWords | None:
@@ -137,7 +139,7 @@ class ShownMode:
 
     @property
     def turns(self) -> bool:
-        """Whether a body rotates about its centre of mass, which is at rest."""
+        """Whether a body rotates while its centre of mass is at rest."""
         return any(sense and not ways for _, ways, sense in self.moves)
 
     @property
@@ -279,8 +281,8 @@ class Branch:
 
 @dataclass(frozen=True)
 class Diagram:
-    """The equilibria of one coordinate against a parameter, and the potential energy of which they are stationary
-    points.
+    """The equilibria of one coordinate against a parameter, and the potential energy, which is stationary at these
+    equilibria.
 
     against      the name of the horizontal axis: the parameter, or a ratio of symbols
     ends         the ends of the vertical axis, if the problem states them
@@ -367,7 +369,8 @@ class Plot:
 
     @property
     def letters_of_curves(self) -> set[Symbol]:
-        """Return the symbols in the curves and outlines, except the two coordinates of the plane of an outline."""
+        """Return the symbols in all values that determine the curves and outlines, except the ends of the range and the
+        two coordinates of the plane of an outline."""
         others = [other.expr for other in self.others]
         outlines = [value for each in self.outlines for value in (each.expr, *each.corners)]
         in_plane = {letter for each in self.outlines for letter in each.plane}

@@ -2,8 +2,8 @@
 each mass in the direction of its displacement.
 
 The displacement of a mass is a sum over the coordinates: the derivative of the place of the mass by the coordinate, at
-equilibrium, times the amplitude of the coordinate. The lengths of the arrows are in the ratio of the displacements,
-except that a very small displacement has no arrow.
+equilibrium, times the amplitude of the coordinate. If the ratio of the displacements is known, the lengths of the
+arrows are in this ratio, except that a very small displacement has no arrow.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ from derive.steps.step import Quantity, is_zero
 
 __all__ = ["draw_after", "draw_modes"]
 
-ANGLE = Rational(2, 5)  # approximate angle by which an angle is displaced at most, in radians
+ANGLE = Rational(2, 5)  # approximate greatest displacement of an angle, in radians
 MOVED = Rational(1, 6)  # approximate greatest displacement of a length, relative to the least distance in the system
 # Lengths in points, before the drawing is reduced.
 # The usual length of the shortest arrow, and the length of a shorter arrow that is still visible.
@@ -61,7 +61,7 @@ SORTS = {1: "oscillating", None: "oscillating", -1: "growing", 0: FREE_MOTION}  
 
 @dataclass(frozen=True)
 class DisplacementArrow(Mark):
-    """The displacement of a mass in a normal mode.
+    """The displacement of a mass in a normal mode, or just after an impact.
 
     at       the place of the mass
     value    its displacement, up to a factor that all masses have in common
@@ -119,7 +119,7 @@ class DisplacementArrow(Mark):
 
 @dataclass(frozen=True)
 class RotationArrow(Mark):
-    """The rotation of a body about its centre of mass, which is at rest in a normal mode: an arc above the centre.
+    """The rotation of a body whose centre of mass is at rest: an arc above the centre.
 
     rotation   the angle of rotation, counterclockwise, up to a factor
     """
@@ -147,7 +147,8 @@ def draw_modes(
     like    the name of the sketch of the system; the numbers of this sketch are also used here
 
     The name of a drawing is the key of the shape. The list is empty if a sketch cannot show the system. A mode is left
-    out if the direction of a displacement depends on unknown numbers.
+    out if the direction of a displacement depends on unknown numbers. Modes that are found together are also left out
+    if none of them is an oscillation or grows.
     """
     shapes = [each for each in steps if each.step.rule == MODE_SHAPE.name]
     if not shapes or len(system.places[0].components) != 2:
@@ -188,12 +189,13 @@ def draw_after(
     key: str, system: System, moment: Moment, after: Sequence[Quantity], named: Sequence[Location] = ()
 ) -> Drawing | None:
     """Draw a system in a plane a short time after an impact: the displacements are in the ratio of the rates just after
-    the impact. An arrow shows the velocity of each mass.
+    the impact, and arrows show the velocities of the masses.
 
     moment   the state at the impact
     after    the rates just after the impact
 
-    The result is None if a sketch cannot show the system. The directions hold for the numbers of the drawing.
+    The result is None in space, or if a sketch cannot show the system. The directions hold for the numbers of the
+    drawing.
     """
     things = things_of(system, named)
     if things is None or len(system.places[0].components) != 2:
@@ -456,7 +458,8 @@ class _InMode(_Displaced):
 
     @cached_property
     def is_known(self) -> bool:
-        """Whether the directions of all displacements and rotations are known for all allowed values of the symbols."""
+        """Whether the directions of all displacements and rotations, relative to each other, are the same for all
+        allowed values of the symbols."""
         if not all(self._is_real(value) for value in self.rest.values()):
             return False
         places = [self._at_rest(column_of(place)) for place in self.system.places]

@@ -39,8 +39,8 @@ SHORT = 3  # greatest number of characters in a name that is written on a block
 
 @dataclass(frozen=True)
 class _Piecewise(Surface):
-    """A part of a machine. Unless it has a `name`, it is described by a phrase that is named after its class: "bar" for
-    a `BarMark`."""
+    """A part of a machine. A part without a `name` is described by the phrase `told_as`, which is by default named
+    after the class: "bar" for a `BarMark`."""
 
     @property
     def told_as(self) -> str:
@@ -86,7 +86,7 @@ class BarMark(_Stretched):
 
 @dataclass(frozen=True)
 class ConnectionMark(_Stretched):
-    """A dashed line between two points; it does not show a physical part. The label, if any, is their distance."""
+    """A dashed line between two points, such as a line of polar coordinates; its label, if any, is a length."""
 
     layer: ClassVar[int] = 0
 
@@ -132,7 +132,7 @@ class SpringMark(_Stretched):
 class DashpotMark(_Stretched):
     """A dashpot: a piston in an open cylinder.
 
-    beside   whether the dashpot is drawn above a spring between the same points
+    beside   whether the dashpot is drawn next to a spring between the same points: above it, or to its left
     """
 
     beside: bool = False
@@ -199,7 +199,7 @@ class RopeMark(_Piecewise):
 
 @dataclass(frozen=True)
 class RopeBelowMark(RopeMark):
-    """A string below a table, which hides the part behind it."""
+    """A string below a table; the table hides the part of the string behind it."""
 
     layer: ClassVar[int] = -3
 

@@ -54,8 +54,8 @@ class Tag:
 
     towards   the direction from the spot to the label
     gap       the distance between the spot and the label, in points
-    way       for the label of a line, half of the vector along the line: the label may move along the line, or to its
-              other side
+    way       for the label of a line, the greatest shift of the label along the line, in both directions; the label may
+              also be on the other side of the line
     on        whether the label is on the spot; then it may be shifted by `towards` or in the opposite direction, if
               the spot is occupied
     outside   for a label on a block: if the block has no room, the label is outside the block at this distance from the

@@ -115,8 +115,8 @@ def motion_at(moments: Sequence[float], place: Vector) -> Vector:
 
 @dataclass(frozen=True)
 class PolhodesMark(Surface):
-    """A sphere with the curves of constant energy, for a body with these moments. The curves are on the front of the
-    sphere; the separatrix is dashed on the back."""
+    """A sphere with the curves of constant energy, for a body with these moments. The front of the sphere shows all
+    curves; the back shows only the separatrix, dashed."""
 
     moments: tuple[Any, Any, Any]
     layer: ClassVar[int] = 0

@@ -16,7 +16,7 @@ from sympy import Expr, Symbol, diff, lambdify
 from derive.errors import Complaint, Rejected
 
 FAR = (1e5, 3e6, 7e7)  # distances that count as infinite, in units of the size of the horizontal axis
-SAME = 1e-4  # greatest difference of a value from the value at infinity, in units of the greatest value
+SAME = 1e-4  # greatest difference of a value from the value at infinity, relative to the greatest absolute value
 STEPS = 240  # number of steps of the grid in each direction
 EDGE = 0.1  # width of a margin, relative to the horizontal axis; only a curve within a margin has an arrowhead there
 
@@ -85,7 +85,7 @@ def _is_at_infinity(value: float, expr: Expr, plane: tuple[Symbol, Symbol], wide
     """Whether the function tends to this value as the coordinate becomes infinite and the momentum vanishes.
 
     wide   the size of the horizontal axis
-    size   the greatest of all values
+    size   the greatest absolute value of all levels
     """
     with np.errstate(all="ignore"):
         far = lambdify(plane, expr, "numpy")(wide * np.array(FAR), np.zeros(len(FAR))) + np.zeros(len(FAR))

@@ -22,8 +22,8 @@ SIDES = {"down": (0, -1), "up": (0, 1), "right": (1, 0), "left": (-1, 0)}
 
 
 def vector_of(thing: Any) -> tuple[Any, tuple[str, ...]]:
-    """Return the components of a vector or a position, and the key of its step, if it is derived. Any other value is
-    rejected."""
+    """Return the components of a vector or a position and, if it is a derived quantity, the key of its step. Any other
+    value is rejected."""
     value, keys = value_and_keys(thing)
     if not isinstance(value, MatrixBase) or value.shape not in {(2, 1), (3, 1)}:
         got = f"`{thing.key}` is not one" if isinstance(thing, Quantity) else f"this is of type {type(thing).__name__}"

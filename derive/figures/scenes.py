@@ -2,8 +2,8 @@
 
     drawing("vectors", outline(block), arrow(omega, block.middle), arrow(L, block.middle), arc(omega, L, theta))
 
-The default label of a quantity is its symbol, and the mark records the key of its step. An expression has no default
-label.
+The default label of a quantity is its symbol, and the mark records the key of its step if the quantity is derived. An
+expression has no default label.
 """
 
 from __future__ import annotations
@@ -106,14 +106,15 @@ def plot(
     gives the numbers for the other symbols.
 
     key        the name of the curve, for `drawings:` in the problem
-    quantity   a scalar with a kind, such as an energy
+    quantity   a scalar, such as an energy
     against    the symbol on the horizontal axis
     between    the two ends of the range, in radians or SI units
     of         the kind of the symbol
     shown      an expression that is drawn instead of the value of the quantity
     also       the keys of further steps that the plot shows, such as an end of the range
     unit       the SI unit of a quantity without a kind
-    above      the value of the symbol at which `shown` is zero; the label shows the difference from this value
+    above      the value of the symbol at which `shown` is zero; the label is then the difference between the quantity
+               and its value there
     """
     expr = explicit(quantity.value if shown is None else shown)
     if isinstance(expr, MatrixBase) or against not in expr.free_symbols:
@@ -169,7 +170,7 @@ def arc(a: Any, b: Any, label: Any = None, at: Any = ORIGIN, radius: Any = None)
 
 
 def axis_of_rotation(along: Any, through: Any = ORIGIN, rate: Any = None) -> Mark:
-    """The axis of a rotation, extended beyond the body on both sides; with a rate, also a rotation arrow.
+    """The axis of a rotation, extended beyond the body; with a rate, also a rotation arrow.
 
     along     vector (3) in the direction of the axis
     through   a point on the axis

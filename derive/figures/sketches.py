@@ -1,7 +1,7 @@
 """The drawing of a system, from its description: `sketch("pendulum", System(...))`.
 
 The bodies, springs, strings, rods, wires, surfaces and joints of the description are drawn. A particle that no drawn
-part holds is drawn with the lines of its coordinates and the curve on which it moves. No part is guessed.
+part holds is drawn with lines and curves that show its coordinates. No part is guessed.
 """
 
 from __future__ import annotations
@@ -66,7 +66,7 @@ def sketch(
 ) -> Drawing | None:
     """Return a drawing of a system from its description; the drawing is recorded for the problem.
 
-    The result is None if the drawing would not show the whole system.
+    The result is None if the drawing would not show the whole system and no marks are added.
 
     key       the name of the drawing, for `drawings:` in the problem
     system    particles, bodies, springs, connections, forces and weights
@@ -356,7 +356,8 @@ class _Scene:
             yield from (ConnectionMark(foot, column_of(Location(end))) for end in ((x, ZERO, ZERO), (ZERO, y, ZERO)))
 
     def _ways(self, at: Location) -> Iterable[Mark]:
-        """Yield the curves of a point along its coordinates, except straight lines and wires."""
+        """Yield the curves of a point along its coordinates, except straight lines and wires. In space, also yield
+        dashed lines to a point that moves along one axis."""
         moving = [q for q in self.system.coordinates if q in moving_in(self.system, *at.components)]
         for q in moving if len(moving) < self.rows else ():
             ends = (-pi, pi) if self.system.coordinates[q] == "angle" else (-FAR * q, FAR * q)
@@ -435,7 +436,8 @@ class _Scene:
     def _displaced(self, q: Symbol) -> tuple[Location, Location] | None:
         """Return the two ends of the dimension line of a length q; None if q cannot be shown in this way.
 
-        The ends are those of a piece of a rope, or the positions of a mass at q = 0 and at the drawn value of q.
+        The ends are the two ends of a piece of a rope, or the positions of one point at q = 0 and at the drawn value of
+        q. The point is a mass, or the point at which a body is placed.
         """
         found = []
         if (piece := self.connections.rope_piece(q)) is not None:

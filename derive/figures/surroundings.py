@@ -116,8 +116,8 @@ class FixedEnd(Surface):
 
     away    the direction away from the wall; if it is zero, no wall is drawn
     joint   whether the point is a pivot
-    held    a vector to the part that hangs from a ceiling at this point. If the part is drawn above the point, no
-            ceiling is drawn, because it would be in the way
+    held    a vector along the part that is held here. If this part is on the side of the wall, a pivot has its wall on
+            the other side, and any other point has no wall
     """
 
     at: Position
@@ -213,7 +213,7 @@ class SurfacePiece(Surface):
 
     normal         the direction from the surface to the particle
     is_two_sided   whether the surface is a rail, which passes through the particle and has no hatches
-    below          how far below `at` a surface with hatches is drawn, in points: the radius of a drawn particle
+    below          how far below `at` a surface is drawn that is not a rail, in points: the radius of a drawn particle
     half           half the length of the piece, in points
     is_fixed       whether the surface is fixed ground, with hatches
     """
@@ -381,9 +381,13 @@ class UprightAngle(AngleBetween):
 
 @dataclass(frozen=True)
 class DistanceMark(Mark):
-    """A dimension line between two points, shifted by `off` points to the side `aside`, or by default away from the
-    centre of the drawing. Its ends are moved in the direction `back` by `moved` points, such as from the centre of a
-    block to the end of the spring that holds the block."""
+    """A dimension line between two points.
+
+    aside   the side to which the line is shifted; by default away from the centre of the drawing
+    off     the length of this shift, in points
+    back    a direction in which the two ends are also moved: from the centre of a block to the end of its spring
+    moved   the two lengths by which the ends are moved in this direction, in points
+    """
 
     start: Position
     end: Position
@@ -445,7 +449,7 @@ class GravityMark(Mark):
 class FieldMark(Mark):
     """The arrow of a uniform field next to all other marks.
 
-    before   the number of field arrows above it
+    before   the number of parallel field arrows above this arrow
     rises    whether a field has a vertical component, so that the arrows need room above their start
     """
 

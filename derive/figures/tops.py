@@ -27,7 +27,8 @@ TO_THE_RIGHT = 2 * pi / 3  # precession angle at which an axis leans to the righ
 # The precession angle at which the line of nodes points to the viewer and to the left. Then the axis of the body leans
 # to the left and away from the viewer.
 NODES_IN_FRONT = -pi / 18
-# Length of a drawn axis, and distance of a rotation arrow from its start, relative to the length of the body's axis.
+# Length of a drawn axis, and distance of a rotation arrow from the start of the axis, relative to the length of the
+# axis of the body.
 LONGER, BESIDE = Rational(27, 20), Rational(6, 5)
 ROUND = Rational(1, 8)  # radius of a rotation arrow, relative to the size of the bodies
 ACROSS = Rational(4, 5)  # length of the transverse axes, relative to the axis of the body
@@ -39,7 +40,8 @@ CENTRE = "C"
 def turns_about_axes(system: System, placed: Any, end: Location) -> Iterable[Mark]:
     """Yield rotation arrows for the precession about the vertical and for the spin about the axis of a body.
 
-    If there is a spin, also yield axes of the body. Yield nothing unless the first rotation is about the vertical.
+    If there is a spin, also yield axes of the body. Yield nothing unless at least two rotations vary and the first
+    rotation is about the vertical.
 
     end   the end of the axis of the body
     """
@@ -176,7 +178,8 @@ def _parts(placed: Any) -> list[tuple[Any, Expr]]:
 
 
 def _is_on_axis(part: Any) -> bool:
-    """Return whether a part is round about the axis of the whole body, and its z axis has the same direction."""
+    """Return whether a part is round about the axis of the whole body, and its z axis has the same direction as this
+    axis."""
     if not _is_round(part.body):
         return False
     low, high = part.seen(_on_axis(0)), part.seen(_on_axis(1))

@@ -86,7 +86,8 @@ def natural_length(system: System, spring: Central) -> Expr | None:
 
 
 def moving_end(system: System, support: Location, joint: bool) -> Iterator[Mark]:
-    """Yield a support with a prescribed motion along a straight line in a plane, and its displacement."""
+    """Yield a support with a prescribed motion along a straight line in a plane. If this line is horizontal or
+    vertical, also yield the displacement of the support."""
     if len(support.components) != 2 or moving_in(system, *support.components) != {TIME}:
         return
     rest = on_the_axis(support)

@@ -30,7 +30,7 @@ from derive.mechanics.model.system import System
 from derive.steps.step import is_zero
 
 ZERO, ONE = Integer(0), Integer(1)
-AXIS = Rational(3, 5)  # length of the axes of a flight, relative to the circle on which it begins
+AXIS = Rational(3, 5)  # length of the axes of a flight, relative to the radius of the circle on which it begins
 LONG, THROWN = Rational(2, 5), Rational(4, 5)  # lengths of arrows, relative to the size of the drawing
 TURNED = (pi / 9, pi / 5)  # angles of the dashed rods in the drawing of an impact
 SHIFTED = Rational(1, 4)  # displacement of the dashed bodies, relative to the length of a rod
@@ -47,7 +47,7 @@ class Moment:
 
     at        the values of coordinates
     rates     the rates of coordinates
-    pushes    pairs of the components of a given impulse and its point of action
+    pushes    pairs: the components of a given impulse, and the point of action of this impulse
     meeting   the points of impact on bodies
     flight    the symbols of the Cartesian coordinates of a flight that follows, whose axes start at the origin
     """
@@ -60,9 +60,8 @@ class Moment:
 
 
 def launch_marks(system: System, moment: Moment) -> Iterable[Mark]:
-    """Yield the initial velocity of each particle in a plane, at its initial position, and its launch angle if this
-    angle is a symbol.
-    """
+    """Yield the initial velocities of particles and guided bodies in a plane, launch angles that are symbols, and the
+    axes of a flight."""
     for particle in system.particles:
         components = particle.at.components
         if len(components) != 2 or not all(c in moment.at and c in moment.rates for c in components):
@@ -200,7 +199,7 @@ def _height(system: System, moment: Moment, at: Location) -> Iterable[Mark]:
 
 
 def _from_the_joint(system: System, places: Sequence[Location], at: Location, hinged: bool = False) -> Iterable[Mark]:
-    """Yield the point of impact and its distance from the fixed point of a body, or with `hinged` from a hinge."""
+    """Yield the point of impact and its distance from the fixed point of a body; with `hinged`, also from a hinge."""
     if any(same(at, place) for place in places):
         return
     for placed, far in _met(system, at, hinged):
@@ -270,8 +269,8 @@ def is_of_the_moment(mark: Mark, moment: Moment) -> bool:
 
 
 def moment_drawn(system: System, moment: Moment) -> dict[Symbol, Expr]:
-    """Return the values of coordinates and lengths for the drawing of an impact. A part that moves is drawn at an
-    earlier place."""
+    """Return the values of coordinates and lengths for the drawing of an impact. A coordinate that is a length and
+    changes has a value from before the impact."""
     found = {q: moment.at.get(q, ZERO) for q in system.coordinates if q in moment.at}
     for placed, letter in (each for at in moment.meeting for each in _met(system, at)):
         length = getattr(placed.body, "length", None)
