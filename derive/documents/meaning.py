@@ -157,8 +157,9 @@ class Meaning:
             return self.components(node, *(self.facts.shape(node, self.scope) or (3, 3)))
         as_number = self.plain in ("all", "tensors") or (self.plain == "unmarked" and "vec" not in node.marks)
         if self.facts.is_vector(node, self.scope) and not as_number:
-            return self.components(node, (self.facts.shape(node, self.scope) or (3, 1))[0], 1)
-        return self.symbol(node)
+            rows = (self.facts.shape(node, self.scope) or (3, 1))[0]
+            return ImmutableDenseMatrix.zeros(rows, 1) if node.base == "0" else self.components(node, rows, 1)
+        return Integer(0) if node.base == "0" else self.symbol(node)
 
     def unit_vector(self, node: Letter) -> Any:
         axis = {"x": 0, "y": 1, "z": 2, "i": 0, "j": 1, "k": 2}.get(node.base)

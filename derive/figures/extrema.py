@@ -90,8 +90,10 @@ def zeros(expr: Expr, variable: Symbol, lower: float, upper: float) -> tuple[flo
     points = values_along(expr, variable, lower, upper, STEPS)
     f = lambdify([variable], expr, "math")
     size = max(abs(y) for _, y in points)
-    found = [_narrowed(f, a, b) for (a, y), (b, z) in pairwise(points[:-1]) if y * z < 0]
-    (a, y), (b, z) = points[-2:]
+    first, *inner, last = points
+    inner = [(x, y) for x, y in inner if abs(y) > NEAR_ZERO * size]  # a zero at such a point is between its neighbours
+    found = [_narrowed(f, a, b) for (a, y), (b, z) in pairwise([first, *inner]) if y * z < 0]
+    (a, y), (b, z) = [first, *inner][-1], last
     if abs(z) <= NEAR_ZERO * size:
         return (*found, b)
     return (*found, _narrowed(f, a, b)) if y * z < 0 else tuple(found)

@@ -102,11 +102,21 @@ def read_phrases(folders: Sequence[Path]) -> PhraseTable:
     return page
 
 
+class _Loader(yaml.CSafeLoader):
+    """Reads phrases; a key that occurs twice in a mapping is an error."""
+
+    def construct_mapping(self, node: Any, deep: bool = False) -> dict[Any, Any]:
+        found: dict[Any, Any] = super().construct_mapping(node, deep)
+        if len(found) < len(node.value):
+            raise yaml.YAMLError("a key is given twice")
+        return found
+
+
 def _phrases_of(file: Path) -> PhraseTable:
     shown_as = f"{SHOWN_AS}/{file.parent.name}/{file.name}"
     source = read_source(file, shown_as)
     try:
-        loaded = yaml.load(source.text, Loader=yaml.CSafeLoader)
+        loaded = yaml.load(source.text, Loader=_Loader)
     except (yaml.YAMLError, RecursionError, ValueError) as error:
         yaml_tree(source)  # raises an error with its line if the YAML is invalid
         lines = str(error).splitlines() or [type(error).__name__]

@@ -114,3 +114,10 @@ def test_a_derivative_by_a_rate_finds_the_rate_with_its_argument() -> None:
 def test_no_change_is_suggested_that_repeats_a_side_of_the_chain() -> None:
     text = "$$\\frac{df}{dY} = \\frac{df}{dy} \\frac{dy}{dY} = \\frac{df}{dy}$$"
     assert all(each.verdict is None or each.verdict.outcome is not Outcome.DIFFERS for each in audit(text).claims)
+
+
+@pytest.mark.parametrize("zero", [r"\vec 0", r"\mathbf{0}", r"\bm{0}"])
+def test_a_bold_zero_is_the_vector_zero_and_not_a_letter(zero: str) -> None:
+    (claim,) = audit(rf"$\vec r \times \vec r = {zero}$").claims
+    assert claim.values is not None and not claim.values[1].free_symbols
+    assert claim.verdict is not None and claim.verdict.outcome is Outcome.HOLDS

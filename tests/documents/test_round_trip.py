@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterable
 from dataclasses import replace
 from typing import Any
 
@@ -46,9 +47,10 @@ def lines_of(name: str) -> tuple[list[Any], Notation]:
     return [form.expr for step in steps.values() for form in step.chain], Notation(document.dimensions)
 
 
-def read(text: str) -> tuple[Any, Meaning]:
+def read(text: str, letters: Iterable[str] = ()) -> tuple[Any, Meaning]:
+    """Read a formula of a page that introduces these letters: d is then a distance, and e is not Euler's number."""
     node = parsed(tokens_of(text))
-    facts = facts_of([node], [])
+    facts = facts_of([node, *(parsed(tokens_of(letter)) for letter in letters)], [])
     found = Meaning(facts)
     return found.of(readings(node, facts)[0][0]), found
 
@@ -94,7 +96,7 @@ def check(expr: Any, notation: Notation) -> str:
         return "skipped"
     text = latex(notation.layout(expr))
     try:
-        value, found = read(text)
+        value, found = read(text, map(latex, names))
     except (Unreadable, Meaningless) as error:
         return f"unread {text}: {error}"
     back = in_letters(value, found, names)

@@ -9,7 +9,7 @@ from sympy import Abs, Expr, Integer, Rational, cos, diff, exp, log, sin, sqrt, 
 
 from derive.errors import Rejected, Unverified
 from derive.figures import extrema as module
-from derive.figures.extrema import MAXIMUM, MINIMUM, extrema, meetings, values_along
+from derive.figures.extrema import MAXIMUM, MINIMUM, extrema, meetings, values_along, zeros
 
 x = symbols("x", real=True)
 
@@ -107,3 +107,13 @@ def test_two_curves_may_meet_where_they_start() -> None:
     assert meetings(1 + sqrt(x), 1 - sqrt(x), x, 0.0, 1.0) == (0.0,)
     assert meetings(x, 2 * x, x, 0.0, 1.0) == (), "both start from zero"
     assert meetings(x, 1 - x, x, 0.0, 1.0) == (pytest.approx(0.5),)
+
+
+@pytest.mark.parametrize(
+    ("expr", "lower", "upper", "found"),
+    [(x, -1, 1, (0,)), (x**2, -1, 1, ()), (x - 1, 0, 1, (1,)), (x, 0, 1, ()), (sin(x), -1.0, 4.0, (0, pi))],
+)
+def test_a_zero_is_found_wherever_the_curve_is_calculated(
+    expr: Expr, lower: float, upper: float, found: tuple[float, ...]
+) -> None:
+    assert zeros(expr, x, lower, upper) == pytest.approx(found)

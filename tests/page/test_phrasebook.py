@@ -35,6 +35,7 @@ def with_page(folder: Path, text: str) -> Path:
         ("terms:", "terms: [", "this `[` is not closed"),
         ("terms:", "tirms:", "`tirms` is not a kind of phrase"),
         ("  part: part\n", "  part: 3\n", "`labels.part` must be text"),
+        ("  part: part\n", "  part: part\n  part: part\n", "`part` is given twice"),
         ("explain_columns: [", "explain_columns: x\n  unused: [", "`labels.explain_columns` must be a list of phrases"),
         ("grades:\n", "grades: none\nmarks:\n", "`grades` must be a table of phrases"),
     ],
