@@ -1,7 +1,7 @@
-"""Reasons and frames that a page leaves out, because the reader can guess the one and has seen the other.
+"""Reasons and frames that a page leaves out because the reader does not need them.
 
-A reason that only names equations, "from (2) and (3)", is left out if these are the equations just before, or if the
-sentence before the display names them. A result that a part has framed is not framed again in this part.
+A reason that only names equations, "from (2) and (3)", is left out if each of these equations is just before the line,
+or if the sentence before the display names it. A result that a part has framed is not framed again in this part.
 """
 
 from __future__ import annotations
