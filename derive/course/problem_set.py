@@ -61,7 +61,7 @@ class ProblemSet:
 
     @property
     def facts(self) -> list[str]:
-        """What a title page says about the course, in the order in which it is printed."""
+        """What a title page says about the course and the document, in the order in which it is printed."""
         known = (self.course, self.institution, self.instructor, self.term, self.date, self.student)
         return [fact for fact in known if fact]
 

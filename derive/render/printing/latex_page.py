@@ -235,8 +235,8 @@ class LatexPage:
         return Tex(f"\n{between}\n".join(steps))
 
     def _list(self, steps: Sequence[Sequence[Printed]], stop: str) -> str:
-        """Return answers in one frame, without punctuation between them. The steps of a list have a row, a reason and a
-        number each."""
+        """Return answers in one frame, without punctuation between them. Each step has one row, with its number and its
+        reason, if it has one."""
         rows = [
             rf"\listrow{{{latex(line.left) if line.left else ''}}}{{{_sides(line)}}}{{{self._reason(line)}}}"
             rf"{{{self._number_of(line)}}}"
@@ -347,7 +347,7 @@ def _is_low(lines: Sequence[Printed]) -> bool:
 
 
 def _sides(line: Printed) -> str:
-    """Return relations and right sides. The result at the end is framed."""
+    """Return relations and right sides. The last ones are framed if they are an answer."""
     shown = [(TEX_OPERATORS[relation].strip(), latex(side)) for relation, side in line.sides]
     at = len(shown) - (0 if line.frames_all else line.framed)
     plain = [f"{sign} {side}" for sign, side in shown[:at]]
