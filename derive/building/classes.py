@@ -213,7 +213,7 @@ def made_class(
                 put(crew, unmade[start : start + AT_ONCE])
             for outcome in crew.outcomes():
                 group = waiting.pop(outcome.job)
-                if outcome.error is not None and len(group) > 1:  # the worker died, so each student gets a separate job
+                if outcome.error is not None and len(group) > 1:  # the job failed, so each student gets a separate job
                     for student in group:
                         put(crew, [student])
                 elif isinstance(outcome.error, DeriveError):

@@ -200,7 +200,7 @@ def _by_format(engine: Engine, source: Path, tex: str, timeout: float, formats: 
 
 
 def _passes(engine: Engine, source: Path, timeout: float, *options: str, most: int = PASSES) -> str | None:
-    """Run the engine until its log requests no further run; return the output of a failed run."""
+    """Run the engine until its log requests no further run, at most `most` times; return the output of a failed run."""
     log = source.with_suffix(".log")
     for _ in range(most):
         try:
@@ -225,7 +225,8 @@ def _passes(engine: Engine, source: Path, timeout: float, *options: str, most: i
 
 
 def lacks_hyphenation(engine: Engine) -> bool:
-    """Return whether the engine hyphenates only English, as the engine of the Python wheel does."""
+    """Return whether this is the engine of the Python wheel, without hyphenation patterns for languages other than
+    English."""
     patterns = engine.path.parents[2] / "texmf-dist" / "tex" / "generic" / "hyph-utf8"
     return engine.name == WHEEL and not patterns.is_dir()
 

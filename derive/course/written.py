@@ -291,7 +291,8 @@ class DrawingKeys(Record):
     )
     view: tuple[float, float] | None = key(
         "for a drawing in space: the direction from which it is seen, `front` (from x), `side` (from -y), `top` (from "
-        "z) or its angles; by default `{azimuth: 25, elevation: 18}` or, if something would be hidden, a better view",
+        "z) or its angles; by default a view in which vectors and faces are visible, such as `{azimuth: 25, "
+        "elevation: 18}`",
         VIEW,
     )
     values: dict[Word, Tree] = key(

@@ -1,6 +1,6 @@
 """A server for this machine alone: the pages of one set, and their changes while the set is edited.
 
-    /                 the page that the preview was started for
+    /, /index.html    the page that the preview was started for
     /NAME.html        the page of another problem of the set
     /NAME/events      messages to the page NAME.html: its new content, or its errors
 
