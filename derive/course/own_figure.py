@@ -1,8 +1,8 @@
 """A figure of the author: the key `figure:` of a problem names a PDF, SVG or PNG file next to the problem.
 
 The file is data of another program, so it is checked: its place, its size and its kind. Data of editors are removed
-from an SVG; an element that is not a shape, text, a style or a picture in the file, a script or a reference to another
-file is an error.
+from an SVG. A script, a reference to another file, or an element other than shapes, text, styles and pictures inside
+the file is an error.
 """
 
 from __future__ import annotations

@@ -97,7 +97,7 @@ class ChainWriter:
         last = lines[result]
         is_matrix = isinstance(last.right, MatrixBase)
         if last.left is None or is_matrix and (last.right.shape[1] > 1 or _share_a_sum_or_root(last.right)):
-            lines[result] = replace(last, presented=True)  # with its common factor in front, and with tangents
+            lines[result] = replace(last, presented=True)  # a common factor in front, tan a for sin a/cos a
         return tuple(lines)
 
     def _decimals(self, step: Step) -> list[Form]:

@@ -87,7 +87,7 @@ def depictions(
     words: Phrases,
     told: Callable[[Any, dict[str, Any]], tuple[Inline, ...]],
 ) -> tuple[list[Depicted], list[Complaint]]:
-    """Return the drawings in the order of the page, and the errors in what the problem specifies for them."""
+    """Return the drawings that the page shows, in its order, and the errors about drawings."""
     faults = _unknown(problem, drawings)
     faults += [f for drawing in drawings for f in (*_without_letter(problem, drawing), *_cases(problem, drawing))]
     outside = {drawing.key: _outside_its_case(problem, drawing, derivation) for drawing in drawings}
@@ -135,7 +135,7 @@ def _has_standard_caption(drawing: m.Recorded) -> bool:
 
 
 def _standard_caption(drawing: m.Recorded, words: Phrases, said: set[str]) -> tuple[Inline, ...]:
-    """Return the caption of a force diagram, or of the drawing of a normal mode, to which the problem gives no caption.
+    """Return the standard caption of a force diagram or of the drawing of a normal mode; empty for other drawings.
 
     said   the sentences in earlier captions that are not repeated; new ones are added
     """
@@ -579,7 +579,8 @@ def _curves(problem: Problem, plot: m.Plot, placement: Placement | None, words: 
 
 
 def _heights(curve: Curve, curves: Curves) -> Iterator[dict[str, Any]]:
-    """Yield the names for the words about the energy lines of a curve, one set for each range below a line."""
+    """Yield the energy of a line and both ends, for each range in which the curve is below this line, to fill in a
+    sentence."""
     for energy, ranges in curve.heights:
         for start, end in ranges:
             ends = [with_unit(x * curves.variable.per_unit, curves.variable.unit) for x in (start, end)]

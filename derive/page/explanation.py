@@ -122,8 +122,8 @@ def _asked(problem: Problem, derivation: Derivation, values: Mapping[str, Step])
 
 
 def _needs(step: Step, asked: Mapping[str, str], steps: Sequence[Step]) -> Iterator[Need]:
-    """Yield the step itself if it is an answer, and each answer to which a path leads from the step without another
-    answer between, with this path."""
+    """Yield the step itself if it is an answer. Also yield each answer that depends on the step without another answer
+    in between, with the steps that lead to it."""
     if step.key in asked:
         yield Need(asked[step.key], step.key, ())
     ways: deque[tuple[str, ...]] = deque([(step.key,)])

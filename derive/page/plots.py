@@ -39,7 +39,8 @@ STEPS_OF_TURN, MOST_STEPS = 40, 6000  # number of steps for each extremum of a c
 MOST_POINTS = 2  # a panel with more zeros, or with more meeting points of curves, has no marks for them
 PATH_STEPS = 720  # number of steps of a path, which may go round many times
 MOST_MARKED, MOST_IN_TIME = 6, 3  # a curve with more extrema has no marks; the second is for curves against the time
-# greatest relative difference of equal numbers; also of the places of an extremum and of a name, relative to the range
+# numbers with a smaller relative difference are equal; for the places of an extremum and of a name, relative to the
+# range
 NEAR = 1e-6
 MOST_TOGETHER = 4  # greatest number of curves in one panel; they differ in the style of their lines
 KEPT = 1 / 3  # length of the part of a curve after its range, on which the curve is constant, divided by the range

@@ -136,8 +136,8 @@ FROM_A_CORNER = stance_from(37, 30), stance_from(53, 30), stance_from(45, 42)
 def best_stance(drawing: Drawing, numbers: Numbers, reach: float = 1.0) -> Stance:
     """Return the view of a drawing.
 
-    A drawing in a plane has the view from the front. In space, the author may choose the view. Otherwise, if the marks
-    have directions, a view is chosen in which these are long and far apart and do not end at corners.
+    A drawing in a plane has the view from the front. In space, the author may choose the view. Otherwise the view
+    depends on the marks: for example, vectors should appear long and far apart, and not end at corners.
 
     `reach` is the size of the bodies.
     """

@@ -169,8 +169,8 @@ class LatexPage:
         return any(first[-1] is block and self.has_answer(second) for first, second in pairs)
 
     def is_continuation(self, block: Paragraph) -> bool:
-        """Return whether words continue the sentence of the display before them. The answer is false if there are notes
-        in the margin, because a note needs a line of text."""
+        """Return whether words continue the sentence of the display before them. With notes in the margin, return
+        false, because a note needs a line of text."""
         return continues_sentence(block.nodes) and not self.has_margin()
 
     def kind(self, block: Any) -> str:
