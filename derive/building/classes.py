@@ -181,7 +181,7 @@ def made_class(
     tell: Callable[[str], None] = lambda _: None,
     scheduler: str = "",
 ) -> ClassReport:
-    """Make the documents of the students if their inputs have changed. An error in one variant does not stop the
+    """Make the documents of the students, except those that are up to date. An error in one variant does not stop the
     others.
 
     scheduler   the address of a Dask scheduler, whose workers do the jobs; by default, processes of this machine do the

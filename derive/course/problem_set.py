@@ -169,7 +169,8 @@ def ids_in_order(root: Path) -> list[str]:
 
 
 def problem_paths(root: Path) -> dict[str, str]:
-    """Map ids to files, relative to the root: `problems/hw9/block.yaml`, `problems/library/rotation/wheel.yaml`."""
+    """Map ids to files with valid names, relative to the root: `problems/hw9/block.yaml`,
+    `problems/library/rotation/wheel.yaml`."""
     top = root / "problems"
     files = [file for depth in ("*/*.yaml", "*/*/*.yaml") for file in sorted(top.glob(depth), reverse=True)]
     found = [file.relative_to(top) for file in files if file.stem not in _NOT_PROBLEMS]
@@ -287,7 +288,8 @@ def language_of(root: Path, set_id: str) -> Language:
 
 
 def form_of_set(root: Path, set_id: str) -> AnswerForm | None:
-    """Return the default form of answers in a set; None if a file has errors, which reading the set reports."""
+    """Return the default form of answers in a set; None if no file states one, or if a file cannot be read. Errors are
+    not reported here, but when the set is read."""
     path = f"problems/{set_id}/set.yaml"
     with suppress(DeriveError):
         faults = Faults()

@@ -16,7 +16,8 @@ ANGLE = unit_of_kind("angle")  # bounds of angles, such as pi/2, are written wit
 
 
 def between_bounds(assumed: Iterable[Relation]) -> list[Relation]:
-    """Join the two numerical bounds of a symbol, and leave out the conditions that these bounds imply."""
+    """Join the two numerical bounds of a symbol, and leave out conditions such as sin(alpha) != 0 that these bounds
+    imply."""
     conditions = list(assumed)
     below = {
         r.left: r for r in conditions if r.operator in MIRRORED and isinstance(r.left, Symbol) and r.right.is_number

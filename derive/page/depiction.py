@@ -287,7 +287,9 @@ def _outside_its_case(problem: Problem, drawing: m.Recorded, derivation: Derivat
 
 
 def _conditions_for(plot: m.Plot, case: Sequence[Measured], derivation: Derivation) -> list[Relation]:
-    """Return the conditions that the plotted steps, and the steps on which they depend, state for their results."""
+    """Return the conditions that the plotted steps, and the steps on which they depend, state for their results. Also
+    return equations such as b = 2 sqrt(k m) with which a step replaces b, if the case gives b a number and the plot
+    does not contain b."""
     steps = {step.key: step for step in derivation.steps}
     waiting, seen = list(plot.keys), dict[str, None]()
     while waiting:

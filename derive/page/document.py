@@ -460,7 +460,7 @@ class _Writer:
         return all(isinstance(n, Text) for n in before) and _text_of(before).strip() == self.words.labels["and"].strip()
 
     def _clause(self, blocks: Sequence[Block], following: Sequence[Inline] = ()) -> tuple[Inline, ...]:
-        """Return a clause that defines the symbols in the lines just shown; it ends with a comma if the words that
+        """Return a clause that defines waiting symbols in the lines just shown; it ends with a comma if the words that
         follow continue the sentence."""
         told = self.clauses.behind(blocks[-1]) if blocks and isinstance(blocks[-1], Display) else ()
         if told and following and continues_sentence(following) and isinstance(told[-1], Text):

@@ -61,7 +61,7 @@ def _shows_forces(drawing: m.Recorded) -> bool:
 
 
 def _after(said: tuple[Inline, ...], blocks: list[Block]) -> list[Block]:
-    """Insert a sentence at the beginning of the first paragraph."""
+    """Insert a sentence at the beginning of the first block if this block is a paragraph."""
     first = blocks[0]
     return (
         [Paragraph((*said, Text(" "), *first.nodes)), *blocks[1:]] if said and isinstance(first, Paragraph) else blocks

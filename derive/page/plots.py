@@ -227,7 +227,7 @@ def _divided(
     placement: Placement | None,
     numbers: Sequence[Mapping[Any, Expr]],
 ) -> Axis:
-    """Return the axis divided by a quantity, which must have the same value for all curves."""
+    """Return the axis divided by a quantity, which must have the same positive value for all curves."""
     name, expr = per
     if name == 1:
         return usual

@@ -107,7 +107,7 @@ class Pages:
 
 
 class Handler(BaseHTTPRequestHandler):
-    """Answers the requests of one browser."""
+    """Answers the requests on one connection of a browser."""
 
     pages: Pages
     whole: Callable[[str, str], str]  # makes a page from a problem's name and the page's main part

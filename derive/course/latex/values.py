@@ -524,7 +524,7 @@ class Values(Grids):
         return self.of_letter(name)
 
     def call_or_product(self, node: Open) -> TermOrGrid:
-        """Reject `U(\\theta)`, which looks like a function: a product is not written as `a(b)`."""
+        """Read a product such as `a(b + c)`; reject `U(\\theta)`, which could be a function."""
         call, product = node.alternatives
         while isinstance(call, Pow | EvalBar):
             call = call.base if isinstance(call, Pow) else call.inner

@@ -126,7 +126,7 @@ def _boxes(own: Sequence[Spot], size: tuple[float, float]) -> list[Extent]:
 
 
 def _distance(box: Extent, dots: Sequence[Spot]) -> float:
-    """Return the distance of a box from the nearest of these points."""
+    """Return the distance of a box from the nearest of these points; `ENOUGH` if there are no points."""
     left, below, right, above = box
     return min((hypot(max(left - x, 0.0, x - right), max(below - y, 0.0, y - above)) for x, y in dots), default=ENOUGH)
 
