@@ -1,7 +1,7 @@
 """The results that builds store, such as steps, pages, drawings and PDFs: signed values in one folder.
 
-Most values are stored under a digest of everything on which they depend. They are never out of date, because a change
-of an input gives another digest. If the folder becomes too large, old values are removed.
+Most values are stored under a digest of their inputs, so that a change of an input leads to a new value. If the folder
+becomes too large, old values are removed.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The drawings of a page as files; a drawing is made again only if something on which it depends has changed."""
+"""The drawings of a page as files; a stored drawing is used as long as nothing on which it depends has changed."""
 
 from __future__ import annotations
 

@@ -269,7 +269,8 @@ class DrawingKeys(Record):
     """The keys of one of `drawings:`."""
 
     at: Tree | None = key(
-        "where the drawing appears: `statement`, the letter of a part, the step that a part asks for, or `hidden`",
+        "where the drawing appears: `statement`, the letter of a part, the key of a step that a part asks for "
+        "or shows, or `hidden`",
         as_written(TEXT.schema, "statement, the letter of a part, a step, or hidden"),
     )
     caption: Prose | None = key("what the drawing shows, in prose", PROSE_OR_NOTHING)
@@ -425,7 +426,8 @@ class FigureKeys(Record):
     alt: Prose | None = key("what the figure shows, for a reader who does not see it", PROSE, required=True)
     caption: Prose | None = key("the caption, in prose; with a caption the figure has a number", PROSE)
     width: Tree | None = key(
-        "the width, such as `5 cm`; by default that of the file", as_written(TEXT.schema, "a length")
+        "the width, such as `5 cm`; by default that of the file, or less if the page has no room for it",
+        as_written(TEXT.schema, "a length"),
     )
 
 
