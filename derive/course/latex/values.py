@@ -50,7 +50,7 @@ from derive.documents.syntax import (
 from derive.errors import Complaint, Rejected, did_you_mean
 from derive.units import read_unit
 
-MAX_SIDE = 6  # rows and columns of a matrix
+MAX_SIDE = 6  # greatest number of rows or columns of a matrix
 MOST_DOTS = len(RATES) - 1
 _AXES = {"i": 0, "j": 1, "k": 2, "x": 0, "y": 1, "z": 2}
 _SUBSCRIPT = re.compile(r"[A-Za-z0-9_,]+")
