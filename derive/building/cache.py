@@ -1,7 +1,7 @@
 """The results that builds store, such as steps, pages, drawings and PDFs: signed values in one folder.
 
-Most values are stored under a digest of everything on which they depend. They are never out of date, because a change
-of an input gives another digest. If the folder becomes too large, old values are removed.
+Most values are stored under a digest of their inputs, so that a change of an input leads to a new value. If the folder
+becomes too large, old values are removed.
 """
 
 from __future__ import annotations
@@ -56,7 +56,8 @@ def _own_modules() -> str:
 
 
 def folder_digest(folder: Path, pattern: str = "*") -> str:
-    """Return the digest of the relative paths and the contents of all files below the folder that match `pattern`."""
+    """Return the digest of the relative paths and the contents of the files below the folder that match `pattern`;
+    files in `__pycache__` are left out."""
     files = sorted(p for p in folder.rglob(pattern) if p.is_file() and "__pycache__" not in p.parts)
     return digest(*(part for p in files for part in (str(p.relative_to(folder)), p.read_bytes())))
 

@@ -46,7 +46,7 @@ class Change:
 
 
 def changes(before: Mapping[str, Any], after: Mapping[str, Any]) -> list[Change]:
-    """Return every difference, the most interesting first: input, questions, results, words."""
+    """Return every difference: first of the input and the questions, then of results and sentences, then all others."""
     parts = list(_paired(before["parts"], after["parts"]))
     return [
         *_table("given", _given(before), _given(after)),

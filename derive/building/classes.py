@@ -181,7 +181,7 @@ def made_class(
     tell: Callable[[str], None] = lambda _: None,
     scheduler: str = "",
 ) -> ClassReport:
-    """Make the documents of the students if their inputs have changed. An error in one variant does not stop the
+    """Make the documents of the students, except those that are up to date. An error in one variant does not stop the
     others.
 
     scheduler   the address of a Dask scheduler, whose workers do the jobs; by default, processes of this machine do the
@@ -213,7 +213,7 @@ def made_class(
                 put(crew, unmade[start : start + AT_ONCE])
             for outcome in crew.outcomes():
                 group = waiting.pop(outcome.job)
-                if outcome.error is not None and len(group) > 1:  # the worker died, so each student gets a separate job
+                if outcome.error is not None and len(group) > 1:  # the job failed, so each student gets a separate job
                     for student in group:
                         put(crew, [student])
                 elif isinstance(outcome.error, DeriveError):

@@ -97,7 +97,7 @@ def _page(root: Path, of: Path, problem_id: str, detail: str | None) -> Page:
 def _derived_at(
     revision: str, root: Path, old_root: Path, job: Callable[[], Job]
 ) -> tuple[Page, tuple[Complaint, ...]]:
-    """Return the page at a revision. If the templates of the revision do not fit, use the present templates."""
+    """Return the page at a revision. If this fails with the templates of the revision, use the present templates."""
     try:
         return done(job()), ()
     except (DeriveError, Bug) as error:

@@ -1,4 +1,4 @@
-"""The drawings of a page as files; a drawing is made again only if something on which it depends has changed."""
+"""The drawings of a page as files; a stored drawing is used as long as nothing on which it depends has changed."""
 
 from __future__ import annotations
 
@@ -35,9 +35,10 @@ SUFFIXES = ("pdf", "svg")
 POINTS_PER_CM = 72 / 2.54
 WIDTH, HEIGHT = 5.0, 4.2  # centimetres, without labels
 BESIDE_STATEMENT = 0.74  # the height of a drawing of the statement, divided by the usual height
-WIDE, LOW = 7.0, 0.4  # the default width of a drawing that is low
+WIDE, LOW = 7.0, 0.4  # the width of a drawing whose height divided by its width would be at most LOW
 # A drawing without a given width is made larger if its labels are crowded: the position of one costs more than CROWDED,
-# or there are at least MANY labels and more than DENSE per square centimetre.
+# or there are at least MANY labels and more than DENSE per square centimetre. The larger drawing is kept unless the
+# position of one of its labels costs over SLIGHT more than in the smaller one.
 CROWDED, MANY, DENSE, SLIGHT = 5.5, 7, 0.45, 3.0
 # the widths for the drawing of a normal mode of at most FEW masses; the second is for low drawings
 OF_MODES, FEW = (3.6, 4.7), 4

@@ -108,7 +108,7 @@ class Manifest:
             self.typeset_from[name] |= self.inputs[problem]
 
     def is_current(self, recipe: Recipe, engine: str, read: Callable[[str], str], documents: Documents) -> bool:
-        """Return whether the outputs of all problems and of these documents are up to date."""
+        """Return whether the outputs of all problems, of these documents and of the index are up to date."""
         page, document = recipe_digest(recipe), recipe_digest(of_documents(recipe, engine))
         names = [*self.problems, *(file for _, file in documents), INDEX]
         of_set = [output for kind, file in documents for output in outputs_of_document(kind, file)]

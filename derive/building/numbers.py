@@ -1,4 +1,4 @@
-"""Gaps in the numbers of a problem: answers without a number, and numbers that no text of the sheet states."""
+"""Gaps in the numbers of a problem: answers without a number, and numbers that the author's text does not mention."""
 
 from __future__ import annotations
 
@@ -66,7 +66,7 @@ def faults_of_numbers(
     """Return errors and warnings about the numbers of the answers.
 
     It is an error if a form asks for a number that does not exist. There is a warning if an answer could have a number,
-    or if the sheet does not state a number.
+    or if the title, the statement and the questions do not mention a number that an answer needs.
 
     values     the steps that evaluate answers numerically, by key
     drawings   the drawings of the problem
@@ -129,14 +129,16 @@ def _not_sufficient(problem: Problem, answers: Sequence[_Answer], plotted: set[S
 
 
 def _untold(problem: Problem, needed: set[Symbol]) -> Iterator[Complaint]:
-    """Warn of numbers that the answers need but the sheet does not mention."""
+    """Warn of numbers that the answers need but the title, the statement and the questions do not mention."""
     texts = [problem.title, problem.statement, *(part.ask for part in problem.parts)]
     mentioned = {mention.name for prose in texts for mention in prose.mentions if not mention.of}
     told = {letter for given in problem.givens if given.name in mentioned for letter in given.letters}
     for measured in problem.measured:
         if measured.symbol in needed - told:
             name = next((given.name for given in problem.givens if measured.symbol in given.letters), measured.symbol)
-            message = f"`{measured.symbol}` has a number that the sheet does not state"
+            message = (
+                f"`{measured.symbol}` has a number, but the statement and the questions do not mention `<<{name}>>`"
+            )
             help_line = f"mention `<<{name}>>` in the statement"
             yield Complaint("untold-number", message, measured.place, help=help_line, severity="warning")
 

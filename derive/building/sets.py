@@ -357,8 +357,8 @@ class _Build:
             self.result.complaints.append(Complaint("file-clash", message, help="give the drawing another name"))
 
     def _recipe(self) -> Recipe:
-        """Return the recipe of pages. If modules of derive were edited since the build began, `EDITED` replaces their
-        digest."""
+        """Return the recipe of pages. If modules of derive, templates or phrases were edited since the build began,
+        `EDITED` replaces the digest of the modules."""
         if edited_since(self.root, self.started):
             self.made_by[MODULES] = EDITED
         return self.made_by

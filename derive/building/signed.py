@@ -71,7 +71,7 @@ def key_file() -> Path | None:
 
 @cache
 def _key() -> bytes:
-    """Return the key, which is made at its first use."""
+    """Return the key, which is made at its first use; if it cannot be stored, it is valid for this process only."""
     file = key_file()
     key = _read_key(file) if file else None
     if file and key is None:
@@ -81,7 +81,7 @@ def _key() -> bytes:
 
 
 def _read_key(file: Path) -> bytes | None:
-    """Return the key if it is complete and no other user could have read or written it."""
+    """Return the key if it is complete, belongs to this user, and no other user may read or write it."""
     try:
         facts = os.lstat(file)
         private = stat.S_ISREG(facts.st_mode) and facts.st_uid == os.getuid() and not facts.st_mode & 0o077

@@ -6,7 +6,8 @@ reference. It also depends on these entries of the problem:
     the given values, the description, the symbols and their numbers, and the number of significant figures
     the answers, forms and cases that parts ask for, and the chosen observations
     the limiting cases, with their `why:`
-    the quantities, ranges, levels, surfaces, curves and labels of plots
+    the quantities, ranges, levels, surfaces, curves and labels of plots, and the marks that the problem adds to
+    drawings
 
 It does not depend on other prose or on templates.
 """
@@ -68,7 +69,7 @@ class Solved:
 
 
 def steps_key(problem: Problem) -> str:
-    """Return a digest of everything that the steps depend on."""
+    """Return a digest of the inputs of the steps, which the docstring of this module lists."""
     _, *scripts = problem.inputs
     files = [problem.root / path for path in (*scripts, *reference_paths(problem))]
     texts = [file.read_bytes() if file.is_file() else f"is there: {file.exists()}" for file in files]

@@ -200,7 +200,7 @@ def _by_format(engine: Engine, source: Path, tex: str, timeout: float, formats: 
 
 
 def _passes(engine: Engine, source: Path, timeout: float, *options: str, most: int = PASSES) -> str | None:
-    """Run the engine until its log requests no further run; return the output of a failed run."""
+    """Run the engine until its log requests no further run, at most `most` times; return the output of a failed run."""
     log = source.with_suffix(".log")
     for _ in range(most):
         try:

@@ -43,7 +43,7 @@ _FACETS = {
 _SIGNS = {ADDED: "+", REMOVED: "-", CHANGED: "~"}
 _COLOURS = {ADDED: "32", REMOVED: "31"}
 _AROUND = 6  # words of a sentence that are shown on each side of a change
-_MOST_LINES = 3  # at most this many changed lines of a step are shown before its result
+_MOST_LINES = 3  # if there are at least two more changed lines of a step, only this number is shown
 
 
 def told(problem_id: str, diff: Diff, coloured: bool) -> str:

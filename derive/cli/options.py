@@ -52,7 +52,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         from derive.cli.completing import offer
 
         offer(parser_of_commands())
-    gc.set_threshold(300_000)  # collecting garbage would take an eighth of the time in which modules are loaded
+    gc.set_threshold(300_000)  # so that little time is spent on collecting garbage while modules are loaded
     try:
         from derive.cli.streams import read
 

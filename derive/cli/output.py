@@ -1,4 +1,4 @@
-"""Write the output of a command to standard output or to a file, but never over a file written by hand."""
+"""The output of a command, to standard output or to a file; a file written by hand is not replaced."""
 
 from __future__ import annotations
 

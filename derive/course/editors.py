@@ -49,7 +49,8 @@ SCHEMAS = {
 
 
 def schema_folder(root: Path) -> Path:
-    """Return the folder of a course's schemas: in a checkout of derive `templates`, else `problems/schemas`."""
+    """Return the folder of a course's schemas: `templates` if it has a folder `new`, as in a checkout of derive;
+    otherwise `problems/schemas`."""
     return root / "templates" if (root / "templates" / "new").is_dir() else root / "problems" / "schemas"
 
 

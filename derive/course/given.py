@@ -331,7 +331,7 @@ def _asked_of_kind(kind: str, count: int) -> Asked:
 
 
 class _LettersForNumbers:
-    """Finds letters for numbers."""
+    """Finds letters for numbers: a declared letter of the kind that is not yet used, or else a new letter."""
 
     def __init__(self, symbols: Mapping[str, Declared], used: set[str]):
         self.symbols = dict(symbols)

@@ -37,8 +37,8 @@ class DecimalSign(StrEnum):
 
 @dataclass(frozen=True)
 class Language:
-    """The language of pages, which is the name of a folder of phrases, and their decimal sign; without a sign, pages
-    have that of the language."""
+    """The language of pages, by the name of its folder of phrases, and their decimal sign. If `decimal` is None, pages
+    have the decimal sign of the language."""
 
     name: str = "en"
     decimal: DecimalSign | None = None
@@ -60,4 +60,5 @@ class EvidenceShown(StrEnum):
 
     NONE = "none"  # nothing
     END = "end"  # a note at the end of the solution, which counts the checks
-    MARGIN = "margin"  # the note and, next to each display of formulas, its grade and a second route if it fits
+    # the note and, next to each display of formulas, its grade and a second route or a check if it fits
+    MARGIN = "margin"

@@ -1,7 +1,8 @@
 """A figure of the author: the key `figure:` of a problem names a PDF, SVG or PNG file next to the problem.
 
-The file is data of another program, so it is checked: its place, its size and its kind. An SVG keeps only shapes, text
-and pictures inside the file; a script or a reference to another file is an error.
+The file is data of another program, so it is checked: its place, its size and its kind. Data of editors are removed
+from an SVG. A script, a reference to another file, or an element other than shapes, text, styles and pictures inside
+the file is an error.
 """
 
 from __future__ import annotations
@@ -40,7 +41,7 @@ class OwnFigure:
     """A checked figure.
 
     path      the file, relative to the folder of the course
-    content   the file itself; of an SVG, only its shapes
+    content   the file itself; for an SVG, without the data of editors
     """
 
     path: str
@@ -120,7 +121,7 @@ def _pixels(png: bytes) -> int:
 
 
 def shapes_of(content: bytes) -> tuple[bytes, str]:
-    """Return an SVG with its shapes only and "", or the reason why it is rejected."""
+    """Return an SVG without the data of editors, and ""; or no content, and the reason why the SVG is rejected."""
     try:
         text = _DOCTYPE.sub("", content.decode("utf-8-sig"))
         if "<!DOCTYPE" in text or "<!ENTITY" in text:

@@ -89,7 +89,7 @@ class Problem:
 
     @property
     def inputs(self) -> tuple[str, ...]:
-        """The files from which the problem was read."""
+        """The problem's file, its script, and the modules that the script imports from its own folder."""
         modules = self.script.modules if isinstance(self.script, Script) else ()
         own = (module.relative_to(self.root).as_posix() for module in modules)
         return (self.path, *filter(None, [self.script_path]), *own)
@@ -180,8 +180,8 @@ def load_problem(root: Path, problem_id: str, chosen: Chosen | None = None) -> P
 
 
 def problem_and_faults(root: Path, problem_id: str, chosen: Chosen | None = None) -> tuple[Problem, Faults]:
-    """Return the problem, and the errors in its `drawings:`, which do not affect any step. Raise `Rejected` if there
-    are other errors.
+    """Return the problem, and the errors in its drawings and its figure, which do not affect any step. Raise `Rejected`
+    if there are other errors.
 
     chosen   the choices of a variant; by default the values of the file itself
     """

@@ -62,7 +62,7 @@ class ProblemSet:
 
     @property
     def facts(self) -> list[str]:
-        """What a title page says about the course, in the order in which it is printed."""
+        """What a title page says about the course and the document, in the order in which it is printed."""
         known = (self.course, self.institution, self.instructor, self.term, self.date, self.student)
         return [fact for fact in known if fact]
 
@@ -170,7 +170,8 @@ def ids_in_order(root: Path) -> list[str]:
 
 
 def problem_paths(root: Path) -> dict[str, str]:
-    """Map ids to files, relative to the root: `problems/hw9/block.yaml`, `problems/library/rotation/wheel.yaml`."""
+    """Map ids to files with valid names, relative to the root: `problems/hw9/block.yaml`,
+    `problems/library/rotation/wheel.yaml`."""
     top = root / "problems"
     files = [file for depth in ("*/*.yaml", "*/*/*.yaml") for file in sorted(top.glob(depth), reverse=True)]
     found = [file.relative_to(top) for file in files if file.stem not in _NOT_PROBLEMS]
@@ -280,7 +281,8 @@ def language_of(root: Path, set_id: str) -> Language:
 
 
 def form_of_set(root: Path, set_id: str) -> AnswerForm | None:
-    """Return the default form of answers in a set; None if it has errors, which reading the set reports."""
+    """Return the default form of answers in a set; None if no file states one, or if it cannot be read. Errors are not
+    reported here, but when the set is read."""
     with suppress(DeriveError):
         form: AnswerForm | None = _shared(root, set_id, "form").get("form")
         return form

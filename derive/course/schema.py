@@ -75,7 +75,7 @@ def keys_of(record: type[Record]) -> dict[str, Key]:
 
 
 def read_record(record: type[R], node: Mapping, what: str, faults: Faults) -> R:
-    """Read every key of a mapping."""
+    """Read the keys of a mapping; report unknown and missing keys."""
     keys = keys_of(record)
     check_keys(node, keys, what, faults)
     read: dict[str, Any] = {}

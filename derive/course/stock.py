@@ -104,7 +104,7 @@ class Stock:
     keys      the keys allowed under `given:`
     read      returns the description in the declared symbols; collects errors
     answers   the class that derives the answers of a description
-    shows     the marks that name a thing of the drawn object
+    shows     the marks of a body, such as its centre of mass, that its drawing can have
     """
 
     keys: type[Record]
@@ -178,7 +178,8 @@ class InLetters:
     def value(
         self, node: Tree, name: str, kind: str, of: int = 1, or_zero: bool = False, in_time: bool = False
     ) -> Expr:
-        """Read a constant expression of a kind; with `in_time`, it may be a function of the time."""
+        """Read a constant expression of a kind, and check its sign; with `in_time`, it may be a function of the
+        time."""
         found = self.constant(node, name, kind, of, in_time)
         if (
             found.is_nonpositive

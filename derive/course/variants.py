@@ -21,7 +21,7 @@ from derive.course.schema import Reader, wrong_type
 from derive.course.yaml_tree import Mapping, Scalar, Sequence, Tree, Word
 from derive.errors import Faults, did_you_mean
 
-MOST = 10_000  # the most values of a range
+MOST = 10_000  # greatest number of values of a range
 WANTED = "a range such as `10..30 cm in steps of 2`, or a list of at least two values"
 _NUMBER = r"[+-]?\d{1,15}(?:\.\d{1,15})?"
 _RANGE = re.compile(rf"\s*({_NUMBER})\s*\.\.\s*({_NUMBER})\s*(.*?)\s+in\s+steps\s+of\s+({_NUMBER})\s*")

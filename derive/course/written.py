@@ -269,7 +269,8 @@ class DrawingKeys(Record):
     """The keys of one of `drawings:`."""
 
     at: Tree | None = key(
-        "where the drawing appears: `statement`, the letter of a part, the step that a part asks for, or `hidden`",
+        "where the drawing appears: `statement`, the letter of a part, the key of a step that a part asks for "
+        "or shows, or `hidden`",
         as_written(TEXT.schema, "statement, the letter of a part, a step, or hidden"),
     )
     caption: Prose | None = key("what the drawing shows, in prose", PROSE_OR_NOTHING)
@@ -291,7 +292,8 @@ class DrawingKeys(Record):
     )
     view: tuple[float, float] | None = key(
         "for a drawing in space: the direction from which it is seen, `front` (from x), `side` (from -y), `top` (from "
-        "z) or its angles; by default `{azimuth: 25, elevation: 18}` or, if something would be hidden, a better view",
+        "z) or its angles; by default a view in which vectors and faces are visible, such as `{azimuth: 25, "
+        "elevation: 18}`",
         VIEW,
     )
     values: dict[Word, Tree] = key(
@@ -424,7 +426,8 @@ class FigureKeys(Record):
     alt: Prose | None = key("what the figure shows, for a reader who does not see it", PROSE, required=True)
     caption: Prose | None = key("the caption, in prose; with a caption the figure has a number", PROSE)
     width: Tree | None = key(
-        "the width, such as `5 cm`; by default that of the file", as_written(TEXT.schema, "a length")
+        "the width, such as `5 cm`; by default that of the file, or less if the page has no room for it",
+        as_written(TEXT.schema, "a length"),
     )
 
 

@@ -55,7 +55,7 @@ def _picture(drawing: str) -> str:
 
 
 def _width(drawing: bytes) -> str:
-    """Return the width that a drawing states, such as `157.257pt`."""
+    """Return the width that a drawing states, such as `157.257pt`; by default `240pt`."""
     found = re.search(rb'<svg [^>]*\bwidth="([\d.]+pt)"', drawing)
     return found[1].decode() if found else "240pt"
 

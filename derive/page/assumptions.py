@@ -1,5 +1,5 @@
-"""Assumptions about symbols as textbooks write them, such as 0 < alpha < pi/2; an assumption that others imply is
-omitted."""
+"""Assumptions about symbols as textbooks write them, such as 0 < alpha < pi/2; sin(alpha) != 0 is omitted if the bounds
+of alpha imply it."""
 
 from __future__ import annotations
 
@@ -16,7 +16,8 @@ ANGLE = unit_of_kind("angle")  # bounds of angles, such as pi/2, are written wit
 
 
 def between_bounds(assumed: Iterable[Relation]) -> list[Relation]:
-    """Join the two numerical bounds of a symbol."""
+    """Join the two numerical bounds of a symbol, and leave out conditions such as sin(alpha) != 0 that these bounds
+    imply."""
     conditions = list(assumed)
     below = {
         r.left: r for r in conditions if r.operator in MIRRORED and isinstance(r.left, Symbol) and r.right.is_number
@@ -45,7 +46,8 @@ def says_the_same(condition: Relation, other: Relation) -> bool:
 
 
 def with_units(condition: Any, units: Mapping[Symbol, str]) -> Any:
-    """Return a condition whose numerical bounds have units: -1 m/s < v < 1 m/s."""
+    """Return a condition with units for its rational bounds: -1 m/s < v < 1 m/s. Zero and bounds of angles have no
+    unit."""
     left, right = condition.left, condition.right
     letter = left.right if isinstance(left, Relation) else left
     unit = units.get(letter, "") if isinstance(letter, Symbol) else ""
@@ -61,7 +63,8 @@ def _amount(number: Any, unit: str) -> Any:
 
 
 def _follows(condition: Relation, below: dict[Expr, Relation], above: dict[Expr, Relation]) -> bool:
-    """Return whether the bounds imply the condition: 0 < alpha < pi/2 implies sin(alpha) != 0."""
+    """Return whether strict bounds of a symbol imply that its sine or cosine is not zero, as 0 < alpha < pi/2 implies
+    sin(alpha) != 0."""
     function = condition.left
     if condition.operator != "!=" or condition.right != Integer(0) or not isinstance(function, sin | cos):
         return False

@@ -33,13 +33,14 @@ class ChainLine:
     presented: bool = False
     numeric: bool = False
     beside: bool = False  # whether this line may share the row of the line before
-    because: str = ""  # the `because` of this line in the step's chain; empty for a line of a list of results
+    # the `because` of this line in the step's chain; empty for a condition and for a line of a list of results
+    because: str = ""
 
 
 @dataclass(frozen=True)
 class Equations:
-    """The lines of one step, with its number, which is printed at the last line; the last `framed` lines are framed as
-    an answer."""
+    """The lines of one step, or of steps that share a row, and their number. The last `framed` lines are framed as an
+    answer."""
 
     key: str
     lines: tuple[ChainLine, ...]
@@ -81,8 +82,8 @@ class ChainWriter:
         self._used = _letters_used(derivation.steps, values)
 
     def of(self, step: Step, mode: str = "") -> tuple[ChainLine, ...]:
-        """Return the lines of a step, with its decimals. If `mode` is `result` or `hidden`, lines before the result are
-        left out."""
+        """Return the lines of a step; decimals follow an exact answer. If `mode` is `result` or `hidden`, lines before
+        the result are left out."""
         forms = [form for form in step.chain if form.expr != step.symbol]
         if mode in ("result", "hidden"):
             forms = [step.chain[-1]]
@@ -96,7 +97,7 @@ class ChainWriter:
         last = lines[result]
         is_matrix = isinstance(last.right, MatrixBase)
         if last.left is None or is_matrix and (last.right.shape[1] > 1 or _share_a_sum_or_root(last.right)):
-            lines[result] = replace(last, presented=True)  # with its common factor in front, and with tangents
+            lines[result] = replace(last, presented=True)  # a common factor in front, tan a for sin a/cos a
         return tuple(lines)
 
     def _decimals(self, step: Step) -> list[Form]:
@@ -157,8 +158,8 @@ class ChainWriter:
         return filled(template, {**self.names, **own, **references})
 
     def _are_just_before(self, step: Step, keys: Collection[str]) -> bool:
-        """Return whether the keys are those of equations just before the step. The reader has just read these
-        equations, so a note that names only them has nothing new."""
+        """Return whether all these equations have one of the last two numbers before the step. The reader has just read
+        them, so a note that only names them says nothing new."""
         if not keys or step.key not in self.numbers:
             return False
         earlier = sorted({each for each in self.numbers.values() if each < self.numbers[step.key]})
@@ -171,7 +172,8 @@ class ChainWriter:
         return list({self.numbers[key]: key for key in reversed(keys)}.values())[::-1]
 
     def _having(self, key: str, of: Step) -> list[str]:
-        """Return the key itself, or the keys of the entries if the page does not show the vector or tensor."""
+        """Return the key itself; for a vector or tensor that the page does not show, return the keys of its inputs
+        whose symbols are in the lines of the step `of`."""
         step = self.steps.get(key)
         if key in self.numbers or step is None or not isinstance(step.result, MatrixBase):
             return [key]
@@ -197,8 +199,8 @@ def _is_inserted(line: ChainLine, after: ChainLine | None, shown: Collection[Any
 
 
 def conditions_of(step: Step) -> tuple[ChainLine, ...]:
-    """Return a line for each condition under which the answer holds. A lower and an upper bound of one quantity share a
-    line."""
+    """Return a line for each condition under which the answer holds. If the conditions are a lower and then an upper
+    bound of one quantity, they share a line."""
     told = dict(step.roles)
     found = [told[role] for role in step.display.conditions if role in told]
     if len(found) == 2 and found[0].left == found[1].left and found[0].operator in MIRRORED:
@@ -220,8 +222,8 @@ def _letters_used(steps: Sequence[Step], values: Mapping[str, Step]) -> set[Any]
 
 
 def _share_a_sum_or_root(vector: MatrixBase) -> bool:
-    """Return whether a sum or a root is a factor or a denominator of all entries; in front of the vector it is printed
-    once."""
+    """Return whether all entries except zeros share a factor or denominator that is a power of a sum or an irrational
+    number; in front of the vector, it is printed once."""
     present = [entry for entry in vector if entry != 0]
     factors = Mul.make_args(common_factor(present))
     return len(present) > 1 and any(each.as_base_exp()[0].is_Add or each.is_irrational for each in factors)

@@ -20,7 +20,7 @@ class Clauses:
     """The clauses of one page.
 
     waiting  steps whose symbols are to be defined at the first use
-    by_name  keys of the waiting steps whose clause states the meaning of the symbol and not its value
+    by_name  keys of the steps whose clause states the meaning of the symbol and not its value
     told     keys of the steps whose symbols have been defined
     said     the sentence before the lines just shown; the clause after the lines also defines symbols of this sentence
     set_up   text from steps without lines, for example about axes, that is printed before the next sentence
@@ -47,14 +47,14 @@ class Clauses:
             self.waiting.append(step)
 
     def define_at_use(self, step: Step) -> None:
-        """Store a step that has no words of its own: a clause will define its symbol where the page first uses it. The
+        """Store a step that the page does not show: a clause will define its symbol where the page first uses it. The
         clause leaves out a long result: `where J is the inertia tensor`."""
         self.waiting.append(step)
         self.by_name |= set() if is_short(step) else {step.key}
 
     def can_define(self, step: Step) -> bool:
-        """Return whether a clause can define the symbol of a step: the result is short, or a phrase states the meaning
-        of the symbol."""
+        """Return whether a clause can define the symbol of a step. The step must have a single symbol; its result must
+        be short, or a phrase must state the meaning of the symbol."""
         has_phrase = step.outcome in self.words.clauses.get(step.rule, {})
         return isinstance(step.symbol, Symbol | MatrixSymbol) and (is_short(step) or has_phrase)
 
@@ -69,7 +69,8 @@ class Clauses:
         return (*said, Text(" ")) if said else ()
 
     def behind(self, lines: Any) -> tuple[Inline, ...]:
-        """Return a clause that continues the sentence of these lines and defines the symbols in the lines."""
+        """Return a clause that continues the sentence of these lines and defines its waiting symbols, except those that
+        the lines define."""
         return self._sentence("where", self._due(lines))
 
     def around(self, sentence: tuple[Inline, ...], lines: Any) -> tuple[Inline, ...]:
@@ -101,7 +102,8 @@ class Clauses:
         return filled(self.words.labels[label], {"definitions": told})
 
     def _told(self, step: Step, by_value: bool) -> tuple[Inline, ...]:
-        """Return `rho = M/(6 a^3) is the density`, or `rho = M/(6 a^3)` if there is no phrase."""
+        """Return `rho = M/(6 a^3) is the density`, or `rho = M/(6 a^3)` if there is no phrase. A clause with a phrase
+        may leave out the value: `rho is the density`."""
         phrase = self.words.clauses.get(step.rule, {}).get(step.outcome, BY_VALUE)
         names, by_value = self._names(step), by_value and step.key not in self.by_name
         return filled(phrase, names if by_value or phrase == BY_VALUE else {**names, "definition": Math(step.symbol)})

@@ -56,7 +56,8 @@ def limiting_cases(
     told: Callable[[Any], Nodes],
     numbers: Mapping[str, Number],
 ) -> Iterator[Step | Nodes]:
-    """Yield the steps that only the limiting cases need, and a sentence for each case.
+    """Yield the steps that only the limiting cases need. Then yield, for each case, its sentence, or its step and
+    further sentences if the result is displayed.
 
     phrase, told   functions that return the words of a step, and the words of prose that the author wrote
     numbers        numbers of the equations on the page; the caller adds numbers between two sentences
@@ -85,7 +86,8 @@ def _agreed(step: Step, derivation: Derivation, words: Phrases, numbers: Mapping
 
 
 def _in_the_line(step: Step, nodes: Nodes) -> Nodes | None:
-    """Return the sentence of a step with its result in the text; None for a vector or tensor, which is too tall."""
+    """Return the sentence of a step with its result in the text; None for a vector or tensor, which is too tall, unless
+    the sentence already states that it is 0."""
     last = step.chain[-1]
     if step.display.names_formula and step.outcome == ZERO:  # the sentence already states the result 0
         said, _ = around_chain(nodes)

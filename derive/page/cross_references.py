@@ -15,7 +15,7 @@ class References:
     """The references of one page, which are checked at the end because prose may refer to a later equation.
 
     others   numbers of the set's problems, by their names
-    figures  numbers of the drawings that have a caption, by their names
+    figures  numbers of the figures that have a caption, by their names
     away     the equations of the parts that the page leaves out, by the keys of their steps; they have no numbers
     faults   the list to which errors are added
     """
@@ -34,8 +34,8 @@ class References:
         self.equations: list[Mention] = []
 
     def node(self, mention: Mention) -> Inline | None:
-        """Return the reference that a mention prints: to a problem, a figure or an equation; None if the problem or
-        figure is unknown."""
+        """Return the reference that a mention prints: to a problem, a figure or an equation. Return the equation itself
+        if the page leaves out its part, and None if the problem or figure is unknown."""
         if mention.of == PROBLEM:
             return self._problem(mention)
         if mention.of == FIGURE:
@@ -52,7 +52,7 @@ class References:
 
     @property
     def named(self) -> set[str]:
-        """Return the steps to whose equations prose refers."""
+        """Return the keys of the steps to whose equations prose refers."""
         return {mention.name for mention in self.equations}
 
     def check_title(self, mentions: Iterable[Mention], names: Mapping[str, object]) -> None:

@@ -1,6 +1,6 @@
 """The position, caption and alternative text of each drawing on a page.
 
-The alternative text is derived from the expressions of the marks, so the text changes with the inputs. A drawing
+The alternative text is derived from the marks or the curves, so the text changes with the inputs. A drawing
 appears in the statement if it shows only inputs. Some drawings, such as a force diagram, are placed before the steps
 that they explain. Any other drawing appears in the first part after which all its steps are derived. A problem may move
 a drawing to a later part.
@@ -42,7 +42,7 @@ from derive.page.wording import Inline, Math, Phrases, Text, filled, joined
 from derive.steps.derivation import Derivation
 from derive.steps.signs import truth_known
 
-LARGEST = 99  # the greatest whole number in the ratio of moments in a caption
+LARGEST = 99  # a ratio of moments with greater whole numbers is written with multiples of the least moment
 CURVE = "way"  # the key of the phrase for a dashed curve
 _VALUE = re.compile(r"value_\d+")  # the role of a value that a step substitutes for a letter: b = 2 sqrt(k m)
 ROUNDED = 0.01  # greatest relative difference between an exact value and the rounded number of a plot
@@ -67,7 +67,8 @@ class Depicted:
 
 
 def caption_numbers(problem: Problem, drawings: Sequence[m.Recorded], derivation: Derivation) -> dict[str, int]:
-    """Return the figure numbers of the author's figure and of the drawings with a caption, in the order of the page.
+    """Return the numbers of the figures with a caption, in the order of the page: the author's figure, then the
+    drawings.
 
     A drawing that leaves out conditions or given forces has a caption, which states them.
     """
@@ -86,7 +87,7 @@ def depictions(
     words: Phrases,
     told: Callable[[Any, dict[str, Any]], tuple[Inline, ...]],
 ) -> tuple[list[Depicted], list[Complaint]]:
-    """Return the drawings in the order of the page, and the errors in what the problem specifies for them."""
+    """Return the drawings that the page shows, in its order, and the errors about drawings."""
     faults = _unknown(problem, drawings)
     faults += [f for drawing in drawings for f in (*_without_letter(problem, drawing), *_cases(problem, drawing))]
     outside = {drawing.key: _outside_its_case(problem, drawing, derivation) for drawing in drawings}
@@ -134,9 +135,9 @@ def _has_standard_caption(drawing: m.Recorded) -> bool:
 
 
 def _standard_caption(drawing: m.Recorded, words: Phrases, said: set[str]) -> tuple[Inline, ...]:
-    """Return the caption of a force diagram, or of the drawing of a normal mode, to which the problem gives no caption.
+    """Return the standard caption of a force diagram or of the drawing of a normal mode; empty for other drawings.
 
-    said   the sentences in earlier captions; a new sentence is added
+    said   the sentences in earlier captions that are not repeated; new ones are added
     """
     if not isinstance(drawing, m.Drawing):
         return ()
@@ -157,7 +158,7 @@ def _standard_caption(drawing: m.Recorded, words: Phrases, said: set[str]) -> tu
 
 
 def _positive(drawing: m.Recorded, words: Phrases, said: set[str]) -> tuple[Inline, ...]:
-    """Return the sentence about the thin arrow of a force diagram, to follow the caption.
+    """Return the sentences about the thin arrows of a drawing, to follow the caption.
 
     said   the sentences in earlier captions; a new sentence is added
     """
@@ -286,7 +287,9 @@ def _outside_its_case(problem: Problem, drawing: m.Recorded, derivation: Derivat
 
 
 def _conditions_for(plot: m.Plot, case: Sequence[Measured], derivation: Derivation) -> list[Relation]:
-    """Return the conditions that the plotted steps, and the steps on which they depend, state for their results."""
+    """Return the conditions that the plotted steps, and the steps on which they depend, state for their results. Also
+    return equations such as b = 2 sqrt(k m) with which a step replaces b, if the case gives b a number and the plot
+    does not contain b."""
     steps = {step.key: step for step in derivation.steps}
     waiting, seen = list(plot.keys), dict[str, None]()
     while waiting:
@@ -331,15 +334,15 @@ def letters_not_drawn(problem: Problem, drawings: Sequence[m.Recorded]) -> list[
 
 
 def _with_values(problem: Problem, placement: Placement) -> dict[str, Place | None]:
-    """Return the symbols for which a drawing has a value."""
+    """Return the place of each value of a drawing, by the name of its symbol."""
     is_for_parts = any(part.cases == placement.key for part in problem.parts)
     cases = () if is_for_parts else placement.cases
     return {**placement.names, **{number.symbol.name: number.place for case in cases for number in case}}
 
 
 def keys_without_effect(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Complaint]:
-    """Return a warning for each key of a drawing that has no effect, such as `range` of a drawing that is not a
-    plot."""
+    """Return a warning for each key of a plot in a drawing that is not a plot, and for `view` in a drawing that is not
+    in space."""
     found = []
     for placement in problem.drawings:
         no_plot = any(d.key == placement.key and not isinstance(d, m.Plot) for d in drawings)
@@ -430,7 +433,8 @@ def _part_of(key: str, problem: Problem, derivation: Derivation) -> int | None:
 def _given_away(
     problem: Problem, drawing: m.Recorded, placement: Placement | None, derivation: Derivation
 ) -> Complaint | None:
-    """Return an error if a drawing shows a step that is derived later, or a step on which no answer depends."""
+    """Return an error if a drawing shows a step that is derived later, or a step on which no answer depends, or if its
+    `at` names an unknown step."""
     index, earliest = _index(problem, drawing, derivation), _earliest(drawing, derivation)
     place = (placement.at_place or placement.place) if placement else problem.place_of("solve")
     at = placement.at if placement is not None else None
@@ -577,7 +581,8 @@ def _curves(problem: Problem, plot: m.Plot, placement: Placement | None, words: 
 
 
 def _heights(curve: Curve, curves: Curves) -> Iterator[dict[str, Any]]:
-    """Yield the names for the words about each energy line of a plot."""
+    """Yield the energy of a line and both ends, for each range in which the curve is below this line, to fill in a
+    sentence."""
     for energy, ranges in curve.heights:
         for start, end in ranges:
             ends = [with_unit(x * curves.variable.per_unit, curves.variable.unit) for x in (start, end)]
@@ -699,7 +704,7 @@ def _shared(curves: Curves, words: Phrases) -> list[tuple[Inline, ...]]:
 
 
 def _turns(plot: m.Plot, curves: Curves, curve: Curve, words: Phrases) -> list[tuple[Inline, ...]]:
-    """Return words for each extremum of a curve."""
+    """Return words for each marked extremum of a curve."""
     return [
         filled(
             words.drawings["extremum"],

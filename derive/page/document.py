@@ -161,7 +161,7 @@ class _Writer:
         return {**table, **{a: self.problem.dimensions.get(letter) for letter, a in self.problem.every_amount}}
 
     def _away(self) -> dict[str, Inline]:
-        """Return, by key, the equation of each step that is in a part, but in no part that this level shows."""
+        """Return, by key, the equations of the steps that are only in parts that this level hides."""
         here = [self.level.shows(part.detail) for part in self.problem.parts]
         shown = {key for keys, is_here in zip(self.derivation.parts, here, strict=True) if is_here for key in keys}
         steps = [self.derivation.step(key) for keys in self.derivation.parts for key in keys if key not in shown]
@@ -460,7 +460,7 @@ class _Writer:
         return all(isinstance(n, Text) for n in before) and _text_of(before).strip() == self.words.labels["and"].strip()
 
     def _clause(self, blocks: Sequence[Block], following: Sequence[Inline] = ()) -> tuple[Inline, ...]:
-        """Return a clause that defines the symbols in the lines just shown; it ends with a comma if the words that
+        """Return a clause that defines waiting symbols in the lines just shown; it ends with a comma if the words that
         follow continue the sentence."""
         told = self.clauses.behind(blocks[-1]) if blocks and isinstance(blocks[-1], Display) else ()
         if told and following and continues_sentence(following) and isinstance(told[-1], Text):
@@ -526,7 +526,8 @@ def _text_of(nodes: Sequence[Inline]) -> str:
 
 
 def _without_cases(place: Place, label: str, plots: Sequence[Illustration]) -> Complaint:
-    """Return the error for `<<cases>>` in a part without a plot that has cases; `plots` are those of other parts."""
+    """Return the error for `<<cases>>` in a part without a plot that has cases; `plots` are the plots with cases
+    elsewhere."""
     help_line = "give `cases` to a plot in this part"
     if plots:
         key, at = plots[0].key, plots[0].at
@@ -564,7 +565,8 @@ def _illustrated(
     steps: int,
 ) -> tuple[Block, ...]:
     """Insert each drawing before the first of its steps in `leads_to`, or after the last of its steps in `rests_on`; a
-    drawing without steps begins the part."""
+    drawing without steps begins the part. Words stay next to the lines that they describe, so a drawing may move by
+    some blocks."""
     without = [steps if drawing.rests_on else 0 for drawing in own]
     completed = [
         min((begins[k] for k in d.leads_to if k in begins), default=0)

@@ -1,4 +1,5 @@
-"""The explanation of one step: why the page needs it, how it was checked, its sentence, and the code of its law."""
+"""The explanation of one step: why the page needs it, how it was checked, its sentence, how the page shows it, and the
+place of its law in the code."""
 
 from __future__ import annotations
 
@@ -121,8 +122,8 @@ def _asked(problem: Problem, derivation: Derivation, values: Mapping[str, Step])
 
 
 def _needs(step: Step, asked: Mapping[str, str], steps: Sequence[Step]) -> Iterator[Need]:
-    """Yield the step itself if it is an answer, and each answer that depends on the step, with the path to this
-    answer."""
+    """Yield the step itself if it is an answer. Also yield each answer that depends on the step without another answer
+    in between, with the steps that lead to it."""
     if step.key in asked:
         yield Need(asked[step.key], step.key, ())
     ways: deque[tuple[str, ...]] = deque([(step.key,)])

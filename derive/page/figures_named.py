@@ -1,8 +1,8 @@
-"""Mentions of the figures of a part, in the sentence that a figure belongs to: "It is unstable (Figure 2)."
+"""Mentions of the numbered figures of a part, in the sentences near them: "It is unstable (Figure 2)."
 
-A figure that no text of the author mentions is mentioned in parentheses at the end of a sentence. A plot or a normal
+A figure that no text of the author mentions is mentioned in parentheses at the end of a paragraph. A plot or a normal
 mode after a formula has a sentence of its own: "Figure 2 shows x as a function of t." A figure of forces is mentioned
-at the start of the sentence that leads to the equations: "With the forces in Figure 2, the upward component is".
+before the equations: "With the forces in Figure 2, the upward component is".
 """
 
 from __future__ import annotations
@@ -22,13 +22,13 @@ STOPS = (".", ",", ":")
 def figures_mentioned(
     blocks: Sequence[Block], drawings: Mapping[str, m.Recorded], mentioned: Collection[str], words: Phrases
 ) -> tuple[Block, ...]:
-    """Return the blocks of a part in which each figure is mentioned.
+    """Return the blocks of a part in which numbered figures are mentioned, if there is a sentence for the mention.
 
     drawings    the drawings of the problem, by key
     mentioned   the keys of the drawings that a text of the author mentions
     """
     found: list[Block] = []
-    waiting: list[Illustration] = []  # figures before the first sentence of the part
+    waiting: list[Illustration] = []  # figures that the blocks after them will mention
     told: tuple[Inline, ...] = ()  # a sentence about the figures before, which begins the next paragraph
     groups = [list(group) for _, group in groupby(blocks, lambda block: isinstance(block, Illustration))]
     for together, following in zip(groups, [*groups[1:], []], strict=True):
@@ -61,7 +61,7 @@ def _shows_forces(drawing: m.Recorded) -> bool:
 
 
 def _after(said: tuple[Inline, ...], blocks: list[Block]) -> list[Block]:
-    """Insert a sentence at the beginning of the first paragraph."""
+    """Insert a sentence at the beginning of the first block if this block is a paragraph."""
     first = blocks[0]
     return (
         [Paragraph((*said, Text(" "), *first.nodes)), *blocks[1:]] if said and isinstance(first, Paragraph) else blocks
@@ -93,7 +93,7 @@ def _begins_a_sentence(blocks: Sequence[Block]) -> bool:
 
 
 def _named(figures: Sequence[Illustration], words: Phrases) -> dict[str, Any]:
-    """Return the names of the figures, such as Figures 1 and 2, and their number."""
+    """Return the names of the figures, such as Figures 1 and 2, and how many figures these are."""
     numbers = [(each.number, each.key) for each in figures if each.number is not None]
     if len(numbers) == 1:
         [(number, key)] = numbers
@@ -105,7 +105,7 @@ def _named(figures: Sequence[Illustration], words: Phrases) -> dict[str, Any]:
 
 
 def _sentence_before(blocks: Sequence[Block]) -> int | None:
-    """Return the position of the last sentence before the figures."""
+    """Return the position of the paragraph before the figures, or before the display that precedes the figures."""
     for at in (len(blocks) - 1, len(blocks) - 2):
         if at >= 0 and isinstance(blocks[at], Paragraph):
             return at
@@ -115,7 +115,7 @@ def _sentence_before(blocks: Sequence[Block]) -> int | None:
 
 
 def _after_figures(blocks: list[Block], figures: Sequence[Illustration], words: Phrases) -> list[Block]:
-    """Mention the figures in the first sentence after them, if there is one."""
+    """Mention the figures in the first paragraph after them, if there is one."""
     at = next((i for i, block in enumerate(blocks) if isinstance(block, Paragraph)), None)
     return blocks if at is None else [*blocks[:at], _with_mention(blocks[at], figures, words), *blocks[at + 1 :]]
 

@@ -90,7 +90,7 @@ class Formulas:
         self.stated: list[Relation] = []  # the inequalities that the statement and the questions contain
 
     def in_solution(self, formula: TexFormula, key: str = "") -> Math | Text:
-        """Return a formula of the solution, which must agree with the results of the page.
+        """Return a formula of the solution, with a warning if it disagrees with the results of the page.
 
         key     the step whose `wording:` contains the formula, if any; a letter that several integrals use has the
                 dimension that it has in this step
@@ -180,7 +180,7 @@ class Formulas:
     def _check_result(self, left: Side, right: Side) -> None:
         """Warn if the left side is the symbol of a result, and the page does not derive the right side for it.
 
-        A condition, such as one for resonance, causes no warning.
+        A condition, such as omega = omega_0 for resonance, causes no warning.
         """
         one, other = left.branches[0][0][0], right.branches[0][0][0]
         values = self.results.get(one, ())
@@ -195,9 +195,9 @@ class Formulas:
         self.warnings[Complaint("differs-from-result", message, right.place, (), help_line, severity="warning")] = None
 
     def _check_equation(self, left: Side, right: Side) -> None:
-        """Warn if an equation between two formulas does not hold for the results of the page.
+        """Warn if an equation with at least two results does not hold for the results of the page.
 
-        A condition, such as v^2 = g R, causes no warning.
+        A condition on a single result, such as v^2 = g R, causes no warning.
         """
         one, other = left.branches[0][0][0], right.branches[0][0][0]
         if any(isinstance(side, Symbol | MatrixBase) for side in (one, other)):
@@ -215,7 +215,7 @@ class Formulas:
     def _in_givens(self, value: Any, depth: int = DEEPEST) -> Iterator[Any]:
         """Yield the expression with the symbols of results replaced by their values, for combinations of these values.
 
-        depth   how often the symbols are replaced
+        depth   how often symbols are replaced at most
         """
         symbols = [symbol for symbol in self.results if symbol in explicit(value).free_symbols]
         if not symbols or not depth:

@@ -48,7 +48,7 @@ class _Hints:
 
     given           symbols of the problem
     answers         results that the parts ask for
-    shown           the results on the page, and the components of vectors and tensors among them
+    shown           the results on the page; for a vector or a tensor, its components
     introduced      symbols that the statement or a hint has explained
     worded_answers  keys of the answers whose sentence the author wrote; this sentence may give the answer away
     """
@@ -116,7 +116,7 @@ class _Hints:
         return (*shown, Text(f" ({name})")) if name else shown
 
     def _laws(self, sentence: Sentence) -> list[Block]:
-        """Return the laws of a sentence, after its words unless these contain an answer."""
+        """Return the laws of a sentence, after its words unless these may contain an answer."""
         words = [block for block in sentence[:1] if isinstance(block, Paragraph) and not self._tells(block.nodes)]
         is_safe = not any(group.key in self.worded_answers for group in groups_in(sentence))
         laws = self._cut(sentence, slice(1))

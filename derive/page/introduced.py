@@ -49,7 +49,7 @@ def expressions_in(shown: Any) -> Iterator[Any]:
 
 
 def references_in(shown: Any) -> set[str]:
-    """Return the steps to whose equation numbers a piece of a page refers."""
+    """Return the keys of the steps to whose equation numbers a piece of a page refers."""
     return {each.key for each in _leaves(shown) if isinstance(each, Ref)}
 
 

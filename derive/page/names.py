@@ -12,7 +12,8 @@ from derive.steps.derivation import Derivation
 
 
 def page_names(problem: Problem, derivation: Derivation, words: Phrases) -> dict[str, Any]:
-    """Return each name with its text; if an input and a step have the same name, the name denotes the input."""
+    """Return each name with its text; if an entry of `given:` and a step have the same name, the name denotes the entry
+    of `given:`."""
     described = problem.described.letters if problem.described else {}
     names: dict[str, Any] = {**AXIS_NAMES, **{name: (Math(known.symbol),) for name, known in described.items()}}
     coordinates = (q for step in derivation.steps for q, _ in step.coordinates)

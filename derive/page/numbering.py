@@ -1,7 +1,7 @@
 """Consecutive numbers of equations; a more detailed page can use the numbers of a less detailed page.
 
-An equation that the less detailed page omits has the previous number and a letter: (7a) after (7). So an equation that
-is on both pages has the same number on both.
+An equation that the less detailed page omits has the previous number and a letter: (7a) after (7). So an equation on
+both pages has the same number on both, if the order of the equations is the same.
 """
 
 from __future__ import annotations

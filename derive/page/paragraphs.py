@@ -1,4 +1,4 @@
-"""Short paragraphs: a remark of a line or two after a display begins the paragraph that follows it."""
+"""Short paragraphs: a remark of a line or two begins the paragraph directly after it."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from derive.page.tree import Block, Paragraph
 from derive.page.wording import Inline, Text, ToldOnce
 
 SHORT = 200  # greatest number of characters of a remark that does not need a paragraph of its own
-FORMULA = 10  # characters that stand for a formula or a reference in this count
+FORMULA = 10  # a formula or a reference counts as this number of characters
 
 
 def without_short_paragraphs(blocks: Sequence[Block]) -> tuple[Block, ...]:

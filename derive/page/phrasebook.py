@@ -196,7 +196,7 @@ def _wrong(source: Source, keys: tuple[str, ...], wanted: str, help_line: str | 
 
 
 def _place(source: Source, keys: tuple[str, ...]) -> Place:
-    """Return the line of the last of these keys."""
+    """Return the line of the last of these keys that the file has."""
     node, index = yaml.compose(source.text, Loader=yaml.CSafeLoader), 0
     for name in keys:
         pairs = node.value if isinstance(node, yaml.MappingNode) else []

@@ -36,10 +36,12 @@ JOULE, POTENTIAL = "J", "U"  # the unit and the first letter of a potential ener
 
 STEPS = 240  # least number of steps of a curve
 STEPS_OF_TURN, MOST_STEPS = 40, 6000  # number of steps for each extremum of a curve, and greatest number of all steps
-MOST_POINTS = 2  # a curve with more zeros, or a panel with more meeting points, has no marks for them
+MOST_POINTS = 2  # a panel with more zeros, or with more meeting points of curves, has no marks for them
 PATH_STEPS = 720  # number of steps of a path, which may go round many times
 MOST_MARKED, MOST_IN_TIME = 6, 3  # a curve with more extrema has no marks; the second is for curves against the time
-NEAR = 1e-6  # greatest distance of an extremum from the place of a name, divided by the range
+# numbers with a smaller relative difference are equal; for the places of an extremum and of a name, relative to the
+# range
+NEAR = 1e-6
 MOST_TOGETHER = 4  # greatest number of curves in one panel; they differ in the style of their lines
 KEPT = 1 / 3  # length of the part of a curve after its range, on which the curve is constant, divided by the range
 # For a test whether a curve depends on a number: the factor of the number, and the places in the range.
@@ -225,7 +227,7 @@ def _divided(
     placement: Placement | None,
     numbers: Sequence[Mapping[Any, Expr]],
 ) -> Axis:
-    """Return the axis divided by a quantity, which must have the same value for all curves."""
+    """Return the axis divided by a quantity, which must have the same positive value for all curves."""
     name, expr = per
     if name == 1:
         return usual
@@ -295,7 +297,8 @@ def _own(
 
 
 def _are_together(problem: Problem, plot: Plot, placement: Placement | None, curves: Sequence[Curve]) -> bool:
-    """Return whether the curves are in one panel: as the problem states, or if their sizes and ranges are similar."""
+    """Return whether the curves are in one panel. If the problem does not state this, a few curves are in one panel if
+    they show several quantities, or if they have comparable sizes and, except for paths, the same range."""
     stated = placement.panels if placement else None
     if len(curves) < 2 or plot.levels is not None or plot.diagram is not None or stated == APART:
         return False
@@ -329,7 +332,7 @@ def _axis(unit: str) -> Axis:
 
 
 def _ends(plot: Plot, placement: Placement | None) -> list[Expr]:
-    """Return the ends of the range."""
+    """Return the ends of the range that the problem states, or else the ends that the plot has."""
     if placement and placement.range and not placement.is_of_engine:
         return placement.range.of_kind(plot.of)
     return list(plot.ends)
@@ -494,13 +497,13 @@ def is_closed(path: Path) -> bool:
 
 
 def panel_letters(curves: Curves) -> list[str]:
-    """Return the letter of each panel, or empty letters if there is only one panel."""
+    """Return the label of each panel, or an empty label if there is only one panel."""
     several = len(curves.panels) > 1
     return [case_label(i) if several else "" for i, _ in enumerate(curves.panels)]
 
 
 def curve_letters(curves: Curves) -> list[str]:
-    """Return the letter of each curve in the caption."""
+    """Return the label of each curve in the caption."""
     if curves.is_lettered:
         return [case_label(i) for i, _ in enumerate(curves.curves)]
     letters = zip(panel_letters(curves), curves.panels, strict=True)

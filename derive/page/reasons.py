@@ -1,7 +1,8 @@
-"""Reasons and frames that a page leaves out, because the reader can guess the one and has seen the other.
+"""Reasons and frames that a page leaves out because the reader does not need them.
 
-A reason that only names equations, "from (2) and (3)", is left out if these are the equations just before, or if the
-sentence before the display names them. A result that a part has framed is not framed again in this part.
+A reason that only names equations, "from (2) and (3)", is left out if each of these equations is one of the two before
+the line, or is named in the paragraph before the display. A result that a part has framed is not framed again in this
+part.
 """
 
 from __future__ import annotations
@@ -36,7 +37,7 @@ def without_known_reasons(blocks: Sequence[Block], numbers: Mapping[str, Number]
 
 
 def framed_once(blocks: Sequence[Block]) -> tuple[Block, ...]:
-    """Return the blocks of a part without the frames of results that an earlier display of the part has framed."""
+    """Return the blocks of a part without the frames of results that the part has framed before."""
     seen: set[Any] = set()
     found: list[Block] = []
     for block in blocks:

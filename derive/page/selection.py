@@ -104,7 +104,8 @@ class Selection:
         return self._having_it[step.key]
 
     def standing_for(self, keys: Collection[str]) -> set[str]:
-        """Return the given steps; each step that points to earlier lines is replaced by the steps of these lines."""
+        """Return the given keys; the key of a step that points to earlier lines is replaced by the keys of the steps
+        with these lines."""
         pointed = {key for key in keys if self.manner(key) is POINTED_OUT}
         return (set(keys) - pointed) | {each.key for key in pointed for each in self._having_it[key]}
 
@@ -156,7 +157,7 @@ class Selection:
         return found
 
     def _only_for_worded(self, steps: Sequence[Step]) -> set[str]:
-        """Return the steps that only explain steps with an own `wording:`."""
+        """Return the steps that only explain steps with their own `wording:`."""
         found: set[str] = set()
         for step in reversed(steps) if self.worded else ():
             users = {other.key for other in steps if step.key in other.inputs}

@@ -1,4 +1,4 @@
-"""No-break spaces between numbers and their units in running text; a percent sign follows its number directly."""
+"""No-break spaces between numbers and their units in running text; a percent sign has no plain space before it."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """From steps to words: the phrase for a rule and an outcome, with its names filled from the derivation.
 
-A phrase becomes nodes that do not depend on a format, such as `Text`, `Math`, `Ref` and `Chain`. Only inputs and
-verified results have names here, so prose can mention no other quantity: an unknown name is an error.
+A phrase becomes nodes that do not depend on a format, such as `Text`, `Math`, `Ref` and `Chain`. Inputs, axes,
+coordinates and steps have names here; an unknown name is an error, so prose can mention no other quantity.
 """
 
 from __future__ import annotations
@@ -437,7 +437,8 @@ def equation_of(step: Step) -> Inline:
 
 
 def with_verdict(nodes: Sequence[Inline], words: Phrases) -> tuple[Inline, ...]:
-    """Return the sentence with its verdict marked, if it contains exactly one: "the equilibrium is stable"."""
+    """Return the sentence with its verdict marked, if it contains exactly one: "the equilibrium is stable". In a
+    sentence with several verdicts, a single inequality is marked instead."""
     pattern = re.compile(rf"\b({'|'.join(words.labels['verdicts'])})\b")
     found = [(i, match) for i, node in enumerate(nodes) if type(node) is Text for match in pattern.finditer(node.text)]
     if len(found) > 1:

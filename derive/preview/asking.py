@@ -97,7 +97,7 @@ class _Worker:
         return said if isinstance(said, dict) and said.get("number") == self._asked else None
 
     def ended(self) -> int:
-        """Return the exit code of the process."""
+        """Return the exit code of the process; 0 if it has not ended after a second."""
         with suppress(subprocess.TimeoutExpired):
             self._process.wait(1)
         return self._process.returncode or 0

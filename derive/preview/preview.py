@@ -78,7 +78,7 @@ def _serving(served: Server) -> Iterator[int]:
 
 
 def _edits(root: Path, ending: Ending) -> Iterator[object]:
-    """Yield after each edit of a problem or script in any set, of a template or of a phrase."""
+    """Yield after each edit of a problem, script or set, of the file of the course, of a template or of a phrase."""
     yield from watch(
         root / "problems",
         *templates_of(root).folders,

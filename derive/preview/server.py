@@ -1,6 +1,6 @@
 """A server for this machine alone: the pages of one set, and their changes while the set is edited.
 
-    /                 the page that the preview was started for
+    /, /index.html    the page that the preview was started for
     /NAME.html        the page of another problem of the set
     /NAME/events      messages to the page NAME.html: its new content, or its errors
 
@@ -107,7 +107,7 @@ class Pages:
 
 
 class Handler(BaseHTTPRequestHandler):
-    """Answers the requests of one browser."""
+    """Answers the requests on one connection of a browser."""
 
     pages: Pages
     whole: Callable[[str, str], str]  # makes a page from a problem's name and the page's main part

@@ -32,7 +32,7 @@ class Rendered:
     latex, sheet, report    fragments for documents: the solution, the questions alone, and how the solution was checked
     source                  a fragment of the report: what is wrong in the source document
     html, title_html        the solution and its title, for a page in a browser
-    card_html               the statement and its drawing, for the list of the problems of a set
+    card_html               the statement and its first drawing, for the list of the problems of a set
     documents               fragments of the other requested documents, in TeX by name and in HTML by `name.html`
     counts                  the counts of the checks of the problem, see `Checks.counts`
     steps, compared         the number of steps, and the number of compared statements of the reference and of remarks

@@ -1,4 +1,4 @@
-"""An answer that could have a number has one or a word why not, and the sheet tells what the numbers need."""
+"""An answer that could have a number has one or a word why not, and the text mentions the numbers."""
 
 from __future__ import annotations
 
@@ -51,6 +51,7 @@ def part(answers: str, form: str = "") -> str:
 
 
 ALL = part("[period, chord, weight, share]")
+NOT_MENTIONED = "`g` has a number, but the statement and the questions do not mention `<<gravity>>`"
 
 
 def told(found: list[Complaint]) -> list[tuple[str, str, str]]:
@@ -126,9 +127,9 @@ def test_a_form_may_wait_for_numbers(values: str, parts: str, said: list[str], t
     assert [c.message for c in warnings_of(tmp_path, values, parts)] == said
 
 
-def test_a_number_that_the_sheet_does_not_tell(tmp_path: Path) -> None:
+def test_a_number_that_no_text_of_the_sheet_mentions(tmp_path: Path) -> None:
     found = warnings_of(tmp_path, "l: 1 m, m: 1 kg, g: 9.8 m/s^2", part("period"), "A thread <<length>>.")
-    assert told(found) == [("untold-number", "`g` has a number that the sheet does not state", "9.8 m/s^2")]
+    assert told(found) == [("untold-number", NOT_MENTIONED, "9.8 m/s^2")]
     assert found[0].help == "mention `<<gravity>>` in the statement"
 
 
@@ -136,4 +137,4 @@ def test_a_number_may_be_told_by_a_question_and_be_typed_in_place_of_its_letter(
     asked = part("period").replace("What is it?", "What is it at <<gravity>>?")
     assert warnings_of(tmp_path / "asked", "l: 1 m", asked, "A thread <<length>>.", "9.8 m/s^2") == []
     found = warnings_of(tmp_path / "not", "l: 1 m", part("period"), "A thread <<length>>.", "9.8 m/s^2")
-    assert told(found) == [("untold-number", "`g` has a number that the sheet does not state", "9.8 m/s^2")]
+    assert told(found) == [("untold-number", NOT_MENTIONED, "9.8 m/s^2")]

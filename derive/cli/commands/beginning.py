@@ -34,7 +34,7 @@ def _write_course(folder: Path, title: str) -> None:
 
 
 def _offered_course() -> bool:
-    """Ask the user at a terminal whether to make a course in the working folder, and make it."""
+    """Ask the user at a terminal whether to make a course in the working folder; make it if the user agrees."""
     if not (sys.stdin.isatty() and sys.stderr.isatty()):
         return False
     print("No course was found here or above. Make one in this folder? [y/N] ", end="", file=sys.stderr, flush=True)

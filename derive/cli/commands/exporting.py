@@ -1,4 +1,4 @@
-"""`derive export`: a set of problems for a learning platform."""
+"""`derive export`: a set of problems, or one problem, for a learning platform or a word processor."""
 
 from __future__ import annotations
 

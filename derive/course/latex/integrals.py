@@ -93,7 +93,8 @@ def _checked(reader: Grids, term: Term, signs: list[Sign]) -> Term:
     integral = term.expr.args[0]
     if not _is_elementary(explicit(integral.function), integral.limits):
         names = " and ".join(f"`{reader.shown(sign.variable)}`" for sign in signs if sign.variable)
-        reader.refuse("integral", f"only powers, sines and cosines of {names} can be integrated", term.start, term.end)
+        help_line = "integrals of polynomials, roots, sines and cosines can be read"
+        reader.refuse("integral", f"this integral over {names} cannot be read", term.start, term.end, help_line)
     return term
 
 
@@ -105,8 +106,8 @@ def check_limits(reader: Grids, variable: Term, *limits: Term) -> None:
 
 
 def _is_elementary(function: Expr, limits: Limits) -> bool:
-    """Return whether the integral can be evaluated by elementary rules. An integral with a root counts as
-    elementary."""
+    """Return whether the integral can be evaluated by elementary rules or quickly by SymPy. An integral with a root
+    counts as elementary."""
     variables = {x for x, *_ in limits}
     ends = [end for _, *both in limits for end in both]
     found = definite(function, limits)

@@ -76,7 +76,8 @@ def _check_depth(reader: Arithmetic) -> None:
 class _Check:
     def __init__(self, reader: Arithmetic, tokens: list[Token]):
         self.reader, self.tokens = reader, tokens
-        self.open: list[tuple[str, Token, int]] = []  # what closes each bracket, brace or environment; where it ends
+        # for each open bracket, brace or environment: what closes it, its token, and the end of its opening
+        self.open: list[tuple[str, Token, int]] = []
 
     def refuse(self, message: str, token: Token, end: int | None = None, help: str | None = None) -> None:
         self.reader.refuse("latex", message, token.span.start, end or token.span.end, help)

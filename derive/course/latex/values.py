@@ -50,7 +50,7 @@ from derive.documents.syntax import (
 from derive.errors import Complaint, Rejected, did_you_mean
 from derive.units import read_unit
 
-MAX_SIDE = 6  # rows and columns of a matrix
+MAX_SIDE = 6  # greatest number of rows or columns of a matrix
 MOST_DOTS = len(RATES) - 1
 _AXES = {"i": 0, "j": 1, "k": 2, "x": 0, "y": 1, "z": 2}
 _SUBSCRIPT = re.compile(r"[A-Za-z0-9_,]+")
@@ -524,7 +524,7 @@ class Values(Grids):
         return self.of_letter(name)
 
     def call_or_product(self, node: Open) -> TermOrGrid:
-        """Reject `U(\\theta)`, which looks like a function: a product is not written as `a(b)`."""
+        """Read a product such as `a(b + c)`; reject `U(\\theta)`, which could be a function."""
         call, product = node.alternatives
         while isinstance(call, Pow | EvalBar):
             call = call.base if isinstance(call, Pow) else call.inner

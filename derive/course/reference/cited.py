@@ -189,7 +189,7 @@ class Cited:
         return text if len(text) <= 60 else f"{text[:60]} ..."
 
     def lines_of(self, quote: str) -> int | None:
-        """Return the line in which a text begins."""
+        """Return the line in which a text begins; None if the document does not have this text."""
         return next((first for first, _ in self.found(_LAYOUT.sub("", quote))), None)
 
     def quotes(self, quote: str, line: int) -> bool:

@@ -2,7 +2,7 @@
 
 A symbol with a number keeps this number. The other symbols of a kind get substitute values in the order of their
 declaration: 1, 3/2, 2, ... times the mean size of the given numbers of this kind. Without given numbers, the values are
-multiples of 36 degrees for angles, and of 1 for other kinds.
+1, 3/2, 2, ... times 36 degrees for angles, and 1, 3/2, 2, ... for other kinds.
 """
 
 from __future__ import annotations
@@ -23,8 +23,8 @@ from derive.figures.polhodes import order_of
 from derive.figures.space import Stance, Vector, angle_of, cross, dot, plus, size_of, unit
 
 ANGLE = pi / 5
-APART = 0.25  # least distance in the view between a tip and a corner, in body sizes
-OPEN = 0.5  # least cosine of the angle between the normal of a flat body and the line of sight
+APART = 0.25  # a smaller distance in the view between a tip and a corner makes the view worse; in body sizes
+OPEN = 0.5  # least cosine, if possible, of the angle between the normal of a flat body and the line of sight
 THIN = 0.1  # greatest thickness of a flat body, relative to its size
 SHARES = (0.8, 0.6, 1.0, 0.7)  # values of coordinates without a number, except angles, in units of `typical`
 
@@ -136,8 +136,8 @@ FROM_A_CORNER = stance_from(37, 30), stance_from(53, 30), stance_from(45, 42)
 def best_stance(drawing: Drawing, numbers: Numbers, reach: float = 1.0) -> Stance:
     """Return the view of a drawing.
 
-    A drawing in a plane has the view from the front. In space, the author may choose the view. Otherwise a view is
-    chosen in which vectors are long and far apart and do not end at corners.
+    A drawing in a plane has the view from the front. In space, the author may choose the view. Otherwise the view
+    depends on the marks: for example, vectors should appear long and far apart, and not end at corners.
 
     `reach` is the size of the bodies.
     """

@@ -15,11 +15,11 @@ WORDS = 9.0  # in points: the least distance between two texts in the same line
 APART = 8.0  # in points: the least distance of a name from the other curves
 ENOUGH = 30.0  # in points: a greater distance from the other curves is not better
 STEP = 2.0  # in points: the distance between the points that represent a curve
-TRIED = 48  # the number of places along a curve at which a name is tried
+TRIED = 48  # the approximate number of places along a curve at which a name is tried
 INNER = 9.0  # in points: the distance of a legend from the axes with their ticks
 LONGEST = 0.35  # greatest part of a curve that a gap with its name takes away
 STUB = 15.0  # in points: the least piece of an open curve between a gap with its name and an end of the curve
-TURN = 4.0  # in points: the distance that a gap with its name should have from a turning point of a closed curve
+TURN = 4.0  # in points: the least distance, if possible, of a gap with its name from a turning point of a closed curve
 ENDS = 0.04  # part of a curve at either end that has no name
 
 
@@ -33,7 +33,7 @@ def dots_of(spots: Sequence[Spot]) -> list[Spot]:
 
 
 def is_clear(box: Extent, dots: Sequence[Spot], others: Sequence[Extent]) -> bool:
-    """Return whether a box covers no point of a curve and no other box."""
+    """Return whether a box neither covers nor nearly touches a point of a curve or another box."""
     left, below, right, above = box[0] - CLEAR, box[1] - CLEAR, box[2] + CLEAR, box[3] + CLEAR
     return not any(left < x < right and below < y < above for x, y in dots) and not any(
         box[0] - WORDS < other[2] and other[0] < box[2] + WORDS and below < other[3] and other[1] < above
@@ -52,7 +52,7 @@ def beside_curves(
     taken: Sequence[Extent],
     lines: Sequence[Spot] = (),
 ) -> list[Extent] | None:
-    """Return the box of the name of each curve, or None if a name has no clear place.
+    """Return the box of the name of each curve, or None if a name has no clear place far from the other curves.
 
     curves   points of each curve, close to each other
     sizes    the width and the height of each name
@@ -126,7 +126,7 @@ def _boxes(own: Sequence[Spot], size: tuple[float, float]) -> list[Extent]:
 
 
 def _distance(box: Extent, dots: Sequence[Spot]) -> float:
-    """Return the distance of a box from the nearest of these points."""
+    """Return the distance of a box from the nearest of these points; `ENOUGH` if there are no points."""
     left, below, right, above = box
     return min((hypot(max(left - x, 0.0, x - right), max(below - y, 0.0, y - above)) for x, y in dots), default=ENOUGH)
 

@@ -63,7 +63,7 @@ class OnPaper(Paper):
     def revolved(self, centres: Sequence[Vector], radii: Sequence[float]) -> list[Piece]:
         """Draw the rims of both ends, dashed where hidden, and the side of the body.
 
-        A straight side is drawn as two lines, any other side as the outline of all its circles.
+        A straight side is drawn as the lines of its outline, any other side as the outline of all its circles.
         """
         wide, narrow = (0, -1) if radii[0] >= radii[-1] else (-1, 0)
         normal = plus(centres[narrow], centres[wide], -1.0)

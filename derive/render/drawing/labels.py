@@ -1,9 +1,9 @@
 """Positions of the labels of a drawing: each next to the thing that it names, covering as little else as possible.
 
 For each label, several positions around its point are tried. A position has a cost for each line point and each label
-that it covers. A smaller cost grows with the distance from the position that the mark prefers. The position with the
-lowest total cost is used. The labels choose one after another, in several rounds. If labels still cover something, they
-choose again in another order.
+that it covers. A second, smaller cost grows with the distance from the position that the mark prefers. The position
+with the lowest total cost is used. The labels choose one after another, in several rounds. If the total cost is still
+high, they choose again in another order.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from derive.figures.space import Spot, direction, is_within
 
 Extent: TypeAlias = tuple[float, float, float, float]  # left, below, right, above
 
-CLEAR = 1.5  # distance between a label and a line, in points
+CLEAR = 1.5  # a label covers a line or another label at a smaller distance, in points
 LINE, HEAVY = 3.0, 60.0  # cost of covering a point of a line, and of covering another label
 OUTSIDE = 6.0  # cost of a position outside the thing that the label names
 BESIDE, TOGETHER = 9.0, 5.0  # gap in points below which two labels in a row look like a product; cost of such a pair
@@ -58,7 +58,7 @@ def placed(
     tried = [sorted(enumerate(_weighed(tag, measured, drawn)), key=lambda each: each[1][0]) for tag in tags]
     order = sorted(range(len(tags)), key=lambda i: (not tags[i].on, tags[i].way is not None))
     costs, found = _one_by_one(order, tried, drawn)
-    if sum(costs.values()) >= HEAVY_ENOUGH:  # labels cover something: search again, fewest positions first
+    if sum(costs.values()) >= HEAVY_ENOUGH:  # labels probably cover something: search again, fewest positions first
         other = sorted(order, key=lambda i: (not tags[i].on, len(tried[i])))
         again = _one_by_one(other, tried, drawn)
         costs, found = min((costs, found), again, key=lambda each: sum(each[0].values()))

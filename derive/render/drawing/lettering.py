@@ -23,7 +23,7 @@ Letters: TypeAlias = Callable[[Collection[str]], Mapping[str, Lettered]]
 
 
 def letters_of(texts: Collection[str], font: str = PAPER) -> dict[str, Lettered]:
-    """Return the contour and the extent of each mathtext, by its text; a contour begins at the origin."""
+    """Return the contour and the extent of each mathtext, by its text; each text begins at the origin."""
     # One thread suffices because no matrices are multiplied, and a process with threads should not fork.
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     import matplotlib

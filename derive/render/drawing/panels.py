@@ -25,7 +25,7 @@ from derive.render.notation.latex import unit_latex
 from derive.render.notation.notation import Notation
 
 _DECIMAL_POINT = re.compile(r"(?<=[0-9])\.(?=[0-9])")
-MOST_ACROSS, MOST_UP = 6, 4  # greatest numbers of intervals between the ticks of the two axes
+MOST_ACROSS, MOST_UP = 6, 4  # usual limits of the numbers of intervals between the ticks of the two axes
 NAME = 17.0  # in points: the space for the name of an extremum above or below a curve
 MOST_NAME = 0.25  # greatest part of the height of a panel for the names at one side
 HEIGHT = 88.0  # in points: the usual height of a panel between its axes
@@ -55,7 +55,7 @@ class Trace:
 
     points   the curve, in the units of the axes
     turns    the extrema: the point, whether it is a minimum, and the forms of the name of its place on the horizontal
-             axis, the shortest last; there is none if a tick already shows the place
+             axis, the shortest last; there is none if the place has no symbol and a tick already shows it
     name     the name of the curve; empty if the panel has no other curve
     """
 
@@ -88,7 +88,8 @@ class Panel:
     across, up       the ticks of both axes, with their numbers
     names            the names of both axes
     values           the ranges of the axes: left, below, right, above
-    numbers          the texts above the panel: its letter, and the numbers that were substituted
+    numbers          the texts above the panel: its letter, the symbol of the quantity, and the numbers that were
+                     substituted
     is_path          whether the curves are paths, which have dots at their ends and an arrowhead
     lines            the curves of a phase portrait
     levels           the values on these curves
@@ -99,7 +100,7 @@ class Panel:
     shape            height divided by width; None for the usual shape
     points           zeros of a curve, or points at which two curves meet, with their names
     heights          horizontal lines at energies, from one end to the other
-    is_signed        whether a curve changes its sign, so that a thin line shows zero
+    is_signed        whether the vertical axis extends well to both sides of zero, so that a thin line shows zero
     has_open         whether the dots of maxima are open, because they are unstable equilibria
     """
 
@@ -251,8 +252,9 @@ def _is_tick_at_end(point: tuple[float, float, bool], across: Ticks, curves: Cur
 def _point(
     at: float, value: float, is_zero: bool, curves: Curves, own: Sequence[Curve], across: Ticks, notation: Notation
 ) -> tuple[Spot, str]:
-    """Return a point of a panel with its name: the value on the horizontal axis and, unless the point is a zero, the
-    value on the vertical axis."""
+    """Return a point of a panel with its name: the symbol of its place on the horizontal axis, with the value unless
+    the axis is divided by a quantity. Without a symbol, the name of a meeting point has the values on both axes, and a
+    zero at a tick has no name."""
     x, y = at * curves.variable.per_unit, value * curves.up.per_unit
     for curve in own:
         (found,) = with_names([Extremum(at, value, MINIMUM)], curve.places, NEAR * (curve.upper - curve.lower))
@@ -442,7 +444,8 @@ def _scaled_ticks(
 
 
 def _ticks(low: float, high: float, most: float, in_degrees: bool, room: tuple[float, float]) -> Ticks:
-    """Return round numbers with the same number of decimals; degrees in steps of 5, 10, 15, 30, 45, 90, 180 or 360.
+    """Return round numbers with the same number of decimals. In a range of at least 20 degrees, the step is 5, 10, 15,
+    30, 45, 90, 180 or 360 degrees.
 
     If there is room below and above, the numbers continue beyond both ends of the range.
     """

@@ -13,7 +13,7 @@ from derive.render.drawing.camera import Numbers, best_stance
 from derive.render.drawing.hidden_lines import OnPaper
 
 POINTS_PER_CM = 72 / 2.54
-TRIES = 12  # iterations to find the scale
+TRIES = 12  # greatest number of iterations to find the scale
 LABEL = 8.0  # in points: approximate width of a letter
 REDUCED = 0.7  # the drawing of a normal mode has small parts: it is drawn larger, and then reduced by this factor
 SMALLEST = 15.0  # in points: the least distance from the middle of the bodies to their farthest point
@@ -22,7 +22,8 @@ SMALLEST = 15.0  # in points: the least distance from the middle of the bodies t
 def picture(drawing: Drawing, numbers: Numbers, width: float, height: float) -> list[Piece]:
     """Return the pieces in points.
 
-    Without their labels the pieces fit into `width` x `height` centimetres, except in some force diagrams.
+    Without labels, the pieces fit into `width` x `height` centimetres, except in some force diagrams and for some
+    arrows of normal modes.
     """
     if drawing.mode is not None:
         return [_reduced(piece) for piece in _fitted(drawing, numbers, width / REDUCED, height / REDUCED)]

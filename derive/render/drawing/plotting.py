@@ -6,7 +6,7 @@ path have the same unit, both axes have the same scale.
 Several curves in one panel have different lines, and each has its name next to it. If a name has no clear place, all
 names are in a legend.
 
-Numbers and names have the font of the page. A dotted line leads from an extremum to the horizontal axis.
+Numbers and names have the font of the page. A dashed line leads from an extremum to the horizontal axis.
 """
 
 from __future__ import annotations
@@ -39,7 +39,8 @@ from derive.render.notation.notation import Notation
 
 PANEL, TALL = 7.5, 5.0  # centimetres: the usual width and height of a panel
 WIDEST = 16.5  # centimetres: the greatest width of all panels together, if no width is given
-TALLEST = 6.5  # centimetres: the greatest height of the axes of a path, if the width of its panel is not given
+# centimetres: the greatest height of axes whose shape is fixed, as for a path, if the width of the panel is not given
+TALLEST = 6.5
 CM = 72 / 2.54
 SMALL, SMALLER, SMALLEST = 1.0, 0.95, 0.9  # font scales: at the axes, above a panel, at curves and extrema
 TICK = 3.5  # in points: the length of a tick, and the distance from a tick to its number
@@ -296,7 +297,7 @@ def _names_of_curves(panel: Panel, frame: Frame, writing: Writing, points: Seque
 
 
 def _from_the_top(panel: Panel) -> list[int]:
-    """Return the indices of the curves, from the top to the bottom of the panel."""
+    """Return the indices of the curves, from the greatest to the least mean height."""
     heights = [sum(y for _, y in trace.points) / len(trace.points) for trace in panel.traces]
     return sorted(range(len(heights)), key=lambda i: -heights[i])
 
@@ -404,7 +405,8 @@ def _dot(turn: Turn, frame: Frame, has_open: bool) -> Iterator[Piece]:
 def _names_of_turns(
     panel: Panel, frame: Frame, writing: Writing, taken: Sequence[Extent]
 ) -> list[tuple[Shape, Extent]]:
-    """Return the names of the extrema with their boxes. Names without room are shorter or left out.
+    """Return the names of the extrema with their boxes. If not all names of a curve have room, they are short; if these
+    have no room either, all names of the curve are left out.
 
     taken   boxes of other names
     """
@@ -446,7 +448,8 @@ def _beside_turn(spot: Spot, is_lowest: bool, size: tuple[float, float], paper: 
 
 
 def _dots_of_thin_lines(panel: Panel, frame: Frame) -> list[Spot]:
-    """Return points of the line at zero and of the lines from the extrema to the horizontal axis."""
+    """Return points of the line at zero, of the lines at energies, and of the lines from the extrema to the horizontal
+    axis."""
     lines = [frame.spots(line) for line in (*(_line_to_axis(turn, frame) for turn in panel.turns), *panel.heights)]
     if panel.is_signed:
         zero = frame.spot((0.0, 0.0))[1]
@@ -459,7 +462,8 @@ def _line_to_axis(turn: Turn, frame: Frame) -> tuple[Spot, Spot]:
 
 
 def line_of(panel: Panel, frame: Frame, gaps: Sequence[tuple[int, Extent]] = ()) -> Iterator[Piece]:
-    """Yield the lines of a panel except its axes. A path has an arrowhead, and dots at its start and at its end."""
+    """Yield the curves of a panel with their arrowheads and dots, and the outlines of surfaces. A path has an
+    arrowhead, and dots at its start and at its end."""
     for i, line in enumerate(panel.lines):
         spots, pen = frame.spots(line.points), "separatrix" if line.is_thick else "level"
         yield from (Stroke(part, pen) for part in _parts(spots, [box for k, box in gaps if k == i]))

@@ -1,4 +1,4 @@
-"""The formats of a single page: each module of this package defines one format, and is imported only here.
+"""The formats of a single page: each module of this package defines one format.
 
 A module defines `FORMAT = Format(...)`. With this definition, `--format` accepts the name of the format, and
 `Rendered.texts` can contain a page in this format. If the format is `built`, each build writes a file in this format

@@ -196,7 +196,7 @@ def _are_letters(layout: Layout) -> bool:
 
 
 def _has_function(layout: Layout) -> bool:
-    """Return whether a function in the layout makes a stroke after it ambiguous, as in cos x/2."""
+    """Return whether a factor is a function, so that a stroke after it could be ambiguous, as in cos x/2."""
     return any(isinstance(factor, Applied) for factor in _factors(layout))
 
 

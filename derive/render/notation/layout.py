@@ -1,6 +1,6 @@
 """The layout of formulas, independent of any format: fractions, superscripts, brackets.
 
-`notation.py` decides the layout once; `latex.py` and `text.py` only write it.
+`notation.py` decides the layout, and `latex.py` and `text.py` write it.
 """
 
 from __future__ import annotations
@@ -41,7 +41,8 @@ class Name:
 
     @property
     def below(self) -> tuple[str, tuple[str, ...]]:
-        """Return the separator and the parts of the subscript; a comma separates them if a part is a word."""
+        """Return the separator and the parts of the subscript; a comma separates them if a part has more than two
+        characters."""
         parts = tuple(self.subscript.split("_"))
         return "," if any(len(part) > 2 for part in parts) else "", parts
 

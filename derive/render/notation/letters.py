@@ -28,8 +28,8 @@ def letter_clashes(
 ) -> list[Complaint]:
     """Return an error for each symbol of the problem whose printed form also means something else.
 
-    `coordinates` are the coordinates that the script names. A variable of integration with the symbol of a coordinate
-    is also an error.
+    `coordinates` are the coordinates that the script names. In a step without coordinates, a variable of integration
+    with the symbol of a coordinate is also an error.
     """
     used, defined = letters_in_use(problem), {each.name: each.symbol for each in problem.defined}
     looks = {as_printed(letter): letter for letter in used}

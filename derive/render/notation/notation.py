@@ -1,8 +1,8 @@
 """From expressions to textbook layout: 13/12 M a^2, not 13 M a^2/12; dots for rates; masses before lengths.
 
 The engine, which checks the lines, decides which terms are collected, which are one fraction, and what is multiplied
-out (`derive.algebra.tidy`, `derive.algebra.collect`). This module, with `products` and `binding`, decides the printed
-form of a line for all formats, such as the order of terms and factors. `latex` and `text` write the layout.
+out (`derive.algebra.tidy`, `derive.algebra.collect`). This module, with `products`, `order` and `binding`, decides the
+printed form of a line for all formats, such as the order of terms and factors. `latex` and `text` write the layout.
 
 `Notation` contains the only data that depend on a problem: the dimensions, which determine the order of symbols.
 """
@@ -95,8 +95,7 @@ PRINTED_NAMES = {"acos": "arccos", "asin": "arcsin", "atan": "arctan", "log": "l
 class Notation:
     """The layout of any expression of the engine.
 
-    dimensions   dimensions of symbols, so that masses come first and rates last; symbols without a dimension are
-                 between
+    dimensions   dimensions of symbols, which determine the order of factors, such as masses before lengths
     flat         whether vectors are printed as lists of components instead of columns, for a short page
     language     the words and signs of formulas in the language of the page (`labels.language` of its phrases)
     """
@@ -203,8 +202,9 @@ class Notation:
         return row(number, *(within(each, Binding.OPEN) for each in behind)) if letters else number
 
     def _is_letter_before_functions(self, letters: list[Expr]) -> bool:
-        """Return whether the factors are one letter without dots, with or without functions. Divided by 2, these
-        factors are written a/2 or a/2 sin x, and other factors 1/2 M a^2 or 1/2 x_dot."""
+        """Return whether the factors are one letter without dots, or such a letter and functions if it is a length or
+        has no known dimension. Divided by 2, these factors are written a/2 or a/2 sin x, and other factors 1/2 M a^2 or
+        1/2 x_dot."""
         first, *others = (self.layout(letter) for letter in letters)
         is_function = all(isinstance(other, Applied) for other in others)
         dimension = self.known_dimensions.get(letters[0])

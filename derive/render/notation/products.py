@@ -371,6 +371,6 @@ def _is_letter(layout: Layout) -> bool:
 
 
 def _begins_with_vector(layout: Layout) -> bool:
-    """Return whether the layout begins with a vector, because a dot before a vector would mean a scalar product."""
+    """Return whether the layout begins with a vector or a tensor; a dot before a vector would mean a scalar product."""
     first = first_of(layout)
     return isinstance(first, Array) or (isinstance(first, Name) and first.style != "scalar")

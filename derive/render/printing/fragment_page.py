@@ -20,7 +20,7 @@ from derive.render.printing.templates import filled_template
 from derive.render.rendered import Tex
 
 WIDTH, ARTICLE = 46.0, 12.1  # characters, and centimetres, in a line of the class `article`
-LEAST = 16.0  # characters in the shortest line
+LEAST = 16.0  # least number of characters for which a line has room
 # Packages, in the order of loading, with the commands that need them.
 PACKAGES = {
     r"\usepackage[T1]{fontenc}": (r"\textquotedbl", r"\guill", r"\k{", r"\DJ", r"\dj"),

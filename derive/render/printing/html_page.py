@@ -205,7 +205,7 @@ class HtmlPage:
         return self.sections() if self.standalone and len(self.document.parts_shown) >= LISTED else ()
 
     def listed(self, part: PartPage) -> Html:
-        """Return the question of a part for use as the text of a link, without links in its formulas."""
+        """Return the question of a part for use as the text of a link, without the links in the question."""
         return Html(re.sub(r"</?(?:a|span)\b[^>]*>", "", self.inline(part.ask)))
 
     # --- equations ---------------------------------------------------------------------------------------------------
@@ -260,7 +260,7 @@ class HtmlPage:
         return [drawing for drawing in self.document.illustrations if drawing.at == STATEMENT]
 
     def drawing(self, drawing: Illustration) -> Html:
-        """Return the shapes, or a description in words if the drawing is missing."""
+        """Return the SVG of a drawing, or a description in words if the drawing is missing."""
         shapes = self.drawings.get(f"{drawing.stem}.svg", b"").decode()
         return Html(shapes or escape(self.plain(drawing.alt)))
 

@@ -174,8 +174,8 @@ class LatexPage:
         return any(first[-1] is block and self.has_answer(second) for first, second in pairs)
 
     def is_continuation(self, block: Paragraph) -> bool:
-        """Return whether words continue the sentence of the display before them. The answer is false if there are notes
-        in the margin, because a note needs a line of text."""
+        """Return whether words continue the sentence of the display before them. With notes in the margin, return
+        false, because a note needs a line of text."""
         return continues_sentence(block.nodes) and not self.has_margin()
 
     def kind(self, block: Any) -> str:
@@ -240,8 +240,8 @@ class LatexPage:
         return Tex(f"\n{between}\n".join(steps))
 
     def _list(self, steps: Sequence[Sequence[Printed]], stop: str) -> str:
-        """Return answers in one frame, without punctuation between them. The steps of a list have a row, a reason and a
-        number each."""
+        """Return answers in one frame, without punctuation between them. Each step has one row, with its number and its
+        reason, if it has one."""
         rows = [
             rf"\listrow{{{latex(line.left) if line.left else ''}}}{{{_sides(line)}}}{{{self._reason(line)}}}"
             rf"{{{self._number_of(line)}}}"
@@ -352,7 +352,7 @@ def _is_low(lines: Sequence[Printed]) -> bool:
 
 
 def _sides(line: Printed) -> str:
-    """Return relations and right sides. The result at the end is framed."""
+    """Return relations and right sides. The last ones are framed if they are an answer."""
     shown = [(TEX_OPERATORS[relation].strip(), latex(side)) for relation, side in line.sides]
     at = len(shown) - (0 if line.frames_all else line.framed)
     plain = [f"{sign} {side}" for sign, side in shown[:at]]
