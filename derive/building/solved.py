@@ -1,11 +1,10 @@
 """A derivation as stored between builds. A page with new wording uses the stored derivation.
 
 A stored derivation depends on derive's own modules, SymPy and mpmath, on the script and its modules, and on the
-reference. It also depends on these entries of the problem:
+reference. It also depends on the problem:
 
-    the given values, the description, the symbols and their numbers, and the number of significant figures
+    all entries except those named in `ELSEWHERE`, such as the given values and the symbols
     the answers, forms and cases that parts ask for, and the chosen observations
-    the limiting cases, with their `why:`
     the quantities, ranges, levels, surfaces, curves and labels of plots, and the marks that the problem adds to
     drawings
 
@@ -15,7 +14,7 @@ It does not depend on other prose or on templates.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Any
 
 from derive.building.cache import digest, engine_digest
@@ -29,6 +28,14 @@ from derive.figures.encoding import drawings_from_data, drawings_to_data
 from derive.figures.marks import Recorded
 from derive.steps.derivation import Derivation, from_json, to_json
 from derive.steps.step import Step
+
+
+# The entries of a problem that matter only in print, and those of which `steps_key` includes the parts that matter. Any
+# other entry is included as a whole.
+ELSEWHERE = frozenset(
+    "path root title statement points wording show strategy note places variations is_variant figure warnings "
+    "parts drawings observations script script_path".split()
+)
 
 
 @dataclass(frozen=True)
@@ -75,16 +82,7 @@ def steps_key(problem: Problem) -> str:
     texts = [file.read_bytes() if file.is_file() else f"is there: {file.exists()}" for file in files]
     forms = [sorted((str(key), form) for key, form in part.forms.items()) for part in problem.parts]
     asked = [(part.answers, form, problem.cases_of(part)) for part, form in zip(problem.parts, forms, strict=True)]
-    facts = (
-        problem.id,
-        problem.givens,
-        problem.described,
-        problem.symbols,
-        problem.measured,
-        problem.figures,
-        problem.units,
-        asked,
-    )
+    facts = [getattr(problem, each.name) for each in fields(problem) if each.name not in ELSEWHERE]
     observed = (problem.observations, [part.observations for part in problem.parts])
     plots = [
         (d.key, d.plot, d.curves, d.labels, d.surfaces, d.against, d.range, d.then, d.levels, d.over, d.per, d.energies)
@@ -93,5 +91,5 @@ def steps_key(problem: Problem) -> str:
     ]
     marked = [each for each in problem.drawings if each.marks or each.like or each.without]
     marks = [(d.key, d.like, d.without, [mark.written for mark in d.marks]) for d in marked]
-    read = (problem.reference, repr(problem.limits), repr(observed), repr(plots), repr(marks))
+    read = (repr(asked), repr(observed), repr(plots), repr(marks))
     return digest("steps", engine_digest("sympy", "mpmath"), *texts, *read, repr(facts))

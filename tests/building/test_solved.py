@@ -73,6 +73,8 @@ def test_new_words_need_no_new_derivation(course: Path, kept: Cache, monkeypatch
         ("block.yaml", "unit: degree", "unit: rad"),
         ("block.yaml", "answer: [cosine, angle_between]", "answer: [angle_between, cosine]"),
         ("block.yaml", "omega: angular speed", "omega: angular speed, b: length"),
+        ("block.yaml", "parts:\n", "define: none\nparts:\n"),
+        ("block.yaml", "parts:\n", "define: {v_0: a*omega}\nparts:\n"),
         ("block.py", "return I,", "return  I,"),
     ],
 )
