@@ -29,12 +29,30 @@ from derive.figures.marks import Recorded
 from derive.steps.derivation import Derivation, from_json, to_json
 from derive.steps.step import Step
 
-
 # The entries of a problem that matter only in print, and those of which `steps_key` includes the parts that matter. Any
 # other entry is included as a whole.
 ELSEWHERE = frozenset(
-    "path root title statement points wording show strategy note places variations is_variant figure warnings "
-    "parts drawings observations script script_path".split()
+    [
+        "path",
+        "root",
+        "title",
+        "statement",
+        "points",
+        "wording",
+        "show",
+        "strategy",
+        "note",
+        "places",
+        "variations",
+        "is_variant",
+        "figure",
+        "warnings",
+        "parts",
+        "drawings",
+        "observations",
+        "script",
+        "script_path",
+    ]
 )
 
 
