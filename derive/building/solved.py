@@ -3,7 +3,7 @@
 A stored derivation depends on derive's own modules, SymPy and mpmath, on the script and its modules, and on the
 reference. It also depends on the problem:
 
-    all entries except those named in `ELSEWHERE`, such as the given values and the symbols
+    all entries except those named below, such as the given values and the symbols
     the answers, forms and cases that parts ask for, and the chosen observations
     the quantities, ranges, levels, surfaces, curves and labels of plots, and the marks that the problem adds to
     drawings
@@ -29,31 +29,11 @@ from derive.figures.marks import Recorded
 from derive.steps.derivation import Derivation, from_json, to_json
 from derive.steps.step import Step
 
-# The entries of a problem that matter only in print, and those of which `steps_key` includes the parts that matter. Any
-# other entry is included as a whole.
-ELSEWHERE = frozenset(
-    [
-        "path",
-        "root",
-        "title",
-        "statement",
-        "points",
-        "wording",
-        "show",
-        "strategy",
-        "note",
-        "places",
-        "variations",
-        "is_variant",
-        "figure",
-        "warnings",
-        "parts",
-        "drawings",
-        "observations",
-        "script",
-        "script_path",
-    ]
-)
+# Entries of a problem that do not change its steps, or of which `steps_key` includes the relevant parts. Any other entry
+# is included as a whole.
+OF_PAGES = {"title", "statement", "points", "wording", "show", "strategy", "note", "figure", "places", "warnings"}
+IN_PARTS = {"parts", "drawings", "observations", "script", "script_path"}
+OF_FILES = {"path", "root", "variations", "is_variant"}
 
 
 @dataclass(frozen=True)
@@ -100,7 +80,7 @@ def steps_key(problem: Problem) -> str:
     texts = [file.read_bytes() if file.is_file() else f"is there: {file.exists()}" for file in files]
     forms = [sorted((str(key), form) for key, form in part.forms.items()) for part in problem.parts]
     asked = [(part.answers, form, problem.cases_of(part)) for part, form in zip(problem.parts, forms, strict=True)]
-    facts = [getattr(problem, each.name) for each in fields(problem) if each.name not in ELSEWHERE]
+    facts = [getattr(problem, each.name) for each in fields(problem) if each.name not in OF_PAGES | IN_PARTS | OF_FILES]
     observed = (problem.observations, [part.observations for part in problem.parts])
     plots = [
         (d.key, d.plot, d.curves, d.labels, d.surfaces, d.against, d.range, d.then, d.levels, d.over, d.per, d.energies)
