@@ -29,8 +29,8 @@ from derive.figures.marks import Recorded
 from derive.steps.derivation import Derivation, from_json, to_json
 from derive.steps.step import Step
 
-# Entries of a problem that do not change its steps, or of which `steps_key` includes the relevant parts. Any other entry
-# is included as a whole.
+# Entries of a problem that do not change its steps, or of which `steps_key` includes the relevant parts. Any other
+# entry is included as a whole.
 OF_PAGES = {"title", "statement", "points", "wording", "show", "strategy", "note", "figure", "places", "warnings"}
 IN_PARTS = {"parts", "drawings", "observations", "script", "script_path"}
 OF_FILES = {"path", "root", "variations", "is_variant"}
