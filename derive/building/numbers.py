@@ -1,4 +1,4 @@
-"""Gaps in the numbers of a problem: answers without a number, and numbers that the author's text does not mention."""
+"""Answers that should have a number and have none."""
 
 from __future__ import annotations
 
@@ -65,8 +65,8 @@ def faults_of_numbers(
 ) -> list[Complaint]:
     """Return errors and warnings about the numbers of the answers.
 
-    It is an error if a form asks for a number that does not exist. There is a warning if an answer could have a number,
-    or if the title, the statement and the questions do not mention a number that an answer needs.
+    It is an error if a form asks for a number that does not exist. There is a warning if some letters of an answer have
+    numbers, but the answer has none.
 
     values     the steps that evaluate answers numerically, by key
     drawings   the drawings of the problem
@@ -81,7 +81,6 @@ def faults_of_numbers(
     return [
         *(Complaint("number-missing", f"`{key}` has no number: {why}", place) for (key, why), place in said.items()),
         *_not_sufficient(problem, [a for a in answers if (a.key, a.why) not in said], _plotted(drawings)),
-        *_untold(problem, {letter for answer in answers if answer.has_number for letter in answer.letters}),
     ]
 
 
@@ -126,21 +125,6 @@ def _not_sufficient(problem: Problem, answers: Sequence[_Answer], plotted: set[S
         message = f"{_listed(names)} {'has' if len(names) == 1 else 'have'} no number: {why}"
         help_line = "give numbers to all letters that a result depends on, or to none" if of[0].missing else None
         yield Complaint("number-missing", message, place, help=help_line, severity="warning")
-
-
-def _untold(problem: Problem, needed: set[Symbol]) -> Iterator[Complaint]:
-    """Warn of numbers that the answers need but the title, the statement and the questions do not mention."""
-    texts = [problem.title, problem.statement, *(part.ask for part in problem.parts)]
-    mentioned = {mention.name for prose in texts for mention in prose.mentions if not mention.of}
-    told = {letter for given in problem.givens if given.name in mentioned for letter in given.letters}
-    for measured in problem.measured:
-        if measured.symbol in needed - told:
-            name = next((given.name for given in problem.givens if measured.symbol in given.letters), measured.symbol)
-            message = (
-                f"`{measured.symbol}` has a number, but the statement and the questions do not mention `<<{name}>>`"
-            )
-            help_line = f"mention `<<{name}>>` in the statement"
-            yield Complaint("untold-number", message, measured.place, help=help_line, severity="warning")
 
 
 def _is_no_root(power: Pow, at: Mapping[Symbol, Any]) -> bool:
