@@ -492,7 +492,7 @@ def _system_at(tokens: list[Token], at: int) -> tuple[list[Token], int] | None:
 
 
 def _bracket_at(tokens: list[Token], at: int) -> tuple[list[Token], int]:
-    """Return the tokens inside the bracket or the braces at a position, and the position after it."""
+    """Return the tokens inside the bracket or the braces at a position, and the position behind the closing one."""
     if not tokens[at].is_mark("(", "["):
         return argument_at(tokens, at)
     for end, (token, depth) in enumerate(depths(tokens[at:])):

@@ -10,7 +10,7 @@ from derive.documents.source import Span
 from derive.documents.tokens import DEEPEST_CALLS, MOST_TOKENS, Kind, Token, TooLarge, tokens_of
 
 MOST_MACROS = 2000
-MOST_UNCLOSED = 100  # the search for definitions ends if the braces of more definitions are not closed
+MOST_UNCLOSED = 100  # after more definitions with unclosed braces than this, the search for definitions ends
 
 
 @dataclass(frozen=True)

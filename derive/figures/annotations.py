@@ -449,7 +449,7 @@ class AngleMark(Mark):
     No arc is drawn if a direction is zero or if the directions are almost parallel or opposite.
 
     radius   a length
-    part     the radius relative to the size of the bodies, if there is no length
+    part     the radius relative to the size of the bodies; used if `radius` is None
     """
 
     vertex: Position

@@ -1,5 +1,4 @@
-"""The names that prose may mention on a page: inputs, axes, coordinates, prescribed functions, and steps by their
-keys."""
+"""The names that prose may mention on a page."""
 
 from __future__ import annotations
 

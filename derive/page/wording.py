@@ -250,7 +250,7 @@ class Phrases:
         return {name for table in tables for phrase in table.get(rule, {}).values() for name in names_compared(phrase)}
 
     def term(self, word: str) -> tuple[Inline, ...]:
-        """Return the text for a code word of a step or input, with its forms: `diagonal` is "a long diagonal". A word
+        """Return the text of `terms:` for a word of a step or an input: `diagonal` is "a long diagonal". A word
         without a text is a name that the author chose."""
         told = self.terms.get(word)
         if isinstance(told, str):

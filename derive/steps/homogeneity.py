@@ -41,8 +41,11 @@ Table = dict[Any, Dimension | None]
 
 
 def dimension_of(expr: Any, table: Mapping[Any, Dimension | None]) -> Dimension | None:
-    """Return the dimension of an expression. Raise `Inhomogeneous`, or `KeyError` for a name without a known dimension,
-    or `TypeError` for an expression without a rule."""
+    """Return the dimension of an expression; None fits every dimension.
+
+    Errors: `Inhomogeneous` if the parts do not fit together; `KeyError` for a name that is not in the table;
+    `TypeError` for an expression without a rule.
+    """
 
     def of(part: Any, variables: Mapping[Any, Dimension | None] | None = None) -> Dimension | None:
         return dimension_of(part, {**table, **variables} if variables else table)

@@ -138,7 +138,7 @@ def _without(written: GivenBody) -> tuple[tuple[Word, set[str]], ...]:
 
 def _bodies(written: GivenBody, known: InLetters) -> list[Asked]:
     if (written.body is None) == (not written.bodies):
-        message = "`given` needs a `body`, or `bodies`" if not written.bodies else "`given` has `body` and `bodies`"
+        message = "`given` needs either `body` or `bodies`"
         rejected("missing-key", message, written.places[""], "write `body: {shape: disc, radius: R, mass: M}`")
     if written.body is not None:
         return [_asked(Bodies(known).body(written.body), written, written, known)]

@@ -169,7 +169,10 @@ class Trial:
         return self._moments[given, which]
 
     def drawn_state(self, which: int, still: bool = False, wide: float = 1.0) -> State:
-        """A random state; the rates and the coordinates without a range are of order `wide`."""
+        """A random state. `wide` sets the order of the rates, and of the coordinates that may have any value.
+
+        With `still`, the rates are zero.
+        """
         q, v = [], []
         for symbol, kind in self.blueprint.of.coordinates:
             place = drawn(symbol, self.number, 7 + which)

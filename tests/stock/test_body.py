@@ -148,7 +148,7 @@ def test_numbers_go_behind_letters(tmp_path: Path) -> None:
             ("answer: inertia_tensor", "answer: perpendicular_axes"),
             "10: the perpendicular-axis theorem needs a flat body, but a cone is not flat",
         ),
-        ((f"  body: {CONE_IS}\n", ""), "5: `given` needs a `body`, or `bodies`"),
+        ((f"  body: {CONE_IS}\n", ""), "5: `given` needs either `body` or `bodies`"),
         (("about: apex", "direction: [0, 0, 0]"), "6: `direction` has no direction: every component is zero"),
     ],
 )

@@ -45,7 +45,7 @@ class ErratumKeys(Record):
 class EntryKeys(Record):
     """The keys of one entry of `entries:`."""
 
-    part: Word | None = key("the part of the document", SCALAR_TEXT)
+    part: Word | None = key("the part of the document that has the value, such as `1`", SCALAR_TEXT)
     line: int | None = key("the line of the document", LINE)
     lines: Lines | None = key("the lines of the document from which the formula is read, or its section", LINES)
     side: tuple[int, ...] = key(

@@ -58,8 +58,8 @@ def normal_modes(linear: Sequence[Quantity], symbol: str | None = None, key: str
     key      the beginning of the keys; a second set of modes on a page needs a `key` and its own `symbol`
 
     Keys: characteristic_equation; frequency_1, frequency_2, ...; mode_1, mode_2, ... for the shapes. Without forces
-    linear in the rates, the squares of the frequencies are in ascending order, and roots without a formula come last.
-    If the order depends on the symbols, it is the order for one set of numbers.
+    linear in the rates, the frequencies of coordinates that are coupled to each other are in ascending order, and roots
+    without a formula come last. If the order depends on the symbols, it is the order for one set of numbers.
     A coordinate that is not coupled to any other has its own frequency, without a determinant and without a shape. The
     symbol of this frequency is by default omega_x for the coordinate x, and omega_2 for x_2. If no coordinates are
     coupled and all frequencies are equal, the only step is `frequency_1`, by default with the symbol omega_0. If only
