@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any
@@ -65,6 +65,7 @@ class ChainWriter:
 
     names    names that prose may mention on this page
     numbers  the numbers of the equations that are already on the page
+    drawn    the names of the curves in the plots of the page
     """
 
     def __init__(
@@ -74,12 +75,13 @@ class ChainWriter:
         words: Phrases,
         names: Mapping[str, Any],
         numbers: Mapping[str, Number],
+        drawn: Iterable[Any] = (),
     ):
         self.values, self.words, self.names, self.numbers = values, words, names, numbers
         self.steps = {step.key: step for step in derivation.steps}
         self.symbols = {step.key: step.symbol for step in derivation.steps}
         self._short = shortened(derivation.steps)
-        self._used = _letters_used(derivation.steps, values)
+        self._used = _letters_used(derivation.steps, values, drawn)
 
     def of(self, step: Step, mode: str = "") -> tuple[ChainLine, ...]:
         """Return the lines of a step; decimals follow an exact answer. If `mode` is `result` or `hidden`, lines before
@@ -209,10 +211,10 @@ def conditions_of(step: Step) -> tuple[ChainLine, ...]:
     return tuple(ChainLine(each.left, each.word, each.right, beside=True) for each in found)
 
 
-def _letters_used(steps: Sequence[Step], values: Mapping[str, Step]) -> set[Any]:
+def _letters_used(steps: Sequence[Step], values: Mapping[str, Step], drawn: Iterable[Any]) -> set[Any]:
     """Return the symbols of limits and series that the page must introduce."""
     own = {step.symbol for step in steps if step.breaks_off and step.symbol is not None}
-    found = {step.symbol for step in values.values()} & own
+    found = {*drawn, *(step.symbol for step in values.values())} & own
     for step in steps if own else ():
         shown = [form.expr for form in step.chain]
         shown += [step.symbol] if step.symbol not in own else [name_before(step)]

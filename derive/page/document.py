@@ -25,7 +25,7 @@ from derive.course.prose import FIGURE, TexFormula, latex_in
 from derive.course.reference.comparison import Told
 from derive.course.written import ANY_OUTCOME
 from derive.errors import Complaint, Place, did_you_mean
-from derive.figures.marks import Recorded
+from derive.figures.marks import Plot, Recorded
 from derive.page.assumptions import between_bounds, says_the_same, with_units
 from derive.page.chain_lines import ChainWriter, Equations, conditions_of, without_inserted
 from derive.page.checks import checks_of, second_ways_of
@@ -152,7 +152,8 @@ class _Writer:
         self.asked = {step.key for step in answered}
         self.selection = Selection(derivation, level, self.asked, problem.show, problem.wording, needed, values)
         self.clauses = Clauses(words)
-        self.lines = ChainWriter(derivation, values, words, self.page_names, self.numbers)
+        drawn = [label for drawing in drawings if isinstance(drawing, Plot) for label in drawing.labels]
+        self.lines = ChainWriter(derivation, values, words, self.page_names, self.numbers, drawn)
 
     def _dimensions(self) -> dict[Any, Dimension | None]:
         table, unlike = dimension_table(self.problem.dimensions, [*self.derivation.steps, *self.values.values()])
