@@ -441,6 +441,11 @@ def _labelled_beside(arrow: list[Piece]) -> list[Piece]:
     ]
 
 
+def letter_of_angle(label: Any, vertex: Spot, arc: tuple[Spot, ...]) -> Tag:
+    middle = arc[len(arc) // 2]
+    return Tag(label, middle, direction(vertex, middle), 2.5, round=(vertex, arc))
+
+
 @dataclass(frozen=True)
 class AngleMark(Mark):
     """The arc between two directions at a vertex; by default the radius is chosen so that the arc is readable.
@@ -473,7 +478,7 @@ class AngleMark(Mark):
         beside = unit(plus(b, a, -dot(a, b)))
         turned = [size * i / 48 for i in range(49)]
         spots = paper.spots(*(plus(plus(vertex, a, radius * cos(t)), beside, radius * sin(t)) for t in turned))
-        return [Stroke(spots, "angle"), Tag(self.label, spots[24], direction(paper.spot(vertex), spots[24]), 2.5)]
+        return [Stroke(spots, "angle"), letter_of_angle(self.label, paper.spot(vertex), spots)]
 
     def in_words(self) -> InWords | None:
         if self.label is None or any(_vanishes(v) for v in self.directions):

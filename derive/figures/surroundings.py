@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
-from math import cos, dist, hypot, pi, sin
+from math import cos, hypot, pi, sin
 from typing import Any, ClassVar
 
-from derive.figures.annotations import ASIDE, measured
+from derive.figures.annotations import ASIDE, letter_of_angle, measured
 from derive.figures.marks import BESIDE, LAST, InWords, Mark, Position, Surface
 from derive.figures.parts import BOB
 from derive.figures.pieces import Bullet, InNumbers, Paper, Patch, Piece, Stroke, Tag
@@ -24,8 +23,6 @@ SLIDER, RAIL = (16.0, 9.0), 22.0  # width and height of a slider, and half the l
 # Half the length of the double arrow at a moving support, and distance of this arrow from the rail.
 MOVES, BESIDE_RAIL = 14.0, 12.0
 ARC = (11.0, 30.0)  # least and greatest radius of an arc, unless its angle is small
-INSIDE = 0.62  # the distance of a letter inside an arc from the vertex, divided by the radius
-LETTER = 5.5  # in points: half the room for the letter of an angle
 FREE = 16.0  # distance between all other marks and the arrow of gravity or of a field
 ARROW = 24.0  # length of the arrow of gravity or of a field
 ROOM = 26.0  # distance from the centre of a body on a floor to the end of the floor
@@ -348,23 +345,11 @@ class AngleBetween(Mark):
         return [
             *pieces,
             Stroke(spots, "angle", head=grows > 0, tail=grows < 0),
-            _letter_of_angle(self.label, paper.spot(vertex), spots),
+            letter_of_angle(self.label, paper.spot(vertex), spots),
         ]
 
     def in_words(self) -> InWords | None:
         return ("angle_of_letters", {"label": self.label}) if self.label is not None else None
-
-
-def _letter_of_angle(label: Any, vertex: Spot, arc: Sequence[Spot]) -> Tag:
-    """Return the letter of an angle: between its lines inside the arc if there is room, else outside the arc."""
-    (x, y), middle = vertex, arc[len(arc) // 2]
-    radius, (a, b) = dist(vertex, middle), direction(vertex, middle)
-    half = dist(arc[0], arc[-1]) / 2
-    if half * INSIDE < LETTER:
-        return Tag(label, middle, (a, b), 2.0)
-    spot = x + INSIDE * radius * a, y + INSIDE * radius * b
-    beyond = (1 - INSIDE) * radius + LETTER + 2.0
-    return Tag(label, spot, (beyond * a, beyond * b), on=True)
 
 
 @dataclass(frozen=True)
