@@ -12,7 +12,7 @@ from sympy import MatrixBase
 from derive.algebra.expressions import Dot, Norm, explicit
 from derive.algebra.tidy import factored_matrix, tidied
 from derive.figures.marks import InWords, Mark, Position
-from derive.figures.pieces import Bullet, InNumbers, Paper, Piece, Stroke, Tag
+from derive.figures.pieces import Bullet, InNumbers, Paper, Patch, Piece, Stroke, Tag
 from derive.figures.space import (
     NOUGHT,
     Spot,
@@ -39,11 +39,13 @@ APPLIED = 26.0  # length of a given force in the drawing of a system, in points
 ASIDE = 12.0  # distance between a body and its dimension line, in points
 SHORT = 3  # the components of a point are described only if they contain at most this many operations
 RING = 0.16  # radius of a rotation arrow round an axis, relative to the size of the body
+RINGED = 2.8  # radius of the blank ring around a point on a rod, in points
 HOLLOW = 2.3  # radius of the circle for a point on a body, in points
 EYE = 3.4  # radius of the circle for an axis along the line of sight, in points
 POSITIVE = 26.0, 11.0  # in points: distance from a particle to its arrow of a positive direction, and half its length
 AROUND_BODY = 115, 169  # in degrees: the part of a circle that the arrow of a positive rotation covers
 ROUND = 10.0  # least radius of a rotation arrow, in points
+BROKEN = 30.0  # least height of a broken support, in points
 STAND, CLEARANCE = 16.0, 8.0  # least height of a support, and least height of a body above the ground, in points
 
 
@@ -354,15 +356,18 @@ class PositiveRotation(_Single):
 
     radius             the radius of the body
     counterclockwise   whether this sense is counterclockwise
+    to_the_right       whether the arrow is on the right side of the body, because a force is drawn on the left side
     """
 
     radius: Any
     counterclockwise: bool
+    to_the_right: bool = False
 
     def pieces(self, paper: Paper) -> list[Piece]:
         x, y = paper.spot(paper.numbers.vector(self.at))
         far = paper.numbers.of(self.radius) * paper.scale + CLEARANCE
         turns = [radians(degree) for degree in range(*AROUND_BODY, 3)]
+        turns = [pi - turn for turn in turns[::-1]] if self.to_the_right else turns
         spots = tuple((x + far * cos(turn), y + far * sin(turn)) for turn in turns)
         ends = spots if self.counterclockwise else spots[::-1]
         return [Stroke(ends, "axis", head=True), Tag(self.label, ends[-1], direction((x, y), ends[-1]))]
@@ -557,6 +562,15 @@ class PointMark(_Single):
 
 
 @dataclass(frozen=True)
+class RingedPoint(PointMark):
+    """A point with a blank ring, which is visible on a rod too."""
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        spot = paper.spot(paper.numbers.vector(self.at))
+        return [Bullet(spot, RINGED, "blank"), *super().pieces(paper)]
+
+
+@dataclass(frozen=True)
 class HollowPoint(PointMark):
     """A point as a small circle, which is visible on a rod too."""
 
@@ -566,7 +580,7 @@ class HollowPoint(PointMark):
 
 
 @dataclass(frozen=True)
-class CentreMark(PointMark):
+class CentreMark(RingedPoint):
     """A centre of mass that the problem asks for, so its position is drawn but not described."""
 
     def in_words(self) -> InWords | None:
@@ -575,15 +589,30 @@ class CentreMark(PointMark):
 
 @dataclass(frozen=True)
 class Support(_Single):
-    """The support of a pivot: a triangle on hatched ground. The ground is lower on the paper than all bodies."""
+    """The support of a pivot: a triangle on hatched ground. The ground is lower on the paper than all bodies.
+
+    If a body could strike the ground when it turns about the pivot, the triangle is drawn broken: it is higher than
+    drawn.
+    """
 
     def pieces(self, paper: Paper) -> list[Piece]:
-        x, y = spot = paper.spot(paper.numbers.vector(self.at))
+        pivot = paper.numbers.vector(self.at)
+        x, y = spot = paper.spot(pivot)
+        far = max((size_of(plus(place, pivot, -1.0)) for place in paper.fixed), default=0.0) * paper.scale
         foot = min(y - STAND, *(low - CLEARANCE for _, low in paper.spots(*paper.fixed)), y)
+        is_broken = y - foot < far
+        foot = min(foot, y - BROKEN) if is_broken else foot
         stand = Stroke(((x - 5, foot), (x, y), (x + 5, foot)), "edge")
         ground = Stroke(((x - 13, foot), (x + 13, foot)), "edge")
         hatches = [Stroke(((x + k, foot), (x + k - 4, foot - 4)), "thin") for k in range(-9, 14, 4)]
-        return [stand, ground, *hatches, Tag(self.label, spot, (-0.9, 0.4), 4.0)]
+        gap = self._gap(x, foot + 0.3 * (y - foot)) if is_broken else []
+        return [stand, *gap, ground, *hatches, Tag(self.label, spot, (-0.9, 0.4), 4.0)]
+
+    @staticmethod
+    def _gap(x: float, y: float) -> list[Piece]:
+        wide, high, rise = 7.0, 2.2, 1.8
+        (a, b), (c, d) = (((x - wide, y + off - rise), (x + wide, y + off + rise)) for off in (-high, high))
+        return [Patch((a, b, d, c)), Stroke((a, b), "edge"), Stroke((c, d), "edge")]
 
     def in_words(self) -> InWords:
         return "support", {"label": self.label}
