@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import pairwise
 from math import acos, cos, degrees, hypot, pi, radians, sin
 from typing import Any, ClassVar
@@ -41,6 +41,7 @@ SHORT = 3  # the components of a point are described only if they contain at mos
 RING = 0.16  # radius of a rotation arrow round an axis, relative to the size of the body
 RINGED = 2.8  # radius of the blank ring around a point on a rod, in points
 HOLLOW = 2.3  # radius of the circle for a point on a body, in points
+NEAR_TIP = 0.72  # the place of a label beside the shaft of an arrow, in units of the length of the arrow
 EYE = 3.4  # radius of the circle for an axis along the line of sight, in points
 POSITIVE = 26.0, 11.0  # in points: distance from a particle to its arrow of a positive direction, and half its length
 AROUND_BODY = 115, 169  # in degrees: the part of a circle that the arrow of a positive rotation covers
@@ -418,6 +419,30 @@ class Projection(Arrow):
 
 
 @dataclass(frozen=True)
+class Cone(Arrow):
+    """The cone that a vector describes when it turns about an axis: the circle of its tip and the line opposite to the
+    vector, dashed. The arrow of the vector is another mark with the same `size`."""
+
+    axis: Position = field(kw_only=True)
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        start, axis = paper.numbers.vector(self.start), unit(paper.numbers.vector(self.axis))
+        arm = plus(self.tip(paper.numbers, paper.reach), start, -1.0)
+        centre = plus(start, axis, dot(arm, axis))
+        across = plus(plus(start, arm), centre, -1.0)
+        circle = rim(centre, size_of(across), axis)
+        opposite = plus(centre, across, -1.0)
+        return [Stroke(paper.spots(*circle), "trace"), Stroke(paper.spots(start, opposite), "trace")]
+
+    @property
+    def directions(self) -> tuple[Position, ...]:
+        return ()
+
+    def in_words(self) -> InWords:
+        return "way", {"label": None}
+
+
+@dataclass(frozen=True)
 class Weight(Arrow):
     """A weight at its point of action.
 
@@ -439,9 +464,10 @@ def _labelled_beside(arrow: list[Piece]) -> list[Piece]:
         return arrow
     (x, y), (u, v) = line.spots
     along = direction(*line.spots)
-    half = 0.85 * (u - x), 0.85 * (v - y)  # the label may move along the arrow, almost to its tip
+    near_tip = x + NEAR_TIP * (u - x), y + NEAR_TIP * (v - y)
+    way = 0.55 * (u - x), 0.55 * (v - y)  # the label may move along the arrow
     return [
-        Tag(piece.label, midway(*line.spots), (along[1], -along[0]), way=half) if isinstance(piece, Tag) else piece
+        Tag(piece.label, near_tip, (along[1], -along[0]), way=way) if isinstance(piece, Tag) else piece
         for piece in arrow
     ]
 

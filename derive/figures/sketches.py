@@ -60,7 +60,7 @@ def sketch(
     *more: Marks,
     values: Mapping[Any, Any] | None = None,
     named: Sequence[Location] = (),
-    weights: bool = False,
+    weights: Any = False,
     start: Moment | None = None,
     impact: Moment | None = None,
 ) -> Drawing | None:
@@ -73,7 +73,8 @@ def sketch(
     more      marks that are drawn in addition to those of the description
     values    numbers or proportions for symbols in the drawing
     named     positions of further parts, such as a pivot
-    weights   whether the weight of each particle and body is drawn, instead of one arrow for gravity
+    weights   whether the weight of each particle and body is drawn, instead of one arrow for gravity; a number is the
+              length of these arrows relative to the size of the drawing
     start     the initial state of a motion
     impact    the state at an impact; if it is given, the impact is drawn
     """
@@ -103,7 +104,7 @@ class _Scene:
         self,
         system: System,
         named: Sequence[Location] = (),
-        weights: bool = False,
+        weights: Any = False,
         start: Moment | None = None,
         impact: Moment | None = None,
     ):
@@ -582,11 +583,12 @@ class _Scene:
 
     def _weights(self) -> Iterable[Mark]:
         down, gravity = downwards(self.rows), self.system.gravity
+        size = WEIGHT if self.weights is True else self.weights
         for particle in self.system.particles:
-            yield Weight(column_of(particle.at), down, WEIGHT, False, label=particle.mass * gravity)
+            yield Weight(column_of(particle.at), down, size, False, label=particle.mass * gravity)
         for placed in self.system.bodies:
             centre = column_of(with_its_shape(placed).centre)
-            yield Weight(centre, down, WEIGHT, False, label=placed.body.mass * gravity)
+            yield Weight(centre, down, size, False, label=placed.body.mass * gravity)
 
     def _moves(self, place: Location) -> bool:
         """Whether an end of a spring or of a central force moves or is the position of a particle; all other ends are

@@ -101,6 +101,26 @@ class FloorMark(Surface):
         return "ground", {}
 
 
+@dataclass(frozen=True)
+class OriginMark(Mark):
+    """The origin of a coordinate along a level line, as a short upright stroke.
+
+    off   the distance of the line below `at`, in points
+    """
+
+    at: Position
+    off: float = 0.0
+
+    @property
+    def ends(self) -> tuple[Position, ...]:
+        return (self.at,)
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        x, y = paper.spot(paper.numbers.vector(self.at))
+        y -= self.off
+        return [Stroke(((x, y - HATCH), (x, y + HATCH)), "ground"), Tag(self.label, (x, y + HATCH), (-0.6, 0.8), 2.0)]
+
+
 def _across(start: Spot, end: Spot, side: Spot) -> Spot:
     along = direction(start, end)
     normal = -along[1], along[0]
@@ -368,7 +388,10 @@ class UprightAngle(AngleBetween):
 class DistanceMark(Mark):
     """A dimension line between two points, shifted by `off` points to the side `aside`, or by default away from the
     centre of the drawing. Its ends are moved in the direction `back` by `moved` points, such as from the centre of a
-    block to the end of the spring that holds the block."""
+    block to the end of the spring that holds the block.
+
+    on_paper   the side as a direction on the paper, in place of `aside`
+    """
 
     start: Position
     end: Position
@@ -376,6 +399,7 @@ class DistanceMark(Mark):
     off: float = ASIDE
     back: Position = None
     moved: tuple[float, float] = (0.0, 0.0)
+    on_paper: Spot | None = None
 
     @property
     def ends(self) -> tuple[Position, ...]:
@@ -385,7 +409,9 @@ class DistanceMark(Mark):
         spots = paper.spots(*(paper.numbers.vector(end) for end in self.ends))
         if hypot(spots[1][0] - spots[0][0], spots[1][1] - spots[0][1]) < 1e-6:
             return []
-        if self.aside is None:
+        if self.on_paper is not None:
+            side = self.on_paper
+        elif self.aside is None:
             x, y = paper.spot(paper.middle)
             at = midway(*spots)
             side = at[0] - x, at[1] - y

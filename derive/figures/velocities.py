@@ -38,6 +38,8 @@ TURNED_ROUND = 2 * pi / 9  # angle of a dashed round body
 ROLLED = 3  # displacement of the dashed bodies, relative to the radius of a round body
 ON_IT = Rational(3, 4)  # distance of a point of impact from the fixed point, relative to the length of the body
 
+FOR_LABEL = 6.0  # further room between a rod and a dimension line, for the label of the rod, in points
+
 Values = Mapping[Symbol, Expr]
 
 
@@ -77,7 +79,8 @@ def launch_marks(system: System, moment: Moment) -> Iterable[Mark]:
         angle = next((f.args[0] for f in along.atoms(cos) if is_zero(along - size * f)), None)
         if angle is not None and angle.is_Symbol:
             way = column_of(start) * 0 + ImmutableDenseMatrix([velocity.components[0] / size, ZERO])
-            yield AngleBetween(column_of(start), way, column_of(velocity) / size, True, label=angle)
+            has_axis = not any(start.components)  # the first axis starts there
+            yield AngleBetween(column_of(start), way, column_of(velocity) / size, not has_axis, label=angle)
     for placed in system.bodies:
         yield from _guided(system, moment, placed)
     yield from _axes_of_flight(system, moment)
@@ -209,7 +212,7 @@ def _from_the_joint(system: System, places: Sequence[Location], at: Location, hi
         if len(way.components) == 2 and far != getattr(placed.body, "length", None):
             side = 1 if hinged else -1  # dashed rods of `later_marks` are on the other side
             aside = side * ImmutableDenseMatrix([-way.components[1], way.components[0]])
-            yield LengthMark(column_of(placed.at), column_of(at), aside, label=far)
+            yield LengthMark(column_of(placed.at), column_of(at), aside, beyond=FOR_LABEL, label=far)
 
 
 def _met(system: System, at: Location, hinged: bool = False) -> Iterable[tuple[Any, Symbol]]:
