@@ -425,9 +425,8 @@ class Connections:
         """Whether a coordinate is measured along a fixed level line from the origin, and nothing is drawn there."""
         if plane.of is not None or not is_zero_direction(plane.unit_normal.components[0]) or self.start:
             return False
-        centres = [
-            getattr(each.of, "centre", None) or each.of.at for each in self.contacts if each.surface == plane and each.of
-        ]
+        on_it = [each.of for each in self.contacts if each.surface == plane and each.of is not None]
+        centres = [getattr(of, "centre", None) or of.at for of in on_it]
         ends = [end for each in self.system.between for end in (each.start, each.end)]
         fixed = [*ends, *(place for line in self.lines for place in line.places), *(pin.at for pin in self.pins)]
         fixed += [other.through for other in self._planes if other != plane]

@@ -355,7 +355,7 @@ class AngleBetween(Mark):
         places = (plus(plus(vertex, along, radius * cos(t)), across, radius * sin(t)) for t in turned)
         pieces: list[Piece] = []
         if self.dashed:
-            end = plus(vertex, along, max(points + 7.0, min(0.85 * far, 62.0)) / paper.scale)
+            end = plus(vertex, along, max(points + 7.0, min(0.65 * far, 62.0)) / paper.scale)
             pieces.append(Stroke(paper.spots(vertex, end), "trace"))
         if size < 0.02:
             return pieces
