@@ -27,7 +27,7 @@ from derive.figures.parts import BLOCK, BOB, BlockMark, ConnectionMark, Particle
 from derive.figures.placed_bodies import pivot_of, placed_marks, placed_outline, with_its_shape
 from derive.figures.positions import column_of
 from derive.figures.scenes import drawing
-from derive.figures.surroundings import HATCH, DistanceMark, FieldMark, FixedEnd, GravityMark, WayMark
+from derive.figures.surroundings import HATCH, DistanceMark, FieldMark, FixedEnd, GravityMark, OriginMark, WayMark
 from derive.figures.tops import stance_values
 from derive.figures.turning import downwards, link_marks, moving_end, natural_length
 from derive.figures.velocities import Moment, impact_marks, is_of_the_moment, later_marks, launch_marks, moment_drawn
@@ -284,7 +284,7 @@ class _Scene:
             return mark.label is not None and not moving_in(self.system, mark.label)
         if isinstance(mark, WayMark):
             return mark.pen != "trace"
-        return isinstance(mark, Surface | PointMark)
+        return isinstance(mark, Surface | PointMark) and not isinstance(mark, OriginMark)
 
     # --- particles ---
 

@@ -102,7 +102,7 @@ class FloorMark(Surface):
 
 
 @dataclass(frozen=True)
-class OriginMark(Mark):
+class OriginMark(Surface):
     """The origin of a coordinate along a level line, as a short upright stroke.
 
     off   the distance of the line below `at`, in points
@@ -111,9 +111,8 @@ class OriginMark(Mark):
     at: Position
     off: float = 0.0
 
-    @property
-    def ends(self) -> tuple[Position, ...]:
-        return (self.at,)
+    def places(self, numbers: InNumbers) -> list[Vector]:
+        return [numbers.vector(self.at)]
 
     def pieces(self, paper: Paper) -> list[Piece]:
         x, y = paper.spot(paper.numbers.vector(self.at))
