@@ -250,7 +250,7 @@ def _names_of_points(
 ) -> Iterator[tuple[Shape, Extent]]:
     """Yield the value at each zero or meeting point with its box. A value without a clear place is left out."""
     left, below, right, above = frame.paper
-    inner = left + TICK, below + TICK + PAD, right, above
+    inner = left + TICK, below + TICK, right, above
     dots = [dot for trace in panel.traces for dot in dots_of(frame.spots(trace.points))]
     dots += _dots_of_thin_lines(panel, frame)
     used = list(taken)
