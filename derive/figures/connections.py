@@ -422,15 +422,20 @@ class Connections:
         return FloorMark(tuple(column_of(p) for p in (*blocks, *walls, *starts, *origin)), off, margins)
 
     def has_bare_origin(self, plane: Plane) -> bool:
-        """Whether a coordinate is measured along a fixed level line from the origin, and nothing is drawn there."""
-        if plane.of is not None or not is_zero_direction(plane.unit_normal.components[0]) or self.start:
+        """Whether a coordinate is measured along a fixed level line from the origin, and nothing is drawn there.
+
+        With a fixed end of a spring, a string or a rod, the origin is usually a position of equilibrium.
+        """
+        if plane.of is not None or isinstance(plane.moves, Location) or self.start:
+            return False
+        if not is_zero_direction(plane.unit_normal.components[0]):
             return False
         on_it = [each.of for each in self.contacts if each.surface == plane and each.of is not None]
         centres = [getattr(of, "centre", None) or of.at for of in on_it]
         ends = [end for each in self.system.between for end in (each.start, each.end)]
         fixed = [*ends, *(place for line in self.lines for place in line.places), *(pin.at for pin in self.pins)]
-        fixed += [other.through for other in self._planes if other != plane]
-        is_bare = not any(is_fixed(self.system, place) and place.components[0] == 0 for place in fixed)
+        meets = any(other != plane and other.through.components[0] == 0 for other in self._planes)
+        is_bare = not meets and not any(is_fixed(self.system, place) for place in fixed)
         return is_bare and any(centre.components[0] in self.system.coordinates for centre in centres)
 
     def _origin(self, plane: Plane, off: float) -> Iterable[Mark]:
