@@ -215,7 +215,9 @@ class _Scene:
         # The drawing of an impact omits angles and distances that are zero at the impact, and distances that change
         # just before it.
         if self.impact is not None:
-            found = [mark for mark in found if not is_of_the_moment(mark, self.impact)]
+            found = [
+                mark for mark in found if not (isinstance(mark, OriginMark) or is_of_the_moment(mark, self.impact))
+            ]
             found += impact_marks(self.system, self.impact)
             found += later_marks(self.system, self.impact, self._at_any_time)
         return list(dict.fromkeys([*found, *self._between_supports(found)]))
