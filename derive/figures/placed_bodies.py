@@ -80,7 +80,7 @@ def placed_marks(system: System, placed: Any) -> Iterable[Mark]:
     square = tidied(Add(*(c**2 for c in (centre - placed.at).components)))
     if outline or square == 0:
         named = not in_space and any(isinstance(mark, ThickBar) for mark in outline)
-        sort = RingedPoint if named else PointMark
+        sort = RingedPoint if any(isinstance(mark, ThickBar | ThinRod) for mark in outline) else PointMark
         yield sort(column_of(centre), label=placed.body.mass if named and placed.body.mass.is_Symbol else None)
     else:
         yield from _axis_to(centre, placed)

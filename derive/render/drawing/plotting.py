@@ -368,6 +368,8 @@ def _around(spot: Spot, size: tuple[float, float]) -> Iterator[Extent]:
         (x + gap, y - gap - high),
         (x - gap - wide, y + gap),
         (x - gap - wide, y - gap - high),
+        (x - gap - wide, y - high / 2),
+        (x + gap, y - high / 2),
     ):
         yield left, below, left + wide, below + high
 
