@@ -172,9 +172,9 @@ def _tried_round(
         for part in (INSIDE, 0.72 * INSIDE):
             inside = cost + 0.05 * (INSIDE - part) * radius + (0.0 if has_room else NARROW)
             yield inside, _box(_moved(vertex, away, part * radius), width, height)
-        for ring, gap in enumerate((tag.gap, tag.gap + 3.0, tag.gap + 7.0)):
-            box = _box(_moved(spot, away, gap + _reach(away, width, height)), width, height)
-            yield cost + 2.0 * ring + (1.0 if has_room else 0.0), box
+        for further in (0.0, -1.5, 3.0, 7.0):
+            box = _box(_moved(spot, away, tag.gap + further + _reach(away, width, height)), width, height)
+            yield cost + 0.6 * abs(further) + (1.0 if has_room else 0.0), box
 
 
 def _tried_along(tag: Tag, way: Spot, width: float, height: float) -> Iterable[tuple[float, Extent]]:
