@@ -49,7 +49,7 @@ SHOWN = ("full", "result", "hidden")
 SCRIPT = re.compile(r"(\.\./){0,2}([A-Za-z0-9_-]{1,64}/){0,2}[A-Za-z0-9_-]{1,64}\.py")
 CHAIN = "chain"  # in a sentence, the placeholder for the lines of its step
 MARKS_OF_BODY = ("masses", "centre_of_mass", "principal_axes", "direction", "element")
-MARKS = ("point", "line", "dashed", "length", "arrow", "angle", "turn", "circle", "curve", *MARKS_OF_BODY)
+MARKS = ("point", "line", "dashed", "length", "arrow", "angle", "turn", "circle", "cone", "curve", *MARKS_OF_BODY)
 SIDES = ("left", "right", "up", "down")
 _NUMBERS = "a mapping such as `{R: 20 cm, a: 5 cm}`"
 
@@ -207,7 +207,8 @@ class MarkKeys(Record):
 
     mark: str | None = key(
         "what is drawn: a `point`, a solid `line`, a `dashed` line, a dimension line for a `length`, the `arrow` of a "
-        "vector, the arc of an `angle`, the curved arrow of a `turn`, a dashed `circle`, or "
+        "vector, the arc of an `angle`, the curved arrow of a `turn`, a dashed `circle`, "
+        "the dashed `cone` that a drawn vector describes, or "
         "a solid `curve`; for one `body` also the `masses` of its parts, its `centre_of_mass`, its `principal_axes`, "
         "the `direction` of the axis of `moment_about`, or the `element` of its integrals",
         one_of(MARKS),
@@ -226,14 +227,16 @@ class MarkKeys(Record):
         called="from",
     )
     end: Tree | None = key(
-        "the end of a line or of a length; a place on a circle; for an angle, the direction of its second side or a "
+        "the end of a line or of a length; a place on a circle; for a cone, the answer whose arrow the drawing shows; "
+        "for an angle, the direction of its second side or a "
         "place on it",
         as_written(_PLACE, _A_PLACE),
         called="to",
     )
     along: Tree | None = key(
-        "the direction of an arrow, or of the axis of a turn or a circle: components, `x`, `y` or `z`, or the name of "
-        "an answer that is a vector; a turn in a plane is counterclockwise by default, and clockwise with `[0, 0, -1]`",
+        "the direction of an arrow, or of the axis of a turn, a circle or a cone: components, `x`, `y` or `z`, or the "
+        "name of an answer that is a vector; a turn in a plane is counterclockwise by default, and clockwise with "
+        "`[0, 0, -1]`",
         as_written(_WAY, _A_WAY),
     )
     side: str | None = key("the side on which the dimension line of a length is", one_of(SIDES))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import pairwise
 from math import acos, cos, degrees, hypot, pi, radians, sin
 from typing import Any, ClassVar
@@ -12,7 +12,7 @@ from sympy import MatrixBase
 from derive.algebra.expressions import Dot, Norm, explicit
 from derive.algebra.tidy import factored_matrix, tidied
 from derive.figures.marks import InWords, Mark, Position
-from derive.figures.pieces import Bullet, InNumbers, Paper, Piece, Stroke, Tag
+from derive.figures.pieces import Bullet, InNumbers, Paper, Patch, Piece, Stroke, Tag
 from derive.figures.space import (
     NOUGHT,
     Spot,
@@ -39,11 +39,14 @@ APPLIED = 26.0  # length of a given force in the drawing of a system, in points
 ASIDE = 12.0  # distance between a body and its dimension line, in points
 SHORT = 3  # the components of a point are described only if they contain at most this many operations
 RING = 0.16  # radius of a rotation arrow round an axis, relative to the size of the body
+RINGED = 2.8  # radius of the blank ring around a point on a rod, in points
 HOLLOW = 2.3  # radius of the circle for a point on a body, in points
+NEAR_TIP = 0.72  # the place of a label beside the shaft of an arrow, in units of the length of the arrow
 EYE = 3.4  # radius of the circle for an axis along the line of sight, in points
 POSITIVE = 26.0, 11.0  # in points: distance from a particle to its arrow of a positive direction, and half its length
 AROUND_BODY = 115, 169  # in degrees: the part of a circle that the arrow of a positive rotation covers
 ROUND = 10.0  # least radius of the arrow of a `Turn`, in points
+BROKEN = 30.0  # least height of a broken support, in points
 STAND, CLEARANCE = 16.0, 8.0  # least height of a support, and least height of a body above the ground, in points
 
 
@@ -356,15 +359,18 @@ class PositiveRotation(_Single):
 
     radius             the radius of the body
     counterclockwise   whether this sense is counterclockwise
+    to_the_right       whether the arrow is on the right side of the body, because a force is drawn on the left side
     """
 
     radius: Any
     counterclockwise: bool
+    to_the_right: bool = False
 
     def pieces(self, paper: Paper) -> list[Piece]:
         x, y = paper.spot(paper.numbers.vector(self.at))
         far = paper.numbers.of(self.radius) * paper.scale + CLEARANCE
         turns = [radians(degree) for degree in range(*AROUND_BODY, 3)]
+        turns = [pi - turn for turn in turns[::-1]] if self.to_the_right else turns
         spots = tuple((x + far * cos(turn), y + far * sin(turn)) for turn in turns)
         ends = spots if self.counterclockwise else spots[::-1]
         return [Stroke(ends, "axis", head=True), Tag(self.label, ends[-1], direction((x, y), ends[-1]))]
@@ -414,6 +420,30 @@ class Projection(Arrow):
 
 
 @dataclass(frozen=True)
+class Cone(Arrow):
+    """The cone that a vector describes when it turns about an axis: the circle of its tip and the line opposite to the
+    vector, dashed. The arrow of the vector is another mark with the same `size`."""
+
+    axis: Position = field(kw_only=True)
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        start, axis = paper.numbers.vector(self.start), unit(paper.numbers.vector(self.axis))
+        arm = plus(self.tip(paper.numbers, paper.reach), start, -1.0)
+        centre = plus(start, axis, dot(arm, axis))
+        across = plus(plus(start, arm), centre, -1.0)
+        circle = rim(centre, size_of(across), axis)
+        opposite = plus(centre, across, -1.0)
+        return [Stroke(paper.spots(*circle), "trace"), Stroke(paper.spots(start, opposite), "trace")]
+
+    @property
+    def directions(self) -> tuple[Position, ...]:
+        return ()
+
+    def in_words(self) -> InWords:
+        return "way", {"label": None}
+
+
+@dataclass(frozen=True)
 class Weight(Arrow):
     """A weight at its point of action.
 
@@ -435,11 +465,17 @@ def _labelled_beside(arrow: list[Piece]) -> list[Piece]:
         return arrow
     (x, y), (u, v) = line.spots
     along = direction(*line.spots)
-    half = 0.85 * (u - x), 0.85 * (v - y)  # the label may move along the arrow, almost to its tip
+    near_tip = x + NEAR_TIP * (u - x), y + NEAR_TIP * (v - y)
+    way = 0.55 * (u - x), 0.55 * (v - y)  # the label may move along the arrow
     return [
-        Tag(piece.label, midway(*line.spots), (along[1], -along[0]), way=half) if isinstance(piece, Tag) else piece
+        Tag(piece.label, near_tip, (along[1], -along[0]), way=way) if isinstance(piece, Tag) else piece
         for piece in arrow
     ]
+
+
+def letter_of_angle(label: Any, vertex: Spot, arc: tuple[Spot, ...]) -> Tag:
+    middle = arc[len(arc) // 2]
+    return Tag(label, middle, direction(vertex, middle), 2.5, round=(vertex, arc))
 
 
 @dataclass(frozen=True)
@@ -474,7 +510,7 @@ class AngleMark(Mark):
         beside = unit(plus(b, a, -dot(a, b)))
         turned = [size * i / 48 for i in range(49)]
         spots = paper.spots(*(plus(plus(vertex, a, radius * cos(t)), beside, radius * sin(t)) for t in turned))
-        return [Stroke(spots, "angle"), Tag(self.label, spots[24], direction(paper.spot(vertex), spots[24]), 2.5)]
+        return [Stroke(spots, "angle"), letter_of_angle(self.label, paper.spot(vertex), spots)]
 
     def in_words(self) -> InWords | None:
         if self.label is None or any(_vanishes(v) for v in self.directions):
@@ -553,6 +589,15 @@ class PointMark(_Single):
 
 
 @dataclass(frozen=True)
+class RingedPoint(PointMark):
+    """A point with a blank ring, which is visible on a rod too."""
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        spot = paper.spot(paper.numbers.vector(self.at))
+        return [Bullet(spot, RINGED, "blank"), *super().pieces(paper)]
+
+
+@dataclass(frozen=True)
 class HollowPoint(PointMark):
     """A point as a small circle, which is visible on a rod too."""
 
@@ -562,7 +607,7 @@ class HollowPoint(PointMark):
 
 
 @dataclass(frozen=True)
-class CentreMark(PointMark):
+class CentreMark(RingedPoint):
     """A centre of mass that the problem asks for, so its position is drawn but not described."""
 
     def in_words(self) -> InWords | None:
@@ -571,15 +616,30 @@ class CentreMark(PointMark):
 
 @dataclass(frozen=True)
 class Support(_Single):
-    """The support of a pivot: a triangle on hatched ground. The ground is lower on the paper than all bodies."""
+    """The support of a pivot: a triangle on hatched ground. The ground is lower on the paper than all bodies.
+
+    If a body could strike the ground when it turns about the pivot, the triangle is drawn broken: it is higher than
+    drawn.
+    """
 
     def pieces(self, paper: Paper) -> list[Piece]:
-        x, y = spot = paper.spot(paper.numbers.vector(self.at))
+        pivot = paper.numbers.vector(self.at)
+        x, y = spot = paper.spot(pivot)
+        far = max((size_of(plus(place, pivot, -1.0)) for place in paper.fixed), default=0.0) * paper.scale
         foot = min(y - STAND, *(low - CLEARANCE for _, low in paper.spots(*paper.fixed)), y)
+        is_broken = y - foot < far
+        foot = min(foot, y - BROKEN) if is_broken else foot
         stand = Stroke(((x - 5, foot), (x, y), (x + 5, foot)), "edge")
         ground = Stroke(((x - 13, foot), (x + 13, foot)), "edge")
         hatches = [Stroke(((x + k, foot), (x + k - 4, foot - 4)), "thin") for k in range(-9, 14, 4)]
-        return [stand, ground, *hatches, Tag(self.label, spot, (-0.9, 0.4), 4.0)]
+        gap = self._gap(x, foot + 0.3 * (y - foot)) if is_broken else []
+        return [stand, *gap, ground, *hatches, Tag(self.label, spot, (-0.9, 0.4), 4.0)]
+
+    @staticmethod
+    def _gap(x: float, y: float) -> list[Piece]:
+        wide, high, rise = 7.0, 2.2, 1.8
+        (a, b), (c, d) = (((x - wide, y + off - rise), (x + wide, y + off + rise)) for off in (-high, high))
+        return [Patch((a, b, d, c)), Stroke((a, b), "edge"), Stroke((c, d), "edge")]
 
     def in_words(self) -> InWords:
         return "support", {"label": self.label}

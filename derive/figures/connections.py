@@ -44,7 +44,16 @@ from derive.figures.scenes import drawn_at
 from derive.figures.space import numeric
 from derive.figures.surfaces import Circle as CircleMark
 from derive.figures.surfaces import TableMark
-from derive.figures.surroundings import ROOM, AngleBetween, CurvedGround, FixedEnd, FloorMark, GroundMark, WayMark
+from derive.figures.surroundings import (
+    ROOM,
+    AngleBetween,
+    CurvedGround,
+    FixedEnd,
+    FloorMark,
+    GroundMark,
+    OriginMark,
+    WayMark,
+)
 from derive.figures.tops import euler_angles
 from derive.figures.turning import angle_marks, downwards, line_between, moving_end
 from derive.mechanics.bodies.placed import PlacedBody
@@ -60,6 +69,7 @@ from derive.steps.signs import sign_known
 
 ZERO, ONE = Integer(0), Integer(1)
 ACROSS = column(0, 0, 1)
+ORIGIN = Symbol("O")
 # Values of coordinates that no constraint determines, relative to `Connections.size`.
 AWAY = (Rational(8, 5), Rational(6, 5), Rational(2), Rational(4, 5))
 ON_A_TABLE = (Rational(4, 5), Rational(-13, 10))  # the same coordinates for a table in space, relative to `ball_size`
@@ -377,9 +387,13 @@ class Connections:
             start = low + Rational(1, 10) * (high - low) - self.size * Rational(1, 5) * plane.unit_normal
             yield Arrow(column_of(start), column_of(velocity), Rational(1, 2), False, label=size)
         elif self.carries_only_blocks(plane):
-            yield self._floor(plane, contacts)
+            floor = self._floor(plane, contacts)
+            yield floor
+            yield from self._origin(plane, floor.off)
+            return
         else:
             yield GroundMark(column_of(low), column_of(high), column_of(-plane.unit_normal))
+        yield from self._origin(plane, 0.0)
 
     def carries_only_blocks(self, plane: Surface) -> bool:
         """Whether the surface is a level plane under particles that are drawn as blocks. The centre of each block is at
@@ -392,19 +406,41 @@ class Connections:
             and all(isinstance(of, Particle) for of in on_it)
         )
 
-    def _floor(self, plane: Plane, contacts: Sequence[Contact]) -> Mark:
+    def _floor(self, plane: Plane, contacts: Sequence[Contact]) -> FloorMark:
         """Return the floor under blocks."""
         height = plane.through.components[1]
         ends = [place for each in self.system.between for place in (each.start, each.end)]
         ends += [place for line in self.lines for place in line.places]
         walls = [p for p in ends if is_fixed(self.system, p) and tidied(p.components[1] - height) == 0]
         blocks = [each.at for each in contacts]
+        origin = [Location((ZERO, height))] if self.has_bare_origin(plane) else []
         middle = sum(self.number(place.components[0]) for place in blocks) / len(blocks)
         sides = {self.number(wall.components[0]) > middle for wall in walls}
-        starts = [each.foot for each in contacts] + [Location((ZERO, height))]
+        starts = [each.foot for each in contacts]
         margins = (0.0 if False in sides else ROOM, 0.0 if True in sides else ROOM)
         off = HALF_OF_ROPE if all(self.is_rope(each.of) for each in contacts) else UNDER[BlockMark]
-        return FloorMark(tuple(column_of(p) for p in (*blocks, *walls, *starts[:-1])), off, margins)
+        return FloorMark(tuple(column_of(p) for p in (*blocks, *walls, *starts, *origin)), off, margins)
+
+    def has_bare_origin(self, plane: Plane) -> bool:
+        """Whether a coordinate is measured along a fixed level line from the origin, and nothing is drawn there.
+
+        With a fixed end of a spring, a string or a rod, the origin is usually a position of equilibrium.
+        """
+        if plane.of is not None or isinstance(plane.moves, Location) or self.start:
+            return False
+        if not is_zero_direction(plane.unit_normal.components[0]):
+            return False
+        on_it = [each.of for each in self.contacts if each.surface == plane and each.of is not None]
+        centres = [getattr(of, "centre", None) or of.at for of in on_it]
+        ends = [end for each in self.system.between for end in (each.start, each.end)]
+        fixed = [*ends, *(place for line in self.lines for place in line.places), *(pin.at for pin in self.pins)]
+        meets = any(other != plane and other.through.components[0] == 0 for other in self._planes)
+        is_bare = not meets and not any(is_fixed(self.system, place) for place in fixed)
+        return is_bare and any(centre.components[0] in self.system.coordinates for centre in centres)
+
+    def _origin(self, plane: Plane, off: float) -> Iterable[Mark]:
+        if self.has_bare_origin(plane):
+            yield OriginMark(column_of(Location((ZERO, plane.through.components[1]))), off, label=ORIGIN)
 
     def _landing(self, plane: Surface) -> Iterable[Mark]:
         if not isinstance(plane, Plane):
@@ -431,6 +467,7 @@ class Connections:
         past = self.size * PAST
         begun = [dot(along, each.at.with_values(self.start) - plane.through) for each in contacts if self.start]
         ways += [tidied(way) for way in begun if not moving_in(self.system, way)]
+        ways += [dot(along, -plane.through)] if self.has_bare_origin(plane) else []
         meets = any(other != plane and same(other.through, plane.through) for other in self._planes)
         is_slope = plane.of is None and min(abs(self.number(c)) for c in n.components) > SMALL
         first, last = (choice([*ways, ZERO] if meets or is_slope else ways, key=self.number) for choice in (min, max))
@@ -490,7 +527,12 @@ class Connections:
         yield sort(tuple(map(column_of, corners)), label=label)
         lowest = corners[-2:] if sort is PlankMark else (corners[0], corners[-1])
         if self.number(plane.unit_normal.components[1]) >= -SMALL:
-            yield FloorMark(tuple(column_of(corner) for corner in lowest))
+            floor = next((each.surface for each in self.contacts if each.of == plane.of), None)
+            origin: list[Location] = []
+            if isinstance(floor, Plane) and self.has_bare_origin(floor):
+                origin = [Location((ZERO, lowest[0].components[1]))]
+                yield OriginMark(column_of(origin[0]), label=ORIGIN)
+            yield FloorMark(tuple(column_of(corner) for corner in (*lowest, *origin)))
 
     def _floor_under(self, particle: Particle) -> Expr | None:
         """The height of the plane on which a particle stands; None if there is no such plane."""

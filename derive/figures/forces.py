@@ -10,6 +10,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
+from math import hypot
 from typing import Any
 
 from sympy import Abs, Add, Expr, ImmutableDenseMatrix, Integer, Mul, Rational, Symbol, cos, sin, sqrt
@@ -18,7 +19,7 @@ from derive.algebra.derivatives import derivative
 from derive.algebra.expressions import as_expr, explicit, rate, scalar
 from derive.algebra.ranges import fulfilling, rational_in_range
 from derive.algebra.tidy import tidied
-from derive.figures.annotations import FORCE, ForceArrow, PointMark, PositiveDirection, PositiveRotation
+from derive.figures.annotations import FORCE, ForceArrow, PointMark, PositiveDirection, PositiveRotation, RingedPoint
 from derive.figures.connections import Connections, connections_of, distance_of
 from derive.figures.links import Link, angle_of_link, is_fixed, same
 from derive.figures.marks import Drawing, Mark
@@ -27,7 +28,7 @@ from derive.figures.placed_bodies import own_angle, placed_outline, with_its_sha
 from derive.figures.positions import column_of
 from derive.figures.scenes import drawing
 from derive.figures.space import Vector, cross, dot, numeric, plus, size_of, unit
-from derive.figures.surfaces import ThinRod
+from derive.figures.surfaces import Revolved, ThinRod
 from derive.figures.surroundings import AngleBetween, SurfacePiece
 from derive.figures.tops import stance_values
 from derive.figures.turning import downwards
@@ -225,7 +226,7 @@ def draw_alone(system: System, bodies: Sequence[BodyAlone]) -> list[Drawing]:
     ]
 
 
-def _positive(system: System, alone: BodyAlone) -> Iterator[Mark]:
+def _positive(system: System, alone: BodyAlone, scene: Connections) -> Iterator[Mark]:
     """Yield the positive direction of a coordinate, or the positive sense of an angle."""
     of = alone.of
     if _is_on_a_line(alone):
@@ -237,7 +238,15 @@ def _positive(system: System, alone: BodyAlone) -> Iterator[Mark]:
     angle = next((each for each in (turned, -turned) if each.is_Symbol), None) if isinstance(turned, Expr) else None
     for mark in _outline(of) if angle is not None else ():
         if isinstance(mark, WheelMark):
-            yield PositiveRotation(mark.centre, mark.radius, bool(angle == turned), label=angle)
+            is_occupied = any(_is_upper_left(each, of, scene) for each in alone.forces)
+            yield PositiveRotation(mark.centre, mark.radius, bool(angle == turned), is_occupied, label=angle)
+
+
+def _is_upper_left(drawn: _Drawn, of: Any, scene: Connections) -> bool:
+    """Whether a force points upwards from the left side of a body, at the height of its centre or above."""
+    x, y, _ = _vector(scene, *(drawn.at - of.centre).components)
+    _, up, _ = _vector(scene, *drawn.way)
+    return x < -SLIGHT and y > -SLIGHT and up > SLIGHT
 
 
 def _is_on_a_line(alone: BodyAlone) -> bool:
@@ -275,7 +284,7 @@ def _diagram(system: System, alone: BodyAlone, shares: Sequence[Rational], scene
         arrows[0] = replace(arrows[0], inside=True)
     angles = _angles(system, of, list(zip(drawn, lengths, strict=True)))
     values = {**scene.values, **stance_values(system)}
-    marks = [*outline, *_surfaces(touched, of), *arrows, *angles, *_positive(system, alone)]
+    marks = [*outline, *_surfaces(touched, of), *arrows, *angles, *_positive(system, alone, scene)]
     mass = None if isinstance(of, Pulley) else explicit(_mass(of))
     return drawing(alone.key, marks, values=values, leads_to=alone.leads_to, forces_on=mass, body_size=size)
 
@@ -284,27 +293,36 @@ def _stands(scene: Connections, alone: BodyAlone) -> bool:
     """Whether the weight and a normal force of a round body are on one line through its centre. The normal force is
     then drawn as a push with its tip at the contact, because its torque depends on its point of action."""
     of = alone.of
-    if not scene.in_a_plane or not scene.system.weights or not isinstance(of, PlacedBody):
+    if not scene.system.weights or not isinstance(of, PlacedBody):
         return False
-    is_round = any(isinstance(mark, WheelMark) for mark in _outline(of))
-    on_the_line = [each for each in alone.forces if abs(_vector(scene, *each.way)[0]) < SLIGHT]
+    is_round = any(_is_round(mark, scene) for mark in _outline(of))
+    on_the_line = [each for each in alone.forces if not any(tidied(c) for c in each.way[:-1])]
     below = [each for each in on_the_line if _is_below(each, of, scene)]
     others = [each for each in on_the_line if each not in below and _offset(each, of, scene)[0] < SLIGHT]
     return is_round and len(below) == 1 and len(others) == 1  # the other force is the weight
 
 
+def _is_round(mark: Mark, scene: Connections) -> bool:
+    """Whether a mark is a disc in the plane of the drawing, or a ball."""
+    if not isinstance(mark, Revolved):
+        return isinstance(mark, WheelMark)
+    rings = [(scene.number(height), scene.number(radius)) for height, radius in mark.profile]
+    middle, far = (rings[0][0] + rings[-1][0]) / 2, (rings[-1][0] - rings[0][0]) / 2
+    return all(abs(hypot(height - middle, radius) - far) < SLIGHT * far for height, radius in rings)
+
+
 def _is_below(drawn: _Drawn, of: PlacedBody, scene: Connections) -> bool:
     aside, above = _offset(drawn, of, scene)
-    x, y, _ = _vector(scene, *drawn.way)
-    return drawn.pushes and aside < SLIGHT and above < 0 and abs(x) < SLIGHT and y > 0
+    *level, up = (scene.number(as_expr(c)) for c in drawn.way)
+    return drawn.pushes and aside < SLIGHT and above < 0 and hypot(*level) < SLIGHT and up > 0
 
 
 def _offset(drawn: _Drawn, of: PlacedBody, scene: Connections) -> tuple[float, float]:
     """Return the horizontal distance of the point of action from the centre of mass, and the height of the point above
     the centre.
     """
-    x, y, _ = _vector(scene, *(drawn.at - of.centre).components)
-    return abs(x), y
+    *level, up = (scene.number(c) for c in (drawn.at - of.centre).components)
+    return hypot(*level), up
 
 
 def _acting(system: System, of: Any) -> list[PointForce]:
@@ -503,10 +521,12 @@ def _multipliers(system: System, force: PointForce) -> list[Symbol]:
 
 def _outline(of: Any, is_pulley: bool = False) -> Iterator[Mark]:
     if isinstance(of, PlacedBody):
-        for mark in placed_outline(with_its_shape(of)):
+        shown = placed_outline(with_its_shape(of))
+        for mark in shown:
             plain = replace(mark, label=None)
             yield replace(plain, pointer=None) if isinstance(plain, WheelMark) else plain
-        yield PointMark(column_of(of.centre))
+        sort = RingedPoint if any(isinstance(mark, BarMark) for mark in shown) else PointMark
+        yield sort(column_of(of.centre))
     elif isinstance(of, Pulley):
         yield WheelMark(column_of(of.at), of.radius)
     elif isinstance(of, _RopePiece):

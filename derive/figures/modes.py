@@ -137,6 +137,24 @@ class RotationArrow(Mark):
         return [Stroke(spots, "asked", head=True)] if turned else []
 
 
+@dataclass(frozen=True)
+class RestMark(Mark):
+    """A short dashed line at the position of a mass at equilibrium, perpendicular to its displacement.
+
+    half   half the length of the line, in points
+    """
+
+    at: Position
+    value: Position
+    half: float
+    layer: ClassVar[int] = 7
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        x, y = paper.spot(paper.numbers.vector(self.at))
+        u, v = direction((0.0, 0.0), paper.spot(paper.numbers.vector(self.value)))
+        return [Stroke(tuple((x - s * self.half * v, y + s * self.half * u) for s in (-1, 1)), "trace")]
+
+
 def draw_modes(
     system: System, steps: Sequence[Quantity], named: Sequence[Location] = (), like: str = ""
 ) -> list[Drawing]:
@@ -315,6 +333,19 @@ class _Displaced:
             return own if self.number(own) > 0 else -own
         return sqrt(tidied(x**2 + y**2))
 
+    def _rest_marks(self) -> Iterator[Mark]:
+        """Yield the rods at equilibrium as dashed lines, and the positions at equilibrium of masses without a rod."""
+        bars = [mark for mark in self.things if isinstance(mark, BarMark)]
+        ends = [end for mark in bars for end in (mark.start, mark.end)]
+        for mark in bars:
+            if (mark.start, mark.end) != (at_rest := (self._at_rest(mark.start), self._at_rest(mark.end))):
+                yield ConnectionMark(*at_rest)
+        for displacement, (_, at) in self._moving:
+            own = [mark for mark in self.things if self._is_at(mark, at)]
+            if own and not any(self._distance(end, column_of(at)) < 1e-9 for end in ends):
+                half = max(BLOCK[1] / 2 if isinstance(mark, BlockMark) else BOB for mark in own)
+                yield RestMark(self._at_rest(column_of(at)), displacement, half + ABOVE)
+
     def _arrows(self) -> Iterator[Mark]:
         besides = [self._beside(each, at) for each, (_, at) in zip(self.displacements, self.masses, strict=True)]
         is_beside = any(side is not None for side, *_ in besides)
@@ -479,7 +510,8 @@ class _InMode(_Displaced):
 
     def drawn(self, siblings: tuple[str, ...], like: str) -> Drawing:
         things, values = self._things_and_values()
-        return drawing(self.shape.key, *things, *self._arrows(), values=values, mode=self._shown(siblings, like))
+        marks = (*things, *self._rest_marks(), *self._arrows())
+        return drawing(self.shape.key, *marks, values=values, mode=self._shown(siblings, like))
 
     def _shown(self, siblings: tuple[str, ...], like: str) -> ShownMode:
         root = self.frequency.needed(Mode).root
@@ -509,6 +541,4 @@ class _Struck(_Displaced):
 
     def drawn_after(self, key: str) -> Drawing:
         things, values = self._things_and_values()
-        bars = (mark for mark in self.things if isinstance(mark, BarMark))
-        at_impact = [ConnectionMark(self._at_rest(mark.start), self._at_rest(mark.end)) for mark in bars]
-        return drawing(key, *things, *at_impact, *self._arrows(), values=values)
+        return drawing(key, *things, *self._rest_marks(), *self._arrows(), values=values)

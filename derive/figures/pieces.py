@@ -58,6 +58,7 @@ class Tag:
               also be on the other side of the line
     on        whether the label is on the spot; then it may be shifted by `towards` or in the opposite direction, if
               the spot is occupied
+    round     for the letter of an angle: the vertex and the arc; the letter is next to the arc
     outside   for a label on a block: if the block has no room, the label is outside the block at this distance from the
               spot, in points
     """
@@ -69,6 +70,7 @@ class Tag:
     way: Spot | None = None
     on: bool = False
     outside: float = 0.0
+    round: tuple[Spot, tuple[Spot, ...]] | None = None
 
     @property
     def spots(self) -> tuple[Spot, ...]:

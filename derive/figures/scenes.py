@@ -9,10 +9,11 @@ expression has no default label.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from itertools import cycle
 from typing import Any
 
-from sympy import Expr, ImmutableDenseMatrix, MatrixBase, Rational, Symbol, pi
+from sympy import Expr, ImmutableDenseMatrix, Integer, MatrixBase, Rational, Symbol, pi
 
 from derive.algebra.expressions import AXES, At, as_expr, explicit, scalar
 from derive.errors import Complaint, Rejected
@@ -101,6 +102,7 @@ def plot(
     also: Sequence[str] = (),
     unit: str = "",
     above: Any = None,
+    per: Any = None,
 ) -> Plot:
     """Return the curve of a quantity as a function of a symbol. The curve is recorded for the problem; the problem
     gives the numbers for the other symbols.
@@ -115,6 +117,8 @@ def plot(
     unit       the SI unit of a quantity without a kind
     above      the value of the symbol at which `shown` is zero; the label is then the difference between the quantity
                and its value there
+    per        a quantity by which the vertical axis is divided: its name, such as `M*g*l`, and its value in the letters
+               of the problem
     """
     expr = explicit(quantity.value if shown is None else shown)
     if isinstance(expr, MatrixBase) or against not in expr.free_symbols:
@@ -124,6 +128,8 @@ def plot(
     kind = quantity.step.kind or "number"
     label = quantity.symbol if above is None else quantity.symbol - At(quantity.symbol, against, as_expr(above))
     found = Plot(key, label, expr, against, lower, upper, kind, of, (quantity.key, *also), unit)
+    if per is not None:
+        found = replace(found, per=((Integer(1), Integer(1)), per))
     noted(found)
     return found
 

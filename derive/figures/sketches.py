@@ -27,7 +27,7 @@ from derive.figures.parts import BLOCK, BOB, BlockMark, ConnectionMark, Particle
 from derive.figures.placed_bodies import pivot_of, placed_marks, placed_outline, with_its_shape
 from derive.figures.positions import column_of
 from derive.figures.scenes import drawing
-from derive.figures.surroundings import HATCH, DistanceMark, FieldMark, FixedEnd, GravityMark, WayMark
+from derive.figures.surroundings import HATCH, DistanceMark, FieldMark, FixedEnd, GravityMark, OriginMark, WayMark
 from derive.figures.tops import stance_values
 from derive.figures.turning import downwards, link_marks, moving_end, natural_length
 from derive.figures.velocities import Moment, impact_marks, is_of_the_moment, later_marks, launch_marks, moment_drawn
@@ -60,7 +60,7 @@ def sketch(
     *more: Marks,
     values: Mapping[Any, Any] | None = None,
     named: Sequence[Location] = (),
-    weights: bool = False,
+    weights: Any = False,
     start: Moment | None = None,
     impact: Moment | None = None,
 ) -> Drawing | None:
@@ -73,7 +73,8 @@ def sketch(
     more      marks that are drawn in addition to those of the description
     values    numbers or proportions for symbols in the drawing
     named     positions of further parts, such as a pivot
-    weights   whether the weight of each particle and body is drawn, instead of one arrow for gravity
+    weights   whether the weight of each particle and body is drawn, instead of one arrow for gravity; a number is the
+              length of these arrows relative to the size of the drawing
     start     the initial state of a motion
     impact    the state at an impact; if it is given, the impact is drawn
     """
@@ -103,7 +104,7 @@ class _Scene:
         self,
         system: System,
         named: Sequence[Location] = (),
-        weights: bool = False,
+        weights: Any = False,
         start: Moment | None = None,
         impact: Moment | None = None,
     ):
@@ -214,7 +215,9 @@ class _Scene:
         # The drawing of an impact omits angles and distances that are zero at the impact, and distances that change
         # just before it.
         if self.impact is not None:
-            found = [mark for mark in found if not is_of_the_moment(mark, self.impact)]
+            found = [
+                mark for mark in found if not (isinstance(mark, OriginMark) or is_of_the_moment(mark, self.impact))
+            ]
             found += impact_marks(self.system, self.impact)
             found += later_marks(self.system, self.impact, self._at_any_time)
         return list(dict.fromkeys([*found, *self._between_supports(found)]))
@@ -283,7 +286,7 @@ class _Scene:
             return mark.label is not None and not moving_in(self.system, mark.label)
         if isinstance(mark, WayMark):
             return mark.pen != "trace"
-        return isinstance(mark, Surface | PointMark)
+        return isinstance(mark, Surface | PointMark) and not isinstance(mark, OriginMark)
 
     # --- particles ---
 
@@ -584,11 +587,12 @@ class _Scene:
 
     def _weights(self) -> Iterable[Mark]:
         down, gravity = downwards(self.rows), self.system.gravity
+        size = WEIGHT if self.weights is True else self.weights
         for particle in self.system.particles:
-            yield Weight(column_of(particle.at), down, WEIGHT, False, label=particle.mass * gravity)
+            yield Weight(column_of(particle.at), down, size, False, label=particle.mass * gravity)
         for placed in self.system.bodies:
             centre = column_of(with_its_shape(placed).centre)
-            yield Weight(centre, down, WEIGHT, False, label=placed.body.mass * gravity)
+            yield Weight(centre, down, size, False, label=placed.body.mass * gravity)
 
     def _moves(self, place: Location) -> bool:
         """Whether an end of a spring or of a central force moves or is the position of a particle; all other ends are

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
-from math import cos, dist, hypot, pi, sin
+from math import cos, hypot, pi, sin
 from typing import Any, ClassVar
 
-from derive.figures.annotations import ASIDE, measured
+from derive.figures.annotations import ASIDE, letter_of_angle, measured
 from derive.figures.marks import BESIDE, LAST, InWords, Mark, Position, Surface
 from derive.figures.parts import BOB
 from derive.figures.pieces import Bullet, InNumbers, Paper, Patch, Piece, Stroke, Tag
@@ -24,8 +23,6 @@ SLIDER, RAIL = (16.0, 9.0), 22.0  # width and height of a slider, and half the l
 # Half the length of the double arrow at a moving support, and distance of this arrow from the rail.
 MOVES, BESIDE_RAIL = 14.0, 12.0
 ARC = (11.0, 30.0)  # least and greatest radius of an arc, unless its angle is small
-INSIDE = 0.62  # the distance of a letter inside an arc from the vertex, divided by the radius
-LETTER = 5.5  # in points: half the room for the letter of an angle
 FREE = 16.0  # distance between all other marks and the arrow of gravity or of a field
 ARROW = 24.0  # length of the arrow of gravity or of a field
 ROOM = 26.0  # distance from the centre of a body on a floor to the end of the floor
@@ -102,6 +99,25 @@ class FloorMark(Surface):
 
     def in_words(self) -> InWords:
         return "ground", {}
+
+
+@dataclass(frozen=True)
+class OriginMark(Surface):
+    """The origin of a coordinate along a level line, as a short upright stroke.
+
+    off   the distance of the line below `at`, in points
+    """
+
+    at: Position
+    off: float = 0.0
+
+    def places(self, numbers: InNumbers) -> list[Vector]:
+        return [numbers.vector(self.at)]
+
+    def pieces(self, paper: Paper) -> list[Piece]:
+        x, y = paper.spot(paper.numbers.vector(self.at))
+        y -= self.off
+        return [Stroke(((x, y - HATCH), (x, y + HATCH)), "ground"), Tag(self.label, (x, y + HATCH), (-0.6, 0.8), 2.0)]
 
 
 def _across(start: Spot, end: Spot, side: Spot) -> Spot:
@@ -338,7 +354,7 @@ class AngleBetween(Mark):
         places = (plus(plus(vertex, along, radius * cos(t)), across, radius * sin(t)) for t in turned)
         pieces: list[Piece] = []
         if self.dashed:
-            end = plus(vertex, along, max(points + 7.0, min(0.85 * far, 62.0)) / paper.scale)
+            end = plus(vertex, along, max(points + 7.0, min(0.65 * far, 62.0)) / paper.scale)
             pieces.append(Stroke(paper.spots(vertex, end), "trace"))
         if size < 0.02:
             return pieces
@@ -348,23 +364,11 @@ class AngleBetween(Mark):
         return [
             *pieces,
             Stroke(spots, "angle", head=grows > 0, tail=grows < 0),
-            _letter_of_angle(self.label, paper.spot(vertex), spots),
+            letter_of_angle(self.label, paper.spot(vertex), spots),
         ]
 
     def in_words(self) -> InWords | None:
         return ("angle_of_letters", {"label": self.label}) if self.label is not None else None
-
-
-def _letter_of_angle(label: Any, vertex: Spot, arc: Sequence[Spot]) -> Tag:
-    """Return the letter of an angle: between its lines inside the arc if there is room, else outside the arc."""
-    (x, y), middle = vertex, arc[len(arc) // 2]
-    radius, (a, b) = dist(vertex, middle), direction(vertex, middle)
-    half = dist(arc[0], arc[-1]) / 2
-    if half * INSIDE < LETTER:
-        return Tag(label, middle, (a, b), 2.0)
-    spot = x + INSIDE * radius * a, y + INSIDE * radius * b
-    beyond = (1 - INSIDE) * radius + LETTER + 2.0
-    return Tag(label, spot, (beyond * a, beyond * b), on=True)
 
 
 @dataclass(frozen=True)
@@ -383,10 +387,11 @@ class UprightAngle(AngleBetween):
 class DistanceMark(Mark):
     """A dimension line between two points.
 
-    aside   the side to which the line is shifted; by default away from the centre of the drawing
-    off     the length of this shift, in points
-    back    a direction in which the two ends are also moved: from the centre of a block to the end of its spring
-    moved   the two lengths by which the ends are moved in this direction, in points
+    aside      the side to which the line is shifted; by default away from the centre of the drawing
+    off        the length of this shift, in points
+    back       a direction in which the two ends are also moved: from the centre of a block to the end of its spring
+    moved      the two lengths by which the ends are moved in this direction, in points
+    on_paper   the side as a direction on the paper, in place of `aside`
     """
 
     start: Position
@@ -395,6 +400,7 @@ class DistanceMark(Mark):
     off: float = ASIDE
     back: Position = None
     moved: tuple[float, float] = (0.0, 0.0)
+    on_paper: Spot | None = None
 
     @property
     def ends(self) -> tuple[Position, ...]:
@@ -404,7 +410,9 @@ class DistanceMark(Mark):
         spots = paper.spots(*(paper.numbers.vector(end) for end in self.ends))
         if hypot(spots[1][0] - spots[0][0], spots[1][1] - spots[0][1]) < 1e-6:
             return []
-        if self.aside is None:
+        if self.on_paper is not None:
+            side = self.on_paper
+        elif self.aside is None:
             x, y = paper.spot(paper.middle)
             at = midway(*spots)
             side = at[0] - x, at[1] - y

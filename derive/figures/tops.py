@@ -31,7 +31,7 @@ NODES_IN_FRONT = -pi / 18
 # axis of the body.
 LONGER, BESIDE = Rational(27, 20), Rational(6, 5)
 ROUND = Rational(1, 8)  # radius of a rotation arrow, relative to the size of the bodies
-ACROSS = Rational(4, 5)  # length of the transverse axes, relative to the axis of the body
+ACROSS = Rational(3, 5)  # length of the transverse axes, relative to the axis of the body
 # Extra distance of the first dimension line from the body, and distance between two dimension lines, in points.
 CLEAR, APART = 30.0, 20.0
 CENTRE = "C"

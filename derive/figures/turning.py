@@ -8,6 +8,7 @@ from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, co
 
 from derive.algebra.expressions import TIME
 from derive.algebra.normal_form import vanishes
+from derive.algebra.prescribed import depends_on_time
 from derive.algebra.tidy import tidied
 from derive.figures.annotations import Axis, AxisOfRotation, PointMark
 from derive.figures.elements import CLEAR
@@ -99,7 +100,8 @@ def moving_end(system: System, support: Location, joint: bool) -> Iterator[Mark]
     along = (sense or 1) * ImmutableDenseMatrix([1, slope] if x != 0 else [0, 1])
     side = ImmutableDenseMatrix([0, 1] if x != 0 else [-1, 0])
     pull = tidied(diff(y if x == 0 else x, TIME, 2))
-    motion = (-pull if pull.could_extract_minus_sign() else pull) if pull != 0 and not pull.has(TIME) else None
+    is_constant = pull != 0 and not depends_on_time(pull)
+    motion = (-pull if pull.could_extract_minus_sign() else pull) if is_constant else None
     yield MovingEnd(column_of(support), along, side, joint, sense == 0, motion)
     if x == 0 or y == 0:
         yield DistanceMark(column_of(rest), column_of(support), side, PAST_SUPPORT, label=x if y == 0 else y)

@@ -32,11 +32,13 @@ from derive.steps.step import is_zero
 ZERO, ONE = Integer(0), Integer(1)
 AXIS = Rational(3, 5)  # length of the axes of a flight, relative to the radius of the circle on which it begins
 LONG, THROWN = Rational(2, 5), Rational(4, 5)  # lengths of arrows, relative to the size of the drawing
-TURNED = (pi / 9, pi / 5)  # angles of the dashed rods in the drawing of an impact
+TURNED = (2 * pi / 15, pi / 4)  # angles of the dashed rods in the drawing of an impact
 SHIFTED = Rational(1, 4)  # displacement of the dashed bodies, relative to the length of a rod
 TURNED_ROUND = 2 * pi / 9  # angle of a dashed round body
 ROLLED = 3  # displacement of the dashed bodies, relative to the radius of a round body
 ON_IT = Rational(3, 4)  # distance of a point of impact from the fixed point, relative to the length of the body
+
+FOR_LABEL = 6.0  # further room between a rod and a dimension line, for the label of the rod, in points
 
 Values = Mapping[Symbol, Expr]
 
@@ -76,7 +78,8 @@ def launch_marks(system: System, moment: Moment) -> Iterable[Mark]:
         angle = next((f.args[0] for f in along.atoms(cos) if is_zero(along - size * f)), None)
         if angle is not None and angle.is_Symbol:
             way = column_of(start) * 0 + ImmutableDenseMatrix([velocity.components[0] / size, ZERO])
-            yield AngleBetween(column_of(start), way, column_of(velocity) / size, True, label=angle)
+            has_axis = not any(start.components)  # the first axis starts there
+            yield AngleBetween(column_of(start), way, column_of(velocity) / size, not has_axis, label=angle)
     for placed in system.bodies:
         yield from _guided(system, moment, placed)
     yield from _axes_of_flight(system, moment)
@@ -208,7 +211,7 @@ def _from_the_joint(system: System, places: Sequence[Location], at: Location, hi
         if len(way.components) == 2 and far != getattr(placed.body, "length", None):
             side = 1 if hinged else -1  # dashed rods of `later_marks` are on the other side
             aside = side * ImmutableDenseMatrix([-way.components[1], way.components[0]])
-            yield LengthMark(column_of(placed.at), column_of(at), aside, label=far)
+            yield LengthMark(column_of(placed.at), column_of(at), aside, beyond=0.0 if hinged else FOR_LABEL, label=far)
 
 
 def _met(system: System, at: Location, hinged: bool = False) -> Iterable[tuple[Any, Symbol]]:

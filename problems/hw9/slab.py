@@ -1,6 +1,6 @@
 """A slab that rocks on a fixed cylinder: its stability, its oscillation frequency and the contact force."""
 
-from sympy import cos, pi, sin
+from sympy import Rational, cos, pi, sin
 from sympy import solve as solve_linear
 
 from derive.figures import arrow, axes, dashed_at, length_mark, plot, point_mark, sketch
@@ -64,11 +64,11 @@ def solve(
     )
     plot("potential", U, theta.symbol, (-pi / 2, pi / 2))
     # The forces are those on the slab when it is released from rest. Their lengths are relative to that of the weight,
-    # which is 2/5. The friction F is positive uphill.
+    # which is 1/4. The friction F is positive uphill.
     (start,) = solve_linear(motion.value.left.subs(theta.rate, 0), theta.acceleration)
-    contact, sizes = radius * across, [2 * force / (5 * mass * gravity) for force in (N.value, F.value)]
+    contact, sizes = radius * across, [force / (4 * mass * gravity) for force in (N.value, F.value)]
     push, friction = (size.subs({theta.acceleration: start, theta.rate: 0}) for size in sizes)
     pushes = arrow(across, contact, push, label=N), arrow(-along, contact, friction, label=F)
     arm = length_mark(top - radius * theta * along, top, radius * theta)
-    sketch("forces", system, O, C, arm, pushes, weights=True)
+    sketch("forces", system, O, C, arm, pushes, weights=Rational(1, 4))
     return L, motion, swings, stable, level, minimum, maximum, again, N, F, *needed

@@ -41,7 +41,10 @@ def solve(
     V = put_in(effective_potential(L, p_phi, p_psi), upright, S, key="tilt_potential")
     letters = {each.symbol: each.value for each in top.values}
     well = V.value - V.value.subs(theta.symbol, 0)  # relative to the upright top, so that all spins fit in one panel
-    plot("well", V, theta.symbol, (-pi / 3, pi / 3), shown=well.subs(letters), above=0)
+    weigh = top.mass * gravity * top.middle.position[2]
+    plot(
+        "well", V, theta.symbol, (-pi / 3, pi / 3), shown=well.subs(letters), above=0, per=(weigh, weigh.subs(letters))
+    )
     sleeping = put_in(stable_where(stability(V, {theta: 0}, spin)), *top.values, key="sleeping_spin")
 
     return slow, fast, condition, sleeping

@@ -18,7 +18,7 @@ from derive.building.solution import rendered
 from derive.figures.encoding import drawings_from_data, drawings_to_data
 from derive.figures.marks import Drawing
 from derive.figures.modes import DisplacementArrow, RotationArrow
-from derive.figures.parts import BLOCK, BarMark, ParticleMark, SpringMark
+from derive.figures.parts import BLOCK, BarMark, ConnectionMark, ParticleMark, SpringMark
 from derive.figures.pieces import Stroke
 from derive.figures.surroundings import FixedEnd
 from derive.render.drawing.camera import FLAT, Numbers, with_coordinates
@@ -182,7 +182,7 @@ def test_the_arrows_of_pendulums_are_below_the_spring_and_the_rods_are_displaced
     assert values["u"] == -values["v"] and 0.2 < float(values["u"]) < 0.4
     assert not any(mark.label for mark in opposite.marks)
     sorts = {type(mark) for mark in opposite.marks}
-    assert sorts == {SpringMark, BarMark, ParticleMark, FixedEnd, DisplacementArrow}
+    assert sorts == {SpringMark, BarMark, ParticleMark, FixedEnd, ConnectionMark, DisplacementArrow}
 
 
 def test_a_free_motion_has_equal_arrows_and_a_mass_at_rest_has_none(tmp_path: Path) -> None:

@@ -52,7 +52,7 @@ PENS = {
     "trace": Pen(QUIET, 0.55, (4, 2.5)),
     "wire": Pen(QUIET, 0.9),
     "hidden": Pen(QUIET, 0.5, (3, 2)),
-    "construction": Pen(QUIET, 0.5, (7, 2, 1, 2)),
+    "construction": Pen(QUIET, 0.65, (7, 2, 1, 2)),
     "thin": Pen(QUIET, 0.4),
     "axis": Pen(QUIET, 0.55, head=4.5),
     "measure": Pen(QUIET, 0.5, head=4.0),

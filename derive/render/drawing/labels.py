@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from math import cos, hypot, inf, pi, sin
+from math import cos, dist, hypot, inf, pi, sin
 from typing import Any, TypeAlias
 
 from derive.figures.pieces import Bullet, Patch, Piece, Stroke, Tag
@@ -31,6 +31,11 @@ NEAR, DOUBT, MOST_DOUBT = 3.0, 0.6, 12.0
 WIDE = 1.0  # in points: a wider line is represented by its two edges
 OWN = 1.5  # in points; drawn points closer than this to the line that a label names belong to that line
 ROUNDS = 3
+INSIDE = 0.62  # the distance of a letter inside an arc from the vertex, divided by the radius
+LETTER = 5.5  # in points: half the room for the letter of an angle
+ALONG_ARC = (0.5, 0.36, 0.64, 0.25, 0.75, 0.12, 0.88)  # places of a letter along its arc, the best first
+AT_END = 8.0  # cost of a letter at an end of its arc, in place of its middle
+NARROW = 12.0  # cost of a letter inside an arc that has little room
 
 
 @dataclass(frozen=True)
@@ -56,10 +61,11 @@ def placed(
     drawn = _seen(pieces, width)
     tags = [piece for piece in pieces if isinstance(piece, Tag)]
     tried = [sorted(enumerate(_weighed(tag, measured, drawn)), key=lambda each: each[1][0]) for tag in tags]
-    order = sorted(range(len(tags)), key=lambda i: (not tags[i].on, tags[i].way is not None))
+    is_inside = [tag.on or tag.round is not None for tag in tags]
+    order = sorted(range(len(tags)), key=lambda i: (not is_inside[i], tags[i].way is not None))
     costs, found = _one_by_one(order, tried, drawn)
     if sum(costs.values()) >= HEAVY_ENOUGH:  # labels probably cover something: search again, fewest positions first
-        other = sorted(order, key=lambda i: (not tags[i].on, len(tried[i])))
+        other = sorted(order, key=lambda i: (not is_inside[i], len(tried[i])))
         again = _one_by_one(other, tried, drawn)
         costs, found = min((costs, found), again, key=lambda each: sum(each[0].values()))
     return [Placed(tags[i].label, found[i][:2], found[i], costs[i]) for i in order]
@@ -116,6 +122,9 @@ def _distance(spot: Spot, start: Spot, end: Spot) -> float:
 
 def _tried(tag: Tag, width: float, height: float) -> Iterable[tuple[float, Extent]]:
     """Yield boxes around the point of a label; the cost grows with the distance from the preferred position."""
+    if tag.round is not None:
+        yield from _tried_round(tag, *tag.round, width, height)
+        return
     if tag.on:
         yield from _tried_on(tag, width, height)
         return
@@ -128,9 +137,14 @@ def _tried(tag: Tag, width: float, height: float) -> Iterable[tuple[float, Exten
             angle = turn * pi / 8
             x = base[0] * cos(angle) - base[1] * sin(angle)
             y = base[0] * sin(angle) + base[1] * cos(angle)
-            # The box touches a circle about the point, so the middle of the box is farther by half the size of the box.
-            away = gap + min(width / 2 / max(abs(x), 1e-9), height / 2 / max(abs(y), 1e-9), hypot(width, height) / 2)
-            yield abs(turn) * 0.8 + ring * 2.5, _box(_moved(tag.spot, (x, y), away), width, height)
+            box = _box(_moved(tag.spot, (x, y), gap + _reach((x, y), width, height)), width, height)
+            yield abs(turn) * 0.8 + ring * 2.5, box
+
+
+def _reach(way: Spot, width: float, height: float) -> float:
+    """Return the distance from the middle of a box to its edge in a direction."""
+    x, y = way
+    return min(width / 2 / max(abs(x), 1e-9), height / 2 / max(abs(y), 1e-9), hypot(width, height) / 2)
 
 
 def _tried_on(tag: Tag, width: float, height: float) -> Iterable[tuple[float, Extent]]:
@@ -143,6 +157,24 @@ def _tried_on(tag: Tag, width: float, height: float) -> Iterable[tuple[float, Ex
         for share in (0.0, -0.5, 0.5, -1.0, 1.0):
             middle = _moved(_moved(tag.spot, tag.towards, share), (-y / far, x / far), away)
             yield OUTSIDE + 2.0 * abs(share) + (side < 0) * 2.0, _box(middle, width, height)
+
+
+def _tried_round(
+    tag: Tag, vertex: Spot, arc: Sequence[Spot], width: float, height: float
+) -> Iterable[tuple[float, Extent]]:
+    """Yield boxes between the lines of an angle inside its arc, and boxes just outside the arc."""
+    radius, half = dist(vertex, arc[len(arc) // 2]), dist(arc[0], arc[-1]) / 2
+    has_room = half * INSIDE >= LETTER
+    for share in ALONG_ARC:
+        spot = arc[round(share * (len(arc) - 1))]
+        away = direction(vertex, spot)
+        cost = 2.0 * AT_END * abs(share - 0.5)
+        for part in (INSIDE, 0.72 * INSIDE):
+            inside = cost + 0.05 * (INSIDE - part) * radius + (0.0 if has_room else NARROW)
+            yield inside, _box(_moved(vertex, away, part * radius), width, height)
+        for further in (0.0, -1.5, 3.0, 7.0):
+            box = _box(_moved(spot, away, tag.gap + further + _reach(away, width, height)), width, height)
+            yield cost + 0.6 * abs(further) + (1.0 if has_room else 0.0), box
 
 
 def _tried_along(tag: Tag, way: Spot, width: float, height: float) -> Iterable[tuple[float, Extent]]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass, replace
 
-from derive.render.notation.latex import latex
+from derive.render.notation.latex import latex, with_strokes_in_roots
 from derive.render.notation.layout import Layout, Name, Row
 
 _BOLD = re.compile(r"\\bm\{((?:[^{}]|\{[^{}]*\})*)\}")
@@ -48,7 +48,7 @@ def _plain(items: list[Layout], inline: bool) -> list[Span]:
 
 
 def _mathtext(layout: Layout, inline: bool = False) -> str:
-    text = _BOLD.sub(r"\1", latex(layout, inline=inline))
+    text = _BOLD.sub(r"\1", latex(with_strokes_in_roots(layout) if inline else layout, inline=inline))
     text = _FUNCTION.sub(r"\1\\,\2", text)
     for unknown, known in _UNKNOWN.items():
         text = text.replace(unknown, known)

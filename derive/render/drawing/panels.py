@@ -22,6 +22,7 @@ from derive.render.drawing.mathtext import runs
 from derive.render.drawing.sheets import Extent
 from derive.render.notation.breaking import terms_of
 from derive.render.notation.latex import unit_latex
+from derive.render.notation.layout import Evaluated, Fenced, Layout, Name, Operator, Row, row
 from derive.render.notation.notation import Notation
 
 _DECIMAL_POINT = re.compile(r"(?<=[0-9])\.(?=[0-9])")
@@ -520,7 +521,7 @@ def _labels(own: Sequence[Curve]) -> tuple[Any, ...]:
 def _axis_name(symbols: Sequence[Any], axis: Axis, notation: Notation, power: int = 0, inline: bool = False) -> str:
     """Return the name of an axis, a quantity divided by its unit or by another quantity: `U / J`, `v / (m/s)`, `U /
     (10^33 J)`, `r / r_0`."""
-    layouts = [notation.layout(symbol) for symbol in symbols]
+    layouts = [_with_arguments(notation.layout(symbol)) for symbol in symbols]
     if axis.per is not None and len(symbols) == 1 and fraction(axis.per)[0] == 1:
         return f"${_mathtext(notation.layout(symbols[0] / axis.per), inline=True)}$"
     name = r",\,".join(_mathtext(layout, inline) for layout in layouts)
@@ -538,6 +539,16 @@ def _axis_name(symbols: Sequence[Any], axis: Axis, notation: Notation, power: in
     if over and any(len(terms_of(layout)) > 1 for layout in layouts):
         name = f"({name})"
     return f"${name}{over}$"
+
+
+def _with_arguments(layout: Layout) -> Layout:
+    """Write a value at a point as U(0), because a subscript behind a bar would be too small in the name of an axis."""
+    if isinstance(layout, Row):
+        return row(*map(_with_arguments, layout.items))
+    match layout:
+        case Evaluated(Name() as inside, Row((_, Operator("equals"), value))):
+            return row(inside, Fenced(value))
+    return layout
 
 
 def _numbers(numbers: Sequence[Measured], notation: Notation) -> list[str]:

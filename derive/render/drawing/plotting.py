@@ -251,7 +251,7 @@ def _names_of_points(
 ) -> Iterator[tuple[Shape, Extent]]:
     """Yield the value at each zero or meeting point with its box. A value without a clear place is left out."""
     left, below, right, above = frame.paper
-    inner = left + TICK, below + TICK + PAD, right, above
+    inner = left + TICK, below + TICK, right, above
     dots = [dot for trace in panel.traces for dot in dots_of(frame.spots(trace.points))]
     dots += _dots_of_thin_lines(panel, frame)
     used = list(taken)
@@ -369,6 +369,8 @@ def _around(spot: Spot, size: tuple[float, float]) -> Iterator[Extent]:
         (x + gap, y - gap - high),
         (x - gap - wide, y + gap),
         (x - gap - wide, y - gap - high),
+        (x - gap - wide, y - high / 2),
+        (x + gap, y - high / 2),
     ):
         yield left, below, left + wide, below + high
 

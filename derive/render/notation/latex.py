@@ -116,6 +116,12 @@ def _with_strokes(layout: Layout) -> Layout:
     return row(*(_with_stroke(item) if apart else item for item, apart in zip(items, alone, strict=True)))
 
 
+def with_strokes_in_roots(layout: Layout) -> Layout:
+    """Write the fractions inside roots as a/b, also in a product, where `latex` with `inline` keeps their form."""
+    items = layout.items if isinstance(layout, Row) else (layout,)
+    return row(*(_with_stroke(item) if isinstance(item, RootSign) else item for item in items))
+
+
 def _is_derivative(item: Layout) -> bool:
     """Return whether an item is a fraction of differentials, such as dg/dx."""
     return (

@@ -21,9 +21,9 @@ from derive.course.yaml_tree import Formula as Written
 from derive.course.yaml_tree import Scalar, Tree, Word
 from derive.course.yaml_tree import Sequence as SequenceNode
 from derive.errors import did_you_mean, rejected
-from derive.figures.annotations import AngleMark, Arrow, HollowPoint, Line, Turn
+from derive.figures.annotations import AngleMark, Arrow, Cone, HollowPoint, Line, Turn
 from derive.figures.marks import PLANE, Drawing, Mark, Surface, noted
-from derive.figures.positions import towards, value_and_keys
+from derive.figures.positions import SIDES, value_and_keys
 from derive.figures.surroundings import AngleBetween, DistanceMark, WayMark
 from derive.steps.record import current_run
 from derive.steps.step import Quantity
@@ -40,6 +40,7 @@ NEEDED = {
     "angle": ("at", "start", "end"),
     "turn": ("at",),
     "circle": ("at", "end"),
+    "cone": ("end", "along"),
     "curve": ("at", "against", "between"),
 }
 ALSO = {
@@ -118,7 +119,7 @@ class Marked:
                 written = CALLED.get(name, name)
                 rejected("unused-key", f"`{written}` has no effect on the mark `{kind}`", keys.places[written])
         with told_at(keys.places[""]):
-            mark = self._made(kind, keys, is_plane)
+            mark = self._cone(keys, drawing) if kind == "cone" else self._made(kind, keys, is_plane)
             return replace(mark, keys=tuple(dict.fromkeys(mark.keys)))
 
     def _made(self, kind: str, keys: MarkKeys, is_plane: bool) -> Mark:
@@ -129,10 +130,9 @@ class Marked:
         if kind in PENS:
             return Line(*self._ends(keys, rows), PENS[kind], label=label, keys=used)
         if kind == "length":
-            aside = towards(keys.side, rows) if keys.side else None
             start, end = self._ends(keys, rows)
             self._check_length(end - start, label, keys)
-            return DistanceMark(start, end, aside, label=label, keys=used)
+            return DistanceMark(start, end, on_paper=SIDES[keys.side] if keys.side else None, label=label, keys=used)
         at = self._place(keys.at, "at", rows)
         if kind == "curve":
             return self._curve(at, keys, label, used)
@@ -152,6 +152,18 @@ class Marked:
             return Turn(at, around, size or ROUND, label=label, keys=(*used, *own_keys))
         along, own_keys, _ = self._way(keys.along, "along", rows)
         return Arrow(at, along, size or LONG[is_plane], bool(own_keys), label=label, keys=(*used, *own_keys))
+
+    def _cone(self, keys: MarkKeys, drawing: Drawing) -> Mark:
+        """Return the cone that an arrow of the drawing describes."""
+        node = keys.end
+        assert node is not None  # `_mark` rejects a cone without this key
+        value, used, _ = self._way(node, "to", 3)
+        arrows = (mark for mark in drawing.marks if isinstance(mark, Arrow))
+        arrow = next((each for each in arrows if explicit(each.value) == value), None)
+        if arrow is None:
+            rejected("wrong-argument", "the drawing has no arrow of this vector", node.place)
+        axis, own, _ = self._way(keys.along, "along", 3)
+        return Cone(arrow.start, arrow.value, arrow.size, axis=axis, keys=(*used, *own))
 
     def _check_length(self, arm: MatrixBase, label: Any, keys: MarkKeys) -> None:
         known = {declared.symbol for declared in self._letters.letters.values()}

@@ -89,7 +89,7 @@ def test_marks_are_added_to_the_drawing_of_a_system(tmp_path: Path) -> None:
     assert [str(c) for c in point.at] == ["l*sin(theta)/2", "-l*cos(theta)/2"]
     assert str(point.label) == "S"
     (length,) = added(shown, DistanceMark)
-    assert (str(length.label), tuple(length.aside)) == ("l/2", (-1, 0))
+    assert (str(length.label), length.on_paper) == ("l/2", (-1, 0))
     assert [each.pen for each in added(shown, Line)] == ["trace"]
     (turn,) = added(shown, Turn)
     assert str(turn.label) == "C"
