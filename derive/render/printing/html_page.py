@@ -237,7 +237,7 @@ class HtmlPage:
         follows, leads     whether the row shares its frame with the row above, and with the row below
         """
         left = "" if line.left is None else _side("start", line.left)
-        cells = [f'<span class="left">{left}</span>', f'<span class="sides">{_sides(line, stop)}</span>']
+        cells = [f'<span class="left">{left}</span>', f'<span class="sides">{_sides(line, "" if line.framed else stop)}</span>']
         if line.frames_all:
             cells = ['<span class="answer">', *cells, "</span>"]
         is_new = line.number is not None and self._is_first(line.number)
@@ -294,7 +294,7 @@ def _sides(line: Printed, stop: str) -> str:
     sign = TEX_OPERATORS[relation].strip()
     framed = "".join([_side("start", first), *(_side(*other) for other in others)])
     begun = of_latex(sign) if sign else ""
-    return "".join([*shown, f'<span class="framed">{begun}<span class="answer">{framed}{_stop(stop)}</span></span>'])
+    return "".join([*shown, f'<span class="framed">{begun}<span class="answer">{framed}</span></span>'])
 
 
 def _ending(sides: Sequence[str], stop: str) -> str:

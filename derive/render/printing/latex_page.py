@@ -231,19 +231,19 @@ class LatexPage:
         for steps_together in answers_together(printed):
             stop = display.stops[steps_together[-1]]
             lines = [printed[i] for i in steps_together]
-            steps.append(self._list(lines, stop) if len(lines) > 1 else self._step(lines[0], stop))
+            steps.append(self._list(lines) if len(lines) > 1 else self._step(lines[0], stop))
         return Tex(f"\n{between}\n".join(steps))
 
-    def _list(self, steps: Sequence[Sequence[Printed]], stop: str) -> str:
-        """Return answers in one frame, without punctuation between them. The steps of a list have a row, a reason and a
-        number each."""
+    def _list(self, steps: Sequence[Sequence[Printed]]) -> str:
+        """Return answers in one frame, without punctuation. The steps of a list have a row, a reason and a number
+        each."""
         rows = [
             rf"\listrow{{{latex(line.left) if line.left else ''}}}{{{_sides(line)}}}{{{self._reason(line)}}}"
             rf"{{{self._number_of(line)}}}"
             for (line,) in steps
         ]
         listed = "\n\\nextlistrow\n".join(rows)
-        return f"\\framedlist{{\n{listed}\n}}{{{stop}}}"
+        return f"\\framedlist{{\n{listed}\n}}{{}}"
 
     def _step(self, printed: Sequence[Printed], stop: str) -> str:
         rows = framed_together(printed)
@@ -252,8 +252,10 @@ class LatexPage:
         return "\n".join([set_rows[0], *(f"{at}\n{row}" for at, row in zip(breaks, set_rows[1:], strict=True))])
 
     def _row(self, lines: Sequence[Printed], stop: str) -> str:
-        """Return a row: left side, right sides, punctuation, reason and number."""
+        """Return a row: left side, right sides, punctuation, reason and number. A frame ends a sentence without
+        punctuation."""
         first, last = lines[0], lines[-1]
+        stop = "" if last.framed else stop
         left = latex(first.left) if first.left else ""
         if first.sides[0][0] == "start" and len(lines) == 1 and not first.frames_all:
             command, left, body = "brokenrow", _sides(first), ""
