@@ -43,6 +43,7 @@ from derive.page.depiction import (
 )
 from derive.page.figures_named import figures_mentioned
 from derive.page.formulas import Formulas
+from derive.page.in_words import in_words
 from derive.page.introduced import references_in, wanting
 from derive.page.names import page_names
 from derive.page.numbering import Numbering
@@ -106,6 +107,8 @@ def document_of(
         writer = _Writer(problem, derivation, values, words, level, others or {}, drawings, needed, like)
         document = writer.document([c for c in compared if c.here], evidence)
         more = needed.with_more(*writer.needs(document))
+        if more == needed and level is not Level.FULL:
+            more = replace(needed, in_words={**needed.in_words, **in_words(document, derivation, problem.wording)})
         if more == needed:
             return document, [*writer.faults, *writer.without_number(document)]
         needed = more
@@ -321,7 +324,7 @@ class _Writer:
             self.rest = self.selection.standing_after(key, self.derivation.parts[index])
             step = self.selection.step(self.derivation.step(key))
             self._append(blocks, step, framed=key in framed, verdict=key in boxed and step.display.verdict)
-            self.before = self.derivation.step(key) if key in self.numbers else self.before
+            self.before = self.derivation.step(key) if self._is_told(key) else self.before
             ends |= dict.fromkeys(self._completed(key), len(blocks))
         blocks.extend([Paragraph(clause)] if (clause := (*self._clause(blocks), *self.clauses.begun())) else [])
         steps, self.rest = len(blocks), []
@@ -424,7 +427,8 @@ class _Writer:
         self.numbers.add(step.key)
         lines = self.stated.without_repeats(self.lines.of(self.theorems.without_law(step), mode), self.symbols.values())
         if self.level is not Level.FULL:
-            lines = without_inserted(lines, [self.symbols.get(key) for key in self.numbers])
+            short = [each.symbol for each in self.clauses.waiting] if self.level is Level.BRIEF else []
+            lines = without_inserted(lines, [*short, *(self.symbols[key] for key in self.symbols if self._is_told(key))])
         again = self.stated.noted(step.key, lines)
         if again is not None and step.outcome in AGAIN and nodes == (Chain(),) and self.level is not Level.FULL:
             self.numbers[step.key] = self.numbers[again]
@@ -440,6 +444,11 @@ class _Writer:
         lines, count = (*lines, *conditions), count + len(conditions)
         equations = Equations(step.key, lines, self.numbers[step.key], count)
         before, after = around_chain(nodes)
+        if step.key in self.selection.needed.in_words and step.key not in self.selection.needed.numbers:
+            blocks.append(
+                Paragraph((*self._clause(blocks), *self.clauses.begun(), *self._in_words(step, before, after)))
+            )
+            return
         routes, checks = (second_ways_of(step, sort, self.words) for sort in (Compared.ROUTE, Compared.CHECK))
         display = Display((equations,), frozenset({step.grade}), routes, checks=checks)
         if blocks and isinstance(blocks[-1], Display) and (not before or self._is_only_and(before)):
@@ -455,6 +464,14 @@ class _Writer:
             blocks.append(display)
         if after:
             blocks.append(Paragraph(self.clauses.around(after, blocks[-1])))
+
+    def _in_words(self, step: Step, before: Sequence[Inline], after: Sequence[Inline]) -> tuple[Inline, ...]:
+        """Return the sentence of a step with its equation, which then has no number."""
+        del self.numbers[step.key]
+        self.clauses.told.add(step.key)
+        is_named = self.selection.needed.in_words[step.key]
+        told = equation_of(step) if is_named else Math(step.result)
+        return (*before, told, Text("."), *([Text(" "), *after] if after else []))
 
     def _is_only_and(self, before: Sequence[Inline]) -> bool:
         return all(isinstance(n, Text) for n in before) and _text_of(before).strip() == self.words.labels["and"].strip()
@@ -487,11 +504,15 @@ class _Writer:
     def _completed(self, key: str) -> set[str]:
         """Return the steps that the page has now described."""
         self.unplaced.add(key)
-        if key not in self.numbers:
+        if not self._is_told(key):
             return set()
         found = {each for each in self.unplaced if self.selection.manner(each) is not TOLD or each in self.clauses.told}
         self.unplaced -= found
         return found
+
+    def _is_told(self, key: str) -> bool:
+        """Return whether the page has shown the equation of a step, in a display or in a sentence."""
+        return key in self.numbers or key in self.selection.needed.in_words and key in self.clauses.told
 
     def _phrase(self, step: Step, follows_words: bool = False) -> tuple[Inline, ...]:
         """Return the sentence of a step."""

@@ -169,13 +169,13 @@ def framed(*lines: ChainLine) -> list[str]:
 
 
 def test_a_result_is_framed_as_a_complete_equation() -> None:
-    assert framed(ChainLine(T, "equals", M * a)) == [r"\framedrow{T}{T = Ma}{.}{}{\anchor{hw9.one.1}\eqnumber{1}}"]
+    assert framed(ChainLine(T, "equals", M * a)) == [r"\framedrow{T}{T = Ma}{}{}{\anchor{hw9.one.1}\eqnumber{1}}"]
     (row,) = framed(ChainLine(T, "equals", M + a), ChainLine(None, "equals", M * a))
-    assert row == r"\framedrow{T}{T = M+a = Ma}{.}{}{\anchor{hw9.one.1}\eqnumber{1}}", (
+    assert row == r"\framedrow{T}{T = M+a = Ma}{}{}{\anchor{hw9.one.1}\eqnumber{1}}", (
         "a law in letters shares the frame"
     )
     (row,) = framed(ChainLine(T, "equals", sum(symbols("b_:16"))), ChainLine(None, "equals", M * a))
-    assert row.startswith(r"\row{T}{= b_{0}") and r"= \inframe{Ma}}{.}" in row
+    assert row.startswith(r"\row{T}{= b_{0}") and r"= \inframe{Ma}}{}" in row
 
 
 def listed(*steps: Equations) -> str:
@@ -188,7 +188,7 @@ def test_answers_one_after_the_other_are_in_one_frame_and_have_a_number_each() -
     tex = listed(first, second)
     assert tex.startswith("\\framedlist{")
     assert [tex.count(each) for each in ("framedrow", r"\listrow", r"\nextlistrow", r"\eqnumber")] == [0, 2, 1, 2]
-    assert r"\listrow{T}{= a}{}{" in tex and r"\listrow{M}{= a}{}{" in tex and tex.endswith("}{.}")
+    assert r"\listrow{T}{= a}{}{" in tex and r"\listrow{M}{= a}{}{" in tex and tex.endswith("}{}")
     assert listed(first, replace(second, framed=0)).count("list") == 0
 
 

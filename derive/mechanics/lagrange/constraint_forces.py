@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence, Set
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import Any
@@ -193,10 +193,17 @@ def multipliers(*equations: Quantity, keeping: Sequence[Coordinate] = ()) -> tup
     return _steps(problem, [each.force for each in problem.constraints])
 
 
-def _not_all_negative(left: Expr) -> Expr:
-    """Change all signs if all are negative: x_ddot + y_ddot = 0, not -x_ddot - y_ddot = 0."""
+def _with_one_alone(left: Expr, accelerations: Set[Symbol]) -> Relation:
+    """Return the equation left = 0 solved for an acceleration that is a term by itself: y_ddot = R phi_ddot. If there
+    is none, change all signs if all are negative."""
     terms = Add.make_args(left)
-    return Add(*(-term for term in terms)) if all(term.could_extract_minus_sign() for term in terms) else left
+    others = {term: [each for each in terms if each is not term] for term in terms}
+    for term in reversed(terms) if len(terms) > 1 else ():
+        sign, symbol = (1, term) if isinstance(term, Symbol) else (-1, -term)
+        if symbol in accelerations and not any(each.has(symbol) for each in others[term]):
+            return Relation(symbol, "=", Add(*(-sign * each for each in others[term]), evaluate=False))
+    is_negative = all(term.could_extract_minus_sign() for term in terms)
+    return Relation(Add(*(-term for term in terms)) if is_negative else left, "=", ZERO)
 
 
 def _told(of: Constraint) -> Relation:
@@ -269,9 +276,7 @@ def constraint_rate(of: Quantity, number: int = 0, key: str | None = None) -> Qu
         lines=Lines(
             put_in=None,
             law=Level.FULL,
-            arranged=lambda found: Relation(
-                _not_all_negative(by_accelerations(explicit(found.left), moving)), "=", ZERO
-            ),
+            arranged=lambda found: _with_one_alone(by_accelerations(explicit(found.left), moving), {rate(q, 2) for q in moving}),
         ),
         routes={"functions_of_time": compared_with(by_time)},
         outcome="in_rates" if each.in_rates else "constant" if fixed else "in_coordinates",

@@ -237,7 +237,10 @@ class HtmlPage:
         follows, leads     whether the row shares its frame with the row above, and with the row below
         """
         left = "" if line.left is None else _side("start", line.left)
-        cells = [f'<span class="left">{left}</span>', f'<span class="sides">{_sides(line, "" if line.framed else stop)}</span>']
+        cells = [
+            f'<span class="left">{left}</span>',
+            f'<span class="sides">{_sides(line, "" if line.framed else stop)}</span>',
+        ]
         if line.frames_all:
             cells = ['<span class="answer">', *cells, "</span>"]
         is_new = line.number is not None and self._is_first(line.number)
