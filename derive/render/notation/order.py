@@ -100,8 +100,24 @@ def ordered_factors(
 ) -> list[Expr]:
     """Return the factors of a product in the order of print; `moving` has the names of all symbols, as in
     `ordered_terms`."""
-    ordered = _cyclic(sorted(factors, key=lambda f: rank_of_factor(f, dimension_of)), dimension_of)
+    ranked = sorted(factors, key=lambda f: rank_of_factor(f, dimension_of))
+    ordered = _cyclic(_rates_in_order(ranked, dimension_of, moving), dimension_of)
     return _coordinates_last(ordered, dimension_of, moving)
+
+
+def _rates_in_order(
+    factors: list[Expr], dimension_of: Callable[[Any], Dimension | None], moving: Collection[str]
+) -> list[Expr]:
+    """Write velocities before angular velocities, and both in the order of the coordinates: x_dot theta_dot."""
+    rates = [f for f in factors if f.is_Symbol and str(f).endswith(RATE_ENDS)]
+    places = {name: place for place, name in enumerate(moving)}
+
+    def place(factor: Expr) -> tuple[bool, int]:
+        dimension = dimension_of(factor)
+        return bool(dimension is None or not dimension.length), places.get(_coordinate(factor), len(places))
+
+    ordered = iter(sorted(rates, key=place))
+    return [next(ordered) if factor in rates else factor for factor in factors]
 
 
 def _coordinates_last(
