@@ -21,6 +21,7 @@ from derive.page.theorems import standalone
 from derive.page.tree import Block, Display, Document, Folded, Illustration, PartPage
 from derive.page.wording import (
     DimensionMark,
+    DisplayedMath,
     FigureRef,
     FramedMath,
     Inline,
@@ -51,6 +52,7 @@ LISTED = 3  # a page with at least this many parts has a table of contents
 # Characters of a formula that fit into a narrow window, in text and in a table. A wider formula can be scrolled, also
 # by keyboard.
 WIDE, IN_TABLE = 24.0, 14.0
+DISPLAYED = '<span class="displayed">'
 PUNCTUATION = re.compile(r"[.,;:!?)]+(?= |$)")
 
 
@@ -144,7 +146,9 @@ class HtmlPage:
         for node in nodes:
             printed = self._node(node)
             stop = PUNCTUATION.match(printed) if found and type(node) is Text else None
-            if stop and found[-1].endswith(("</math>", CLOSED)):
+            if stop and found[-1].startswith(DISPLAYED):
+                found[-1], printed = f"{found[-1].removesuffix(CLOSED)}{stop[0]}{CLOSED}", printed[stop.end() :]
+            elif stop and found[-1].endswith(("</math>", CLOSED)):
                 found[-1], printed = _ended(found[-1], stop[0]), printed[stop.end() :]
             found.append(printed)
         return Html("".join(found))
@@ -166,6 +170,8 @@ class HtmlPage:
                 return escape(text)
             case FramedMath(expr):
                 return f'<span class="verdict">{mathml(self.notation.result(expr), inline=True)}</span>'
+            case DisplayedMath(expr):
+                return f"{DISPLAYED}{mathml(self.notation.result(expr))}{CLOSED}"
             case Math(expr):
                 layout = self.notation.result(expr)
                 if width(layout) <= WIDE:

@@ -20,6 +20,7 @@ from derive.page.template import Templates
 from derive.page.tree import Block, Display, Document, Illustration, Paragraph, PartPage
 from derive.page.wording import (
     DimensionMark,
+    DisplayedMath,
     FigureRef,
     FramedMath,
     Inline,
@@ -48,6 +49,7 @@ from derive.render.rendered import Tex
 # Approximate heights on the page in points, and characters in a line of text and of a note.
 LINE_HEIGHT, ROW_HEIGHT, AROUND, NOTE_LINE = 13.6, 19.0, 14.0, 8.5
 CHARACTERS, NOTE_CHARACTERS = 92, 14
+END_OF_DISPLAY = r"\]"
 FEW_ROWS = 4  # a display of at most this many steps is not divided between pages if each step is one low row
 
 
@@ -177,7 +179,14 @@ class LatexPage:
         return type(block).__name__.lower()
 
     def inline(self, nodes: Sequence[Inline]) -> Tex:
-        return Tex("".join(self._node(node) for node in nodes))
+        found: list[str] = []
+        for node in nodes:
+            printed = self._node(node)
+            if found and found[-1].endswith(END_OF_DISPLAY) and printed[:1] in (*".,;:",):
+                found[-1] = found[-1].removesuffix(END_OF_DISPLAY) + printed[0] + END_OF_DISPLAY
+                printed = printed[1:]
+            found.append(printed)
+        return Tex("".join(found))
 
     def _node(self, node: Inline) -> str:
         match node:
@@ -189,6 +198,8 @@ class LatexPage:
                 return rf"\verdict{{{escaped(text)}}}"
             case Text(text):
                 return escaped(text).replace(" = ", "~=~")
+            case DisplayedMath(expr):
+                return rf"\[{latex(self.notation.result(expr))}{END_OF_DISPLAY}"
             case Math(expr):
                 inner = f"${latex(self.notation.result(expr), inline=True)}$"
                 return rf"\verdict{{{inner}}}" if isinstance(node, FramedMath) else inner
