@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 import textwrap
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -49,6 +50,7 @@ from derive.render.rendered import Tex
 # Approximate heights on the page in points, and characters in a line of text and of a note.
 LINE_HEIGHT, ROW_HEIGHT, AROUND, NOTE_LINE = 13.6, 19.0, 14.0, 8.5
 CHARACTERS, NOTE_CHARACTERS = 92, 14
+_ADJACENT_DISPLAYS = re.compile(r"(,?)\\\] *(\w{0,4}) *\\\[")  # two formulas with at most a short word between them
 END_OF_DISPLAY = r"\]"
 FEW_ROWS = 4  # a display of at most this many steps is not divided between pages if each step is one low row
 
@@ -186,7 +188,7 @@ class LatexPage:
                 found[-1] = found[-1].removesuffix(END_OF_DISPLAY) + printed[0] + END_OF_DISPLAY
                 printed = printed[1:]
             found.append(printed)
-        return Tex("".join(found))
+        return Tex(_ADJACENT_DISPLAYS.sub(r"\1\\quad\\text{\2}\\quad ", "".join(found)))
 
     def _node(self, node: Inline) -> str:
         match node:
