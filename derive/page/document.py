@@ -26,7 +26,7 @@ from derive.course.reference.comparison import Told
 from derive.course.written import ANY_OUTCOME
 from derive.errors import Complaint, Place, did_you_mean
 from derive.figures.marks import Recorded
-from derive.page.assumptions import between_bounds, says_the_same, with_units
+from derive.page.assumptions import between_bounds, is_of_a_magnitude, not_implied, says_the_same, with_units
 from derive.page.chain_lines import ChainWriter, Equations, conditions_of, without_inserted
 from derive.page.checks import checks_of, second_ways_of
 from derive.page.clauses import Clauses, continues_sentence
@@ -279,8 +279,8 @@ class _Writer:
         """Return a sentence with the assumptions about symbols, to follow the statement, without those that the
         statement or a question contains. The figure and the motion show the range of a coordinate."""
         moving = {q for step in self.derivation.steps for q, _ in step.coordinates}
-        assumed = [each for each in self.derivation.assumed if each not in self.derivation.in_words]
-        assumed = [each for each in assumed if not letters_in([each]) <= moving]
+        assumed = [each for each in not_implied(self.derivation.assumed) if each not in self.derivation.in_words]
+        assumed = [each for each in assumed if not letters_in([each]) <= moving and not is_of_a_magnitude(each)]
         assumed = [each for each in assumed if not any(says_the_same(each, other) for other in self.formulas.stated)]
         if not assumed:
             return ()
@@ -430,7 +430,9 @@ class _Writer:
         lines = self.stated.without_repeats(self.lines.of(self.theorems.without_law(step), mode), self.symbols.values())
         if self.level is not Level.FULL:
             short = [each.symbol for each in self.clauses.waiting] if self.level is Level.BRIEF else []
-            lines = without_inserted(lines, [*short, *(self.symbols[key] for key in self.symbols if self._is_told(key))])
+            lines = without_inserted(
+                lines, [*short, *(self.symbols[key] for key in self.symbols if self._is_told(key))]
+            )
         again = self.stated.noted(step.key, lines)
         if again is not None and step.outcome in AGAIN and nodes == (Chain(),) and self.level is not Level.FULL:
             self.numbers[step.key] = self.numbers[again]

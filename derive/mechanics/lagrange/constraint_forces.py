@@ -193,24 +193,27 @@ def multipliers(*equations: Quantity, keeping: Sequence[Coordinate] = ()) -> tup
     return _steps(problem, [each.force for each in problem.constraints])
 
 
-def _with_one_alone(left: Expr, accelerations: Set[Symbol]) -> Relation:
-    """Return the equation left = 0 solved for an acceleration that is a term by itself: y_ddot = R phi_ddot. If there
-    is none, change all signs if all are negative."""
+def _with_one_alone(left: Expr, wanted: Set[Symbol]) -> Relation:
+    """Return the equation left = 0 solved for a symbol of `wanted` that is a term by itself:
+    y_ddot = R phi_ddot. If there is none, change all signs if all are negative."""
     terms = Add.make_args(left)
     others = {term: [each for each in terms if each is not term] for term in terms}
     for term in reversed(terms) if len(terms) > 1 else ():
         sign, symbol = (1, term) if isinstance(term, Symbol) else (-1, -term)
-        if symbol in accelerations and not any(each.has(symbol) for each in others[term]):
+        if symbol in wanted and not any(each.has(symbol) for each in others[term]):
             return Relation(symbol, "=", Add(*(-sign * each for each in others[term]), evaluate=False))
     is_negative = all(term.could_extract_minus_sign() for term in terms)
     return Relation(Add(*(-term for term in terms)) if is_negative else left, "=", ZERO)
 
 
-def _told(of: Constraint) -> Relation:
-    """Return the relation of a constraint. If the right side is zero and the left side begins with a minus sign, change
-    the sign: y_dot + R phi_dot = 0, not -(y_dot + R phi_dot) = 0."""
-    is_negative = of.right == 0 and of.left.could_extract_minus_sign()
-    return Relation((-of.left).expand(), "=", ZERO) if is_negative else of.relation
+def _told(of: Constraint, moving: Sequence[Symbol]) -> Relation:
+    """Return the relation of a constraint. If the right side is zero, a constraint between rates is solved for a rate
+    that is a term by itself; otherwise the left side does not begin with a minus sign."""
+    if of.right != 0:
+        return of.relation
+    if of.in_rates and (solved := _with_one_alone(of.left.expand(), {rate(q) for q in moving})).right != 0:
+        return solved
+    return Relation((-of.left).expand(), "=", ZERO) if of.left.could_extract_minus_sign() else of.relation
 
 
 def _fixed(of: Constraint, moving: Sequence[Symbol]) -> Relation | None:
@@ -276,12 +279,14 @@ def constraint_rate(of: Quantity, number: int = 0, key: str | None = None) -> Qu
         lines=Lines(
             put_in=None,
             law=Level.FULL,
-            arranged=lambda found: _with_one_alone(by_accelerations(explicit(found.left), moving), {rate(q, 2) for q in moving}),
+            arranged=lambda found: _with_one_alone(
+                by_accelerations(explicit(found.left), moving), {rate(q, 2) for q in moving}
+            ),
         ),
         routes={"functions_of_time": compared_with(by_time)},
         outcome="in_rates" if each.in_rates else "constant" if fixed else "in_coordinates",
         phrase_data=PhraseData(
-            formulas={"constraint": (fixed or _told(each), Relation(each.residual, "=", ZERO))},
+            formulas={"constraint": (fixed or _told(each, moving), Relation(each.residual, "=", ZERO))},
             words={"enforcer": each.enforcer if each.enforcer in KEPT else FORMULA},
             named={"kept": fixed.left} if fixed else {},
             outcome_data={"of": each},

@@ -19,7 +19,7 @@ from derive.render.notation.products import Place, positive_first, rank_of_dimen
 
 DISPLACEMENT = "eta"  # the name of a displacement from an equilibrium
 RATE_ENDS = ("_ddot", "_dot")  # suffixes of the names of accelerations and of rates
-COEFFICIENTS = ("mu", "e")  # the names of coefficients of friction and of restitution
+COEFFICIENTS = ("mu", "e", "beta", "gamma", "epsilon")  # the names of coefficients: 1 + beta, beta m g
 RATE_OF_TURNING = dimension_of_kind("angular speed")
 
 
@@ -83,7 +83,11 @@ def motion_first(terms: list[Any], moving: Mapping[str, int]) -> list[Any]:
         degrees = (-powers.get(s, Rational(0)) for s in rates if powers.get(s, Rational(0)).is_Integer)
         return (*degrees, not any(f"{s.name}{RATE_ENDS[1]}" in moving for s in term.free_symbols))
 
-    return sorted(terms, key=place) if rates else terms
+    if any(isinstance(term, Symbol) and term.name.endswith(RATE_ENDS[0]) for term in terms):
+        return sorted(terms, key=place)
+    # y + 7 x_dot/(2 Omega): a coordinate by itself is first, except in an equation of motion
+    alone = [term for term in terms if isinstance(term, Symbol) and f"{term.name}{RATE_ENDS[1]}" in moving]
+    return [*alone, *sorted((term for term in terms if term not in alone), key=place)] if rates else terms
 
 
 def holds_rates(expr: Expr) -> bool:
