@@ -23,11 +23,12 @@ def in_words(document: Document, derivation: Derivation, worded: Collection[str]
     worded  the keys of the steps that the problem rewords
     """
     referred = references_in((document.statement, document.strategy, document.parts, document.limits, document.note))
+    steps = {step.key: step for step in derivation.steps}
     found: dict[str, bool] = {}
     for part in document.parts_shown:
         for display in _in_short_sentences(part.blocks):
-            step = derivation.step(display.groups[0].key)
-            if step.key not in referred and _is_plain(step):
+            step = steps.get(display.groups[0].key)  # numbers of answers are not steps of the derivation
+            if step is not None and step.key not in referred and _is_plain(step):
                 shown: list[Any] = [document.strategy, document.note, document.limits]
                 shown += [block for each in document.parts_shown for block in each.blocks if block is not display]
                 is_used = letters_of(step.symbol) & letters_in(expressions_in(shown))

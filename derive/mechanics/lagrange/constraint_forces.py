@@ -206,6 +206,13 @@ def _with_one_alone(left: Expr, wanted: Set[Symbol]) -> Relation:
     return Relation(Add(*(-term for term in terms)) if is_negative else left, "=", ZERO)
 
 
+def _arranged(left: Expr, moving: Sequence[Symbol]) -> Relation:
+    """Return the equation left = 0 with its terms collected by accelerations, solved for an acceleration that is a term
+    by itself."""
+    solved = _with_one_alone(by_accelerations(left, moving), {rate(q, 2) for q in moving})
+    return Relation(solved.left, "=", by_accelerations(solved.right, moving)) if solved.right != 0 else solved
+
+
 def _told(of: Constraint, moving: Sequence[Symbol]) -> Relation:
     """Return the relation of a constraint. If the right side is zero, a constraint between rates is solved for a rate
     that is a term by itself; otherwise the left side does not begin with a minus sign."""
@@ -279,9 +286,7 @@ def constraint_rate(of: Quantity, number: int = 0, key: str | None = None) -> Qu
         lines=Lines(
             put_in=None,
             law=Level.FULL,
-            arranged=lambda found: _with_one_alone(
-                by_accelerations(explicit(found.left), moving), {rate(q, 2) for q in moving}
-            ),
+            arranged=lambda found: _arranged(explicit(found.left), moving),
         ),
         routes={"functions_of_time": compared_with(by_time)},
         outcome="in_rates" if each.in_rates else "constant" if fixed else "in_coordinates",
