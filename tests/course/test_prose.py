@@ -168,3 +168,11 @@ def test_a_formula_without_end_is_an_error_at_its_place(text: str, column: int, 
 
 def test_two_backslashes_in_double_quotes_are_one() -> None:
     assert prose(r'title: "a $\\theta$ b"').formulas[0].tex == r"\theta"
+
+
+def test_a_formula_between_double_dollar_signs_has_a_line_of_its_own() -> None:
+    pieces = prose("title: 'so $$x = a$$. With $b$ it'").pieces
+    assert [(piece.tex, piece.displayed) for piece in pieces if isinstance(piece, TexFormula)] == [
+        ("x = a", True),
+        ("b", False),
+    ]

@@ -15,8 +15,16 @@ from derive.course.names import EvidenceShown
 from derive.page.chain_lines import ChainLine, Equations
 from derive.page.template import Templates, templates_of
 from derive.page.tree import Document, Paragraph
-from derive.page.wording import DimensionMark, Text, ToldIn, ToldOnce, UnitMark
-from derive.render.printing.latex_page import Fragments, Passage, dotted, passages_of, problem_latex, whole_latex
+from derive.page.wording import DimensionMark, DisplayedMath, Text, ToldIn, ToldOnce, UnitMark
+from derive.render.printing.latex_page import (
+    Fragments,
+    LatexPage,
+    Passage,
+    dotted,
+    passages_of,
+    problem_latex,
+    whole_latex,
+)
 from tests.courses import ROOT
 from tests.render.pages import NOTATION, VECTORS, WHOLE, WORDS, M, T, a, display, page
 
@@ -216,3 +224,8 @@ def test_a_theorem_ends_its_paragraph_where_it_is_told_and_begins_one_where_it_i
     told = ToldOnce("levers", (Text("Levers balance."),), (Text("For levers see above."),))
     tex = solution(page(Paragraph((told, Text("So this one does.")))))
     assert r"\theorem{levers}{Levers balance.\par}{For levers see above.\ }So this one does." in tex
+
+
+def test_a_formula_on_a_line_of_its_own_ends_with_its_punctuation() -> None:
+    said = (Text("so "), DisplayedMath(a), Text(" and "), DisplayedMath(M), Text(". Then"))
+    assert LatexPage(WHOLE, WORDS, NOTATION).inline(said) == r"so \[a\quad\text{and}\quad M.\] Then"
