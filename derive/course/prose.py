@@ -3,7 +3,7 @@ r"""Prose as an instructor writes it: plain text with mentions and formulas.
 `<<name>>` stands for a symbol or a derived result, `<<eq torque>>` for the equation number of the step `torque`,
 `<<figure axes>>` for the number of the drawing `axes`, and `<<problem top>>` for the number of another problem of the
 set. `$y = x^2/(2b)$` is a formula in LaTeX. It is parsed when the page is made (`derive.page.formulas`), and its
-letters are the letters of the problem. `\$` is a dollar sign.
+letters are the letters of the problem. Between double dollar signs, it has a line of its own. `\$` is a dollar sign.
 
 Prose has no template commands; it is escaped when it is printed.
 """
@@ -25,6 +25,7 @@ LONGEST_IN_PROSE = 400
 # A dollar sign next to a digit may be the sign of a price: "2$a$" has a formula, "5$ each" has none.
 _PIECE = re.compile(
     r"(?P<dollar>\\\$)"
+    r"|(?P<displayed>\$\$[^$]+\$\$)"
     r"|(?P<formula>\$(?:(?<!\d\$)(?=[^\d$])|(?=[A-Za-z\\({]))[^$]*\$|\$(?=\d)[^$]*[^$\s]\$(?!\d))"
     r"|<<\s*(?:(?P<of>eq|figure)\s+)?(?P<name>[A-Za-z][A-Za-z0-9_]*)\s*>>"
     r"|<<\s*problem\s+(?P<problem>[A-Za-z0-9][\w-]*)\s*>>"
@@ -49,9 +50,13 @@ class Mention:
 
 @dataclass(frozen=True)
 class TexFormula:
-    """A formula of the author: the LaTeX between two dollar signs, with its place in the file."""
+    """A formula of the author: the LaTeX between dollar signs, with its place in the file.
+
+    displayed   whether it has a line of its own
+    """
 
     scalar: Scalar
+    displayed: bool = False
 
     @property
     def tex(self) -> str:
@@ -106,6 +111,8 @@ class Prose:
             return "$"
         if match["formula"]:
             return TexFormula(self.part(start + 1, end - start - 2))
+        if match["displayed"]:
+            return TexFormula(self.part(start + 2, end - start - 4), displayed=True)
         of = PROBLEM if match["problem"] else match["of"] or ""
         return Mention(match["name"] or match["problem"] or "", self.place_within(start, end - start), of)
 
@@ -176,7 +183,7 @@ def _check_dollars(node: Scalar, faults: Faults) -> None:
     if lone is not None:
         message = "this `$` begins no formula and belongs to no price"
         if node.text[lone : lone + 2] == "$$":
-            message = "a formula in prose is between single dollar signs"
+            message = "this `$$` begins no formula"
         faults.error("formula-in-prose", message, node.place_within(lone), help=_DOLLAR)
 
 
@@ -205,7 +212,7 @@ def latex_in(prose: Prose) -> Complaint | None:
 
 def _blanked(match: re.Match[str]) -> str:
     """Replace formulas and dollar signs by blanks, and a mention by letters, because `<<x>>^2` contains LaTeX."""
-    return (" " if match["formula"] or match["dollar"] else "x") * len(match[0])
+    return (" " if match["formula"] or match["displayed"] or match["dollar"] else "x") * len(match[0])
 
 
 PROSE = Reader(TEXT.schema, _some_prose)

@@ -12,6 +12,7 @@ from derive.algebra.expressions import Amount, Relation
 from derive.algebra.kinds import unit_of_kind
 
 MIRRORED = {">": "<", ">=": "<="}
+FRICTION = "mu"  # the name of a coefficient of friction
 ANGLE = unit_of_kind("angle")  # bounds of angles, such as pi/2, are written without a unit
 
 
@@ -19,14 +20,11 @@ def between_bounds(assumed: Iterable[Relation]) -> list[Relation]:
     """Join the two numerical bounds of a symbol, and leave out conditions such as sin(alpha) != 0 that these bounds
     imply."""
     conditions = list(assumed)
-    below = {
-        r.left: r for r in conditions if r.operator in MIRRORED and isinstance(r.left, Symbol) and r.right.is_number
-    }
-    above = {r.left: r for r in conditions if r.operator in MIRRORED.values() and r.left in below and r.right.is_number}
+    below, above = _bounds(conditions)
     found: list[Any] = []
     for condition in conditions:
         letter = condition.left
-        if above.get(letter) == condition or _follows(condition, below, above):
+        if above.get(letter) == condition:
             continue
         if below.get(letter) == condition and letter in above:
             lower = Relation(condition.right, MIRRORED[condition.operator], letter)
@@ -36,11 +34,35 @@ def between_bounds(assumed: Iterable[Relation]) -> list[Relation]:
     return found
 
 
+def not_implied(assumed: Iterable[Relation]) -> list[Relation]:
+    """Return the assumptions without those that numerical bounds imply: 0 < alpha < pi/2 implies sin(alpha) != 0."""
+    conditions = list(assumed)
+    below, above = _bounds(conditions)
+    return [condition for condition in conditions if not _follows(condition, below, above)]
+
+
+def _bounds(conditions: Iterable[Relation]) -> tuple[dict[Expr, Relation], dict[Expr, Relation]]:
+    """Return the numerical lower bounds of symbols, and the upper bounds of symbols that have a lower bound."""
+    numbers = [each for each in conditions if isinstance(each.left, Symbol) and each.right.is_number]
+    below = {each.left: each for each in numbers if each.operator in MIRRORED}
+    return below, {each.left: each for each in numbers if each.operator in MIRRORED.values() and each.left in below}
+
+
+def is_of_a_magnitude(condition: Relation) -> bool:
+    """Return whether the condition is that a coefficient of friction is positive."""
+    letter = condition.left
+    is_positive = condition.operator == ">" and condition.right == 0
+    return is_positive and isinstance(letter, Symbol) and letter.name.partition("_")[0] == FRICTION
+
+
 def says_the_same(condition: Relation, other: Relation) -> bool:
-    """Return whether two strict inequalities are the same, up to a positive numerical factor."""
-    if not {condition.operator, other.operator} <= {"<", ">"}:
+    """Return whether two inequalities are the same, up to a positive numerical factor."""
+    strict = [each.operator for each in (condition, other) if each.operator in ("<", ">")]
+    if len(strict) == 1 or not {condition.operator, other.operator} <= {*MIRRORED, *MIRRORED.values()}:
         return False
-    one, two = (expand((each.left - each.right) * (1 if each.operator == ">" else -1)) for each in (condition, other))
+    one, two = (
+        expand((each.left - each.right) * (1 if each.operator in MIRRORED else -1)) for each in (condition, other)
+    )
     factor = cancel(one / two) if two != 0 else Integer(0)
     return bool(factor.is_number and factor.is_positive)
 

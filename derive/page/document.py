@@ -26,7 +26,7 @@ from derive.course.reference.comparison import Told
 from derive.course.written import ANY_OUTCOME
 from derive.errors import Complaint, Place, did_you_mean
 from derive.figures.marks import Plot, Recorded
-from derive.page.assumptions import between_bounds, says_the_same, with_units
+from derive.page.assumptions import between_bounds, is_of_a_magnitude, not_implied, says_the_same, with_units
 from derive.page.chain_lines import ChainWriter, Equations, conditions_of, without_inserted
 from derive.page.checks import checks_of, second_ways_of
 from derive.page.clauses import Clauses, continues_sentence
@@ -43,7 +43,8 @@ from derive.page.depiction import (
 )
 from derive.page.figures_named import figures_mentioned
 from derive.page.formulas import Formulas
-from derive.page.introduced import references_in, wanting
+from derive.page.in_words import in_words
+from derive.page.introduced import letters_in, references_in, wanting
 from derive.page.names import page_names
 from derive.page.numbering import Numbering
 from derive.page.numbers_given import are_told, numbers_left, numbers_of_cases, take
@@ -106,6 +107,8 @@ def document_of(
         writer = _Writer(problem, derivation, values, words, level, others or {}, drawings, needed, like)
         document = writer.document([c for c in compared if c.here], evidence)
         more = needed.with_more(*writer.needs(document))
+        if more == needed and level is not Level.FULL:
+            more = replace(needed, in_words={**needed.in_words, **in_words(document, derivation, problem.wording)})
         if more == needed:
             return document, [*writer.faults, *writer.without_number(document)]
         needed = more
@@ -275,8 +278,10 @@ class _Writer:
 
     def _assumed(self) -> tuple[Inline, ...]:
         """Return a sentence with the assumptions about symbols, to follow the statement, without those that the
-        statement or a question contains."""
-        assumed = [each for each in self.derivation.assumed if each not in self.derivation.in_words]
+        statement or a question contains. The figure and the motion show the range of a coordinate."""
+        moving = {q for step in self.derivation.steps for q, _ in step.coordinates}
+        assumed = [each for each in not_implied(self.derivation.assumed) if each not in self.derivation.in_words]
+        assumed = [each for each in assumed if not letters_in([each]) <= moving and not is_of_a_magnitude(each)]
         assumed = [each for each in assumed if not any(says_the_same(each, other) for other in self.formulas.stated)]
         if not assumed:
             return ()
@@ -322,7 +327,7 @@ class _Writer:
             self.rest = self.selection.standing_after(key, self.derivation.parts[index])
             step = self.selection.step(self.derivation.step(key))
             self._append(blocks, step, framed=key in framed, verdict=key in boxed and step.display.verdict)
-            self.before = self.derivation.step(key) if key in self.numbers else self.before
+            self.before = self.derivation.step(key) if self._is_told(key) else self.before
             ends |= dict.fromkeys(self._completed(key), len(blocks))
         blocks.extend([Paragraph(clause)] if (clause := (*self._clause(blocks), *self.clauses.begun())) else [])
         steps, self.rest = len(blocks), []
@@ -425,7 +430,10 @@ class _Writer:
         self.numbers.add(step.key)
         lines = self.stated.without_repeats(self.lines.of(self.theorems.without_law(step), mode), self.symbols.values())
         if self.level is not Level.FULL:
-            lines = without_inserted(lines, [self.symbols.get(key) for key in self.numbers])
+            short = [each.symbol for each in self.clauses.waiting] if self.level is Level.BRIEF else []
+            lines = without_inserted(
+                lines, [*short, *(self.symbols[key] for key in self.symbols if self._is_told(key))]
+            )
         again = self.stated.noted(step.key, lines)
         if again is not None and step.outcome in AGAIN and nodes == (Chain(),) and self.level is not Level.FULL:
             self.numbers[step.key] = self.numbers[again]
@@ -441,6 +449,11 @@ class _Writer:
         lines, count = (*lines, *conditions), count + len(conditions)
         equations = Equations(step.key, lines, self.numbers[step.key], count)
         before, after = around_chain(nodes)
+        if step.key in self.selection.needed.in_words and step.key not in self.selection.needed.numbers:
+            blocks.append(
+                Paragraph((*self._clause(blocks), *self.clauses.begun(), *self._in_words(step, before, after)))
+            )
+            return
         routes, checks = (second_ways_of(step, sort, self.words) for sort in (Compared.ROUTE, Compared.CHECK))
         display = Display((equations,), frozenset({step.grade}), routes, checks=checks)
         if blocks and isinstance(blocks[-1], Display) and (not before or self._is_only_and(before)):
@@ -456,6 +469,14 @@ class _Writer:
             blocks.append(display)
         if after:
             blocks.append(Paragraph(self.clauses.around(after, blocks[-1])))
+
+    def _in_words(self, step: Step, before: Sequence[Inline], after: Sequence[Inline]) -> tuple[Inline, ...]:
+        """Return the sentence of a step with its equation, which then has no number."""
+        del self.numbers[step.key]
+        self.clauses.told.add(step.key)
+        is_named = self.selection.needed.in_words[step.key]
+        told = equation_of(step) if is_named else Math(step.result)
+        return (*before, told, Text("."), *([Text(" "), *after] if after else []))
 
     def _is_only_and(self, before: Sequence[Inline]) -> bool:
         return all(isinstance(n, Text) for n in before) and _text_of(before).strip() == self.words.labels["and"].strip()
@@ -488,11 +509,15 @@ class _Writer:
     def _completed(self, key: str) -> set[str]:
         """Return the steps that the page has now described."""
         self.unplaced.add(key)
-        if key not in self.numbers:
+        if not self._is_told(key):
             return set()
         found = {each for each in self.unplaced if self.selection.manner(each) is not TOLD or each in self.clauses.told}
         self.unplaced -= found
         return found
+
+    def _is_told(self, key: str) -> bool:
+        """Return whether the page has shown the equation of a step, in a display or in a sentence."""
+        return key in self.numbers or key in self.selection.needed.in_words and key in self.clauses.told
 
     def _phrase(self, step: Step, follows_words: bool = False) -> tuple[Inline, ...]:
         """Return the sentence of a step."""

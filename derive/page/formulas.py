@@ -40,6 +40,7 @@ FORCES = ("force", "torque")  # kinds of unknowns that vary in time like coordin
 TRIALS, DIGITS = 3, 30  # number of trial points, and number of digits, for the comparison of roots of sums
 DEEPEST = 4  # the largest number of successive substitutions: omega_2 is given by omega_0, and omega_0 by k and m
 MOST_COMBINATIONS = 16  # largest number of combinations of values, if a formula contains several results
+_INEQUALITIES = ("<", ">", "<=", ">=")
 _VARIANTS = ("epsilon", "theta", "rho", "sigma", "phi")  # `\varphi` is another shape of `\phi`
 _LETTER = re.compile(
     r"(\\d*dot|(?P<arrow>\\(vec|overrightarrow|boldsymbol|bm|mathbf)))?[{ ]*(\\[A-Za-z]+|[A-Za-z])\}?"
@@ -106,7 +107,9 @@ class Formulas:
         values = [value for side in read.sides for entries in side.branches for value, _ in entries]
         if len(values) == len(read.sides):
             inequalities = zip(pairwise(values), read.marks[1:], strict=True)
-            self.stated += [Relation(left, mark, right) for (left, right), mark in inequalities if mark in ("<", ">")]
+            self.stated += [
+                Relation(left, mark, right) for (left, right), mark in inequalities if mark in _INEQUALITIES
+            ]
         return self.node(formula)
 
     def node(self, formula: TexFormula, of_solution: Mapping[str, Declared] | None = None) -> Math | Text:

@@ -12,7 +12,7 @@ have lines of their own, unless earlier lines show their result. A step whose sy
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from sympy import MatrixBase, preorder_traversal
@@ -38,16 +38,21 @@ LONGEST_CLAUSE = 24  # greatest number of nodes of a result that appears in a cl
 
 @dataclass(frozen=True)
 class Needed:
-    """Hidden steps that the page needs because it uses their symbols or refers to their equations."""
+    """What an attempt at the page has shown: hidden steps that the page needs because it uses their symbols or refers
+    to their equations, and displays that it does not need because nothing refers to their numbers.
+
+    in_words   key of a step whose equation is in its sentence -> whether the page uses the symbol of the step
+    """
 
     letters: Mapping[str, int]  # key of a step -> number of attempts at the page that lacked its symbol
     numbers: frozenset[str] = frozenset()
+    in_words: Mapping[str, bool] = field(default_factory=dict)
 
     def with_more(self, letters: Iterable[str], numbers: Iterable[str]) -> Needed:
         counts = dict(self.letters)
         for key in letters:
             counts[key] = counts.get(key, 0) + 1
-        return Needed(counts, self.numbers | frozenset(numbers))
+        return replace(self, letters=counts, numbers=self.numbers | frozenset(numbers))
 
 
 NOTHING_NEEDED = Needed({})

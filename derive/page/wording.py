@@ -71,6 +71,11 @@ class Math:
 
 
 @dataclass(frozen=True)
+class DisplayedMath(Math):
+    """A formula of the author on a line of its own."""
+
+
+@dataclass(frozen=True)
 class FramedMath(Math):
     """A condition in running text that answers the question of a part; it is framed."""
 
@@ -401,7 +406,8 @@ def told(
         if isinstance(piece, str):
             nodes.append(Text(re.sub(r"\s+", " ", piece)))
         elif isinstance(piece, TexFormula):
-            nodes.append(formula(piece))
+            read = formula(piece)
+            nodes.append(DisplayedMath(read.expr) if piece.displayed and isinstance(read, Math) else read)
         elif piece.of:
             node = referred(piece)
             nodes += [node] if node else []

@@ -152,7 +152,7 @@ def test_a_formula_keeps_its_place_in_folded_text() -> None:
     ("text", "column", "message"),
     [
         ("'a $ b'", 11, "this `$` begins no formula and belongs to no price"),
-        ("'a $$x$$ b'", 11, "a formula in prose is between single dollar signs"),
+        ("'a $$x b'", 11, "this `$$` begins no formula"),
         ("'a $ $ b'", 12, "there is no formula between these dollar signs"),
         ("'a $x = <<x>>$ b'", 16, "a formula cannot contain a mention"),
         (r'"a $\theta$ b"', 12, "in double quotes, YAML reads a `\\` and a letter as one character: `\\t` is a tab"),
@@ -168,3 +168,11 @@ def test_a_formula_without_end_is_an_error_at_its_place(text: str, column: int, 
 
 def test_two_backslashes_in_double_quotes_are_one() -> None:
     assert prose(r'title: "a $\\theta$ b"').formulas[0].tex == r"\theta"
+
+
+def test_a_formula_between_double_dollar_signs_has_a_line_of_its_own() -> None:
+    pieces = prose("title: 'so $$x = a$$. With $b$ it'").pieces
+    assert [(piece.tex, piece.displayed) for piece in pieces if isinstance(piece, TexFormula)] == [
+        ("x = a", True),
+        ("b", False),
+    ]

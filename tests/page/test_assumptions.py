@@ -5,7 +5,7 @@ from __future__ import annotations
 from sympy import Symbol, cos, pi, sin
 
 from derive.algebra.expressions import Relation
-from derive.page.assumptions import between_bounds, with_units
+from derive.page.assumptions import between_bounds, not_implied, with_units
 from derive.render.notation.notation import Notation
 from derive.render.notation.text import plain
 
@@ -14,7 +14,7 @@ ABOVE, BELOW = Relation(alpha, ">", 0), Relation(alpha, "<", pi / 2)
 
 
 def told(*conditions: Relation) -> list[str]:
-    return [plain(Notation().layout(each)) for each in between_bounds(conditions)]
+    return [plain(Notation().layout(each)) for each in between_bounds(not_implied(conditions))]
 
 
 def test_two_bounds_of_a_letter_are_one_line() -> None:

@@ -15,8 +15,16 @@ from derive.course.names import EvidenceShown
 from derive.page.chain_lines import ChainLine, Equations
 from derive.page.template import Templates, templates_of
 from derive.page.tree import Document, Paragraph
-from derive.page.wording import DimensionMark, Text, ToldIn, ToldOnce, UnitMark
-from derive.render.printing.latex_page import Fragments, Passage, dotted, passages_of, problem_latex, whole_latex
+from derive.page.wording import DimensionMark, DisplayedMath, Text, ToldIn, ToldOnce, UnitMark
+from derive.render.printing.latex_page import (
+    Fragments,
+    LatexPage,
+    Passage,
+    dotted,
+    passages_of,
+    problem_latex,
+    whole_latex,
+)
 from tests.courses import ROOT
 from tests.render.pages import NOTATION, VECTORS, WHOLE, WORDS, M, T, a, display, page
 
@@ -169,13 +177,13 @@ def framed(*lines: ChainLine) -> list[str]:
 
 
 def test_a_result_is_framed_as_a_complete_equation() -> None:
-    assert framed(ChainLine(T, "equals", M * a)) == [r"\framedrow{T}{T = Ma}{.}{}{\anchor{hw9.one.1}\eqnumber{1}}"]
+    assert framed(ChainLine(T, "equals", M * a)) == [r"\framedrow{T}{T = Ma}{}{}{\anchor{hw9.one.1}\eqnumber{1}}"]
     (row,) = framed(ChainLine(T, "equals", M + a), ChainLine(None, "equals", M * a))
-    assert row == r"\framedrow{T}{T = M+a = Ma}{.}{}{\anchor{hw9.one.1}\eqnumber{1}}", (
+    assert row == r"\framedrow{T}{T = M+a = Ma}{}{}{\anchor{hw9.one.1}\eqnumber{1}}", (
         "a law in letters shares the frame"
     )
     (row,) = framed(ChainLine(T, "equals", sum(symbols("b_:16"))), ChainLine(None, "equals", M * a))
-    assert row.startswith(r"\row{T}{= b_{0}") and r"= \inframe{Ma}}{.}" in row
+    assert row.startswith(r"\row{T}{= b_{0}") and r"= \inframe{Ma}}{}" in row
 
 
 def listed(*steps: Equations) -> str:
@@ -188,7 +196,7 @@ def test_answers_one_after_the_other_are_in_one_frame_and_have_a_number_each() -
     tex = listed(first, second)
     assert tex.startswith("\\framedlist{")
     assert [tex.count(each) for each in ("framedrow", r"\listrow", r"\nextlistrow", r"\eqnumber")] == [0, 2, 1, 2]
-    assert r"\listrow{T}{= a}{}{" in tex and r"\listrow{M}{= a}{}{" in tex and tex.endswith("}{.}")
+    assert r"\listrow{T}{= a}{}{" in tex and r"\listrow{M}{= a}{}{" in tex and tex.endswith("}{}")
     assert listed(first, replace(second, framed=0)).count("list") == 0
 
 
@@ -216,3 +224,8 @@ def test_a_theorem_ends_its_paragraph_where_it_is_told_and_begins_one_where_it_i
     told = ToldOnce("levers", (Text("Levers balance."),), (Text("For levers see above."),))
     tex = solution(page(Paragraph((told, Text("So this one does.")))))
     assert r"\theorem{levers}{Levers balance.\par}{For levers see above.\ }So this one does." in tex
+
+
+def test_a_formula_on_a_line_of_its_own_ends_with_its_punctuation() -> None:
+    said = (Text("so "), DisplayedMath(a), Text(" and "), DisplayedMath(M), Text(". Then"))
+    assert LatexPage(WHOLE, WORDS, NOTATION).inline(said) == r"so \[a\quad\text{and}\quad M.\] Then"

@@ -98,3 +98,9 @@ def test_components_of_an_angular_velocity_stand_in_cyclic_order() -> None:
     turning = Notation({letter: dimension_of_kind(kind) for letter, kind in kinds.items()})
     read = [plain(turning.layout(product)) for product in (x * y, y * z, z * x, x * y * z, r_x * r_z, I_xz * x * z)]
     assert read == ["ω_x ω_y", "ω_y ω_z", "ω_z ω_x", "ω_x ω_y ω_z", "r_x r_z", "I_xz ω_x ω_z"]
+
+
+def test_velocities_stand_before_angular_velocities() -> None:
+    kinds = {"phi": "angle", "phi_dot": "angular speed", "x": "length", "x_dot": "velocity"}
+    moving = Notation({Symbol(name, real=True): dimension_of_kind(kind) for name, kind in kinds.items()})
+    assert plain(moving.layout(Symbol("phi_dot", real=True) * Symbol("x_dot", real=True))) == "x\u0307 \u03c6\u0307"

@@ -386,9 +386,11 @@ def names_the_enforcer(facts: Judged, outcome: str) -> bool:
 
 
 def _keeps_one_constant(facts: Judged) -> bool:
-    """Whether the result is about the acceleration of one coordinate, and the constraint does not contain the time."""
-    left, condition = explicit(facts.result).left, facts.inputs["condition"]
-    return left in {rate(q, 2) for q in condition.free_symbols} and not depends_on_time(condition)
+    """Whether the result is that the acceleration of one coordinate vanishes, and the constraint does not contain the
+    time."""
+    result, condition = explicit(facts.result), facts.inputs["condition"]
+    vanishes = result.left in {rate(q, 2) for q in condition.free_symbols} and result.right == 0
+    return vanishes and not depends_on_time(condition)
 
 
 def kept_constant(facts: Judged, q: Any) -> bool:

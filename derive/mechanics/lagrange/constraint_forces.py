@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence, Set
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import Any
@@ -193,17 +193,34 @@ def multipliers(*equations: Quantity, keeping: Sequence[Coordinate] = ()) -> tup
     return _steps(problem, [each.force for each in problem.constraints])
 
 
-def _not_all_negative(left: Expr) -> Expr:
-    """Change all signs if all are negative: x_ddot + y_ddot = 0, not -x_ddot - y_ddot = 0."""
+def _with_one_alone(left: Expr, wanted: Set[Symbol]) -> Relation:
+    """Return the equation left = 0 solved for a symbol of `wanted` that is a term by itself:
+    y_ddot = R phi_ddot. If there is none, change all signs if all are negative."""
     terms = Add.make_args(left)
-    return Add(*(-term for term in terms)) if all(term.could_extract_minus_sign() for term in terms) else left
+    others = {term: [each for each in terms if each is not term] for term in terms}
+    for term in reversed(terms) if len(terms) > 1 else ():
+        sign, symbol = (1, term) if isinstance(term, Symbol) else (-1, -term)
+        if symbol in wanted and not any(each.has(symbol) for each in others[term]):
+            return Relation(symbol, "=", Add(*(-sign * each for each in others[term]), evaluate=False))
+    is_negative = all(term.could_extract_minus_sign() for term in terms)
+    return Relation(Add(*(-term for term in terms)) if is_negative else left, "=", ZERO)
 
 
-def _told(of: Constraint) -> Relation:
-    """Return the relation of a constraint. If the right side is zero and the left side begins with a minus sign, change
-    the sign: y_dot + R phi_dot = 0, not -(y_dot + R phi_dot) = 0."""
-    is_negative = of.right == 0 and of.left.could_extract_minus_sign()
-    return Relation((-of.left).expand(), "=", ZERO) if is_negative else of.relation
+def _arranged(left: Expr, moving: Sequence[Symbol]) -> Relation:
+    """Return the equation left = 0 with its terms collected by accelerations, solved for an acceleration that is a term
+    by itself."""
+    solved = _with_one_alone(by_accelerations(left, moving), {rate(q, 2) for q in moving})
+    return Relation(solved.left, "=", by_accelerations(solved.right, moving)) if solved.right != 0 else solved
+
+
+def _told(of: Constraint, moving: Sequence[Symbol]) -> Relation:
+    """Return the relation of a constraint. If the right side is zero, a constraint between rates is solved for a rate
+    that is a term by itself; otherwise the left side does not begin with a minus sign."""
+    if of.right != 0:
+        return of.relation
+    if of.in_rates and (solved := _with_one_alone(of.left.expand(), {rate(q) for q in moving})).right != 0:
+        return solved
+    return Relation((-of.left).expand(), "=", ZERO) if of.left.could_extract_minus_sign() else of.relation
 
 
 def _fixed(of: Constraint, moving: Sequence[Symbol]) -> Relation | None:
@@ -269,14 +286,12 @@ def constraint_rate(of: Quantity, number: int = 0, key: str | None = None) -> Qu
         lines=Lines(
             put_in=None,
             law=Level.FULL,
-            arranged=lambda found: Relation(
-                _not_all_negative(by_accelerations(explicit(found.left), moving)), "=", ZERO
-            ),
+            arranged=lambda found: _arranged(explicit(found.left), moving),
         ),
         routes={"functions_of_time": compared_with(by_time)},
         outcome="in_rates" if each.in_rates else "constant" if fixed else "in_coordinates",
         phrase_data=PhraseData(
-            formulas={"constraint": (fixed or _told(each), Relation(each.residual, "=", ZERO))},
+            formulas={"constraint": (fixed or _told(each, moving), Relation(each.residual, "=", ZERO))},
             words={"enforcer": each.enforcer if each.enforcer in KEPT else FORMULA},
             named={"kept": fixed.left} if fixed else {},
             outcome_data={"of": each},

@@ -19,7 +19,7 @@ from derive.render.notation.products import Place, positive_first, rank_of_dimen
 
 DISPLACEMENT = "eta"  # the name of a displacement from an equilibrium
 RATE_ENDS = ("_ddot", "_dot")  # suffixes of the names of accelerations and of rates
-COEFFICIENTS = ("mu", "e")  # the names of coefficients of friction and of restitution
+COEFFICIENTS = ("mu", "e", "beta", "gamma", "epsilon")  # the names of coefficients: 1 + beta, beta m g
 RATE_OF_TURNING = dimension_of_kind("angular speed")
 
 
@@ -83,7 +83,11 @@ def motion_first(terms: list[Any], moving: Mapping[str, int]) -> list[Any]:
         degrees = (-powers.get(s, Rational(0)) for s in rates if powers.get(s, Rational(0)).is_Integer)
         return (*degrees, not any(f"{s.name}{RATE_ENDS[1]}" in moving for s in term.free_symbols))
 
-    return sorted(terms, key=place) if rates else terms
+    if any(isinstance(term, Symbol) and term.name.endswith(RATE_ENDS[0]) for term in terms):
+        return sorted(terms, key=place)
+    # y + 7 x_dot/(2 Omega): a coordinate by itself is first, except in an equation of motion
+    alone = [term for term in terms if isinstance(term, Symbol) and f"{term.name}{RATE_ENDS[1]}" in moving]
+    return [*alone, *sorted((term for term in terms if term not in alone), key=place)] if rates else terms
 
 
 def holds_rates(expr: Expr) -> bool:
@@ -100,8 +104,24 @@ def ordered_factors(
 ) -> list[Expr]:
     """Return the factors of a product in the order of print; `moving` has the names of all symbols, as in
     `ordered_terms`."""
-    ordered = _cyclic(sorted(factors, key=lambda f: rank_of_factor(f, dimension_of)), dimension_of)
+    ranked = sorted(factors, key=lambda f: rank_of_factor(f, dimension_of))
+    ordered = _cyclic(_rates_in_order(ranked, dimension_of, moving), dimension_of)
     return _coordinates_last(ordered, dimension_of, moving)
+
+
+def _rates_in_order(
+    factors: list[Expr], dimension_of: Callable[[Any], Dimension | None], moving: Collection[str]
+) -> list[Expr]:
+    """Write velocities before angular velocities, and both in the order of the coordinates: x_dot theta_dot."""
+    rates = [f for f in factors if f.is_Symbol and str(f).endswith(RATE_ENDS)]
+    places = {name: place for place, name in enumerate(moving)}
+
+    def place(factor: Expr) -> tuple[bool, int]:
+        dimension = dimension_of(factor)
+        return bool(dimension is None or not dimension.length), places.get(_coordinate(factor), len(places))
+
+    ordered = iter(sorted(rates, key=place))
+    return [next(ordered) if factor in rates else factor for factor in factors]
 
 
 def _coordinates_last(

@@ -60,10 +60,11 @@ def _number(line: Printed) -> str:
 
 def _row(lines: Sequence[Printed], stop: str, ending: str) -> Row:
     first, *others = lines
+    stop = "" if lines[-1].framed else stop  # a frame ends a sentence without punctuation
     left = latex(first.left) if first.left else ""
     if first.frames_all:
         rows = [Row(left, _sides(first.sides)), *_going_on(others)]
-        return Row("", _boxed(aligned(rows)) + stop + ending)
+        return Row("", _boxed(aligned(rows)) + ending)
     if not others:
         body = _with_box(first)
     else:

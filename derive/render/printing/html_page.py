@@ -21,6 +21,7 @@ from derive.page.theorems import standalone
 from derive.page.tree import Block, Display, Document, Folded, Illustration, PartPage
 from derive.page.wording import (
     DimensionMark,
+    DisplayedMath,
     FigureRef,
     FramedMath,
     Inline,
@@ -51,6 +52,7 @@ LISTED = 3  # a page with at least this many parts has a table of contents
 # Characters of a formula that fit into a narrow window, in text and in a table. A wider formula can be scrolled, also
 # by keyboard.
 WIDE, IN_TABLE = 24.0, 14.0
+DISPLAYED = '<span class="displayed">'
 PUNCTUATION = re.compile(r"[.,;:!?)]+(?= |$)")
 
 
@@ -144,7 +146,9 @@ class HtmlPage:
         for node in nodes:
             printed = self._node(node)
             stop = PUNCTUATION.match(printed) if found and type(node) is Text else None
-            if stop and found[-1].endswith(("</math>", CLOSED)):
+            if stop and found[-1].startswith(DISPLAYED):
+                found[-1], printed = f"{found[-1].removesuffix(CLOSED)}{stop[0]}{CLOSED}", printed[stop.end() :]
+            elif stop and found[-1].endswith(("</math>", CLOSED)):
                 found[-1], printed = _ended(found[-1], stop[0]), printed[stop.end() :]
             found.append(printed)
         return Html("".join(found))
@@ -166,6 +170,8 @@ class HtmlPage:
                 return escape(text)
             case FramedMath(expr):
                 return f'<span class="verdict">{mathml(self.notation.result(expr), inline=True)}</span>'
+            case DisplayedMath(expr):
+                return f"{DISPLAYED}{mathml(self.notation.result(expr))}{CLOSED}"
             case Math(expr):
                 layout = self.notation.result(expr)
                 if width(layout) <= WIDE:
@@ -237,7 +243,10 @@ class HtmlPage:
         follows, leads     whether the row shares its frame with the row above, and with the row below
         """
         left = "" if line.left is None else _side("start", line.left)
-        cells = [f'<span class="left">{left}</span>', f'<span class="sides">{_sides(line, stop)}</span>']
+        cells = [
+            f'<span class="left">{left}</span>',
+            f'<span class="sides">{_sides(line, "" if line.framed else stop)}</span>',
+        ]
         if line.frames_all:
             cells = ['<span class="answer">', *cells, "</span>"]
         is_new = line.number is not None and self._is_first(line.number)
@@ -294,7 +303,7 @@ def _sides(line: Printed, stop: str) -> str:
     sign = TEX_OPERATORS[relation].strip()
     framed = "".join([_side("start", first), *(_side(*other) for other in others)])
     begun = of_latex(sign) if sign else ""
-    return "".join([*shown, f'<span class="framed">{begun}<span class="answer">{framed}{_stop(stop)}</span></span>'])
+    return "".join([*shown, f'<span class="framed">{begun}<span class="answer">{framed}</span></span>'])
 
 
 def _ending(sides: Sequence[str], stop: str) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 import textwrap
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -20,6 +21,7 @@ from derive.page.template import Templates
 from derive.page.tree import Block, Display, Document, Illustration, Paragraph, PartPage
 from derive.page.wording import (
     DimensionMark,
+    DisplayedMath,
     FigureRef,
     FramedMath,
     Inline,
@@ -49,6 +51,8 @@ from derive.render.rendered import Tex
 # Approximate heights on the page in points, and characters in a line of text and of a note.
 LINE_HEIGHT, ROW_HEIGHT, AROUND, NOTE_LINE = 13.6, 19.0, 14.0, 8.5
 CHARACTERS, NOTE_CHARACTERS = 92, 14
+_ADJACENT_DISPLAYS = re.compile(r"(,?)\\\] *(\w{0,4}) *\\\[")  # two formulas with at most a short word between them
+END_OF_DISPLAY = r"\]"
 FEW_ROWS = 4  # a display of at most this many steps is not divided between pages if each step is one low row
 
 
@@ -182,7 +186,14 @@ class LatexPage:
         return type(block).__name__.lower()
 
     def inline(self, nodes: Sequence[Inline]) -> Tex:
-        return Tex("".join(self._node(node) for node in nodes))
+        found: list[str] = []
+        for node in nodes:
+            printed = self._node(node)
+            if found and found[-1].endswith(END_OF_DISPLAY) and printed[:1] in (*".,;:",):
+                found[-1] = found[-1].removesuffix(END_OF_DISPLAY) + printed[0] + END_OF_DISPLAY
+                printed = printed[1:]
+            found.append(printed)
+        return Tex(_ADJACENT_DISPLAYS.sub(r"\1\\quad\\text{\2}\\quad ", "".join(found)))
 
     def _node(self, node: Inline) -> str:
         match node:
@@ -194,6 +205,8 @@ class LatexPage:
                 return rf"\verdict{{{escaped(text)}}}"
             case Text(text):
                 return escaped(text).replace(" = ", "~=~")
+            case DisplayedMath(expr):
+                return rf"\[{latex(self.notation.result(expr))}{END_OF_DISPLAY}"
             case Math(expr):
                 inner = f"${latex(self.notation.result(expr), inline=True)}$"
                 return rf"\verdict{{{inner}}}" if isinstance(node, FramedMath) else inner
@@ -236,19 +249,19 @@ class LatexPage:
         for steps_together in answers_together(printed):
             stop = display.stops[steps_together[-1]]
             lines = [printed[i] for i in steps_together]
-            steps.append(self._list(lines, stop) if len(lines) > 1 else self._step(lines[0], stop))
+            steps.append(self._list(lines) if len(lines) > 1 else self._step(lines[0], stop))
         return Tex(f"\n{between}\n".join(steps))
 
-    def _list(self, steps: Sequence[Sequence[Printed]], stop: str) -> str:
-        """Return answers in one frame, without punctuation between them. Each step has one row, with its number and its
-        reason, if it has one."""
+    def _list(self, steps: Sequence[Sequence[Printed]]) -> str:
+        """Return answers in one frame, without punctuation. Each step has one row, with its number and its reason, if it
+        has one."""
         rows = [
             rf"\listrow{{{latex(line.left) if line.left else ''}}}{{{_sides(line)}}}{{{self._reason(line)}}}"
             rf"{{{self._number_of(line)}}}"
             for (line,) in steps
         ]
         listed = "\n\\nextlistrow\n".join(rows)
-        return f"\\framedlist{{\n{listed}\n}}{{{stop}}}"
+        return f"\\framedlist{{\n{listed}\n}}{{}}"
 
     def _step(self, printed: Sequence[Printed], stop: str) -> str:
         rows = framed_together(printed)
@@ -257,8 +270,10 @@ class LatexPage:
         return "\n".join([set_rows[0], *(f"{at}\n{row}" for at, row in zip(breaks, set_rows[1:], strict=True))])
 
     def _row(self, lines: Sequence[Printed], stop: str) -> str:
-        """Return a row: left side, right sides, punctuation, reason and number."""
+        """Return a row: left side, right sides, punctuation, reason and number. A frame ends a sentence without
+        punctuation."""
         first, last = lines[0], lines[-1]
+        stop = "" if last.framed else stop
         left = latex(first.left) if first.left else ""
         if first.sides[0][0] == "start" and len(lines) == 1 and not first.frames_all:
             command, left, body = "brokenrow", _sides(first), ""

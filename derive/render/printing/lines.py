@@ -20,7 +20,7 @@ from derive.render.notation.text import plain
 LINE_WIDTH, PAGE_WIDTH, TEXT_WIDTH = 74.0, 66.0, 60.0  # widths of a line on paper, in a browser and in text
 LINE_INDENT = 4.0  # indent of a continuation line
 GAP = 5.0  # width of the gap between two equations on one row
-LAW_WIDTH = 16.0  # greatest width of a law in letters, such as T - U, that shares the frame of its result
+LAW_WIDTH = 28.0  # greatest width of a law in letters, such as T - U, that shares the frame of its result
 INEQUALITIES = {"less", "greater", "at_most", "at_least", "unequal"}
 MOST_SIDES = 4  # greatest number of right sides on one line of a chain
 
