@@ -253,8 +253,8 @@ class LatexPage:
         return Tex(f"\n{between}\n".join(steps))
 
     def _list(self, steps: Sequence[Sequence[Printed]]) -> str:
-        """Return answers in one frame, without punctuation. Each step has one row, with its number and its reason, if it
-        has one."""
+        """Return answers in one frame, without punctuation. Each step has a row with its number and, if it has one, its
+        reason."""
         rows = [
             rf"\listrow{{{latex(line.left) if line.left else ''}}}{{{_sides(line)}}}{{{self._reason(line)}}}"
             rf"{{{self._number_of(line)}}}"
