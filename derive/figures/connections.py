@@ -720,8 +720,11 @@ class Connections:
     def _pin(self, pin: Pin) -> Iterable[Mark]:
         if moving := list(moving_end(self.system, pin.at, True)):
             return moving
-        still = is_fixed(self.system, pin.at)
-        return [FixedEnd(column_of(pin.at), downwards(self.rows) if still else column_of(pin.at) * 0, True)]
+        if not is_fixed(self.system, pin.at):
+            return [FixedEnd(column_of(pin.at), column_of(pin.at) * 0, True)]
+        centres = (force.of.centre for force in pin.forces if hasattr(force.of, "centre"))
+        held = next((column_of(centre - pin.at) for centre in centres if self.in_a_plane), None)
+        return [FixedEnd(column_of(pin.at), downwards(self.rows), True, held)]
 
     def _wire(self, wire: Wire) -> Iterable[Mark]:
         """Yield the curve of a wire: the path of its particle as the coordinate of the particle varies."""

@@ -452,6 +452,11 @@ def test_a_rod_on_a_rotating_shaft_hangs_from_the_shaft() -> None:
     assert [str(c) for c in shaft.end - shaft.start] == ["0", "0", "3*l/8"]
 
 
+def test_a_rod_that_stands_on_a_hinge_has_the_hatches_of_the_ground_below_the_hinge() -> None:
+    (hinge,) = of_class(library_drawings("hinge_force")["system"], FixedEnd)
+    assert [str(c) for c in hinge.held] == ["x", "y"]
+
+
 def test_the_angle_of_a_pulley_is_positive_and_shows_its_positive_sense() -> None:
     drawn = library_drawings("atwood_disc")["system"]
     (angle,) = of_class(drawn, AngleBetween)
