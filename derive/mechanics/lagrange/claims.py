@@ -469,8 +469,10 @@ def follows_from_a_constraint(facts: Judged, told: Relation) -> bool:
     q = accelerated.get(told.left, told.left)
     if q is not told.left and not is_zero(by_functions_of_time(values[q], moving, 2) - told.right):
         return False
-    about = [each for each in facts.inputs["constraints"] if each.has(q)]
-    return any(is_zero(explicit(each).xreplace(values)) for each in about)
+    # The value of q comes last, so that a square root of q**2 is q and not the size of the value of q.
+    others = {s: value for s, value in values.items() if s != q}
+    about = [explicit(each).xreplace(others) for each in facts.inputs["constraints"] if each.has(q)]
+    return any(is_zero(each.xreplace(values)) for each in about)
 
 
 def eliminated(facts: Judged) -> bool:

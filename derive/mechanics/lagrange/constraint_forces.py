@@ -100,13 +100,19 @@ class _Problem:
         for each in self.constraints:
             residual = each.residual.xreplace(found)
             slopes = {q: derivative(residual, q) for q in self.moving}
-            q = next((q for q, slope in slopes.items() if slope.is_nonzero and slope.is_number), None)
-            if each.in_rates or q is None:
+            fit = [q for q, slope in slopes.items() if slope.is_nonzero and slope.is_number]
+            if each.in_rates or not fit:
                 continue
+            q = min(fit, key=self._is_in_forces)
             value = -(residual - slopes[q] * q) / slopes[q]
             new = {q: tidied(value), rate(q): tidied(TimeRate(value, *self.moving))}
             found = {**{letter: old.xreplace(new) for letter, old in found.items()}, **new}
         return found
+
+    def _is_in_forces(self, q: Symbol) -> bool:
+        """Whether the derivative of the Lagrangian by q contains a coordinate or a rate."""
+        slope = derivative(explicit(self.lagrangian.value), q)
+        return not slope.free_symbols.isdisjoint([*self.moving, *map(rate, self.moving)])
 
     @property
     def residuals(self) -> list[Expr]:
