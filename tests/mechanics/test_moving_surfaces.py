@@ -8,9 +8,10 @@ import pytest
 from sympy import Expr, Integer, Symbol, cos, sin, symbols
 
 from derive.algebra.expressions import explicit
+from derive.building.solution import rendered
 from derive.mechanics.model import contacts
 from derive.steps.step import is_zero
-from tests.stock.described import edited, messages, solved
+from tests.stock.described import course_with, edited, messages, solved
 
 BANK = """\
 title: A car on a banked curve
@@ -132,3 +133,19 @@ def test_a_positive_coordinate_stays_positive_where_a_constraint_replaces_it(tmp
 
 def test_sliding_friction_has_no_equilibrium_for_small_motions(tmp_path: Path) -> None:
     assert "sliding friction does not act at rest" in messages(tmp_path, BELT)[0]
+
+
+def test_no_size_is_compared_with_a_rate_to_change_the_sign_of_a_normal_force(tmp_path: Path) -> None:
+    """N = m (g cos(theta) - R theta_dot**2) vanishes for R = g cos(theta)/theta_dot**2, but it is never negative."""
+    text = edited(
+        PLANK,
+        (
+            "coordinates: {x: length, y: length, theta: angle}",
+            "coordinates: {r: positive length, theta: 'angle in (0, pi/2)'}",
+        ),
+        ("  bodies: {rod: {shape: rod, length: l, mass: M, from: [0, 0], along: [cos(theta), sin(theta)]}}\n", ""),
+        ("at: [x, y]", "at: [r*sin(theta), r*cos(theta)]"),
+        ("{through: rod, along: [cos(theta), sin(theta)], of: rod}", "{centre: [0, 0], radius: l}"),
+        ("answer: motion_theta", "answer: N"),
+    )
+    assert "opposite signs" not in rendered(course_with(tmp_path, text), "trial/one", only={"text"}).texts["text"]
