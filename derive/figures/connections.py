@@ -11,7 +11,7 @@ from functools import cached_property
 from itertools import combinations, pairwise
 from typing import Any, TypeVar
 
-from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, cos, diff, pi, sin, sqrt
+from sympy import Abs, Add, Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, cos, diff, pi, sin, sqrt
 
 from derive.algebra.expressions import TIME, column, explicit, rate
 from derive.algebra.ranges import range_of
@@ -383,6 +383,8 @@ class Connections:
         elif isinstance(plane.moves, Location):
             velocity = Location(tuple(diff(c, TIME) for c in plane.moves.components))
             size = tidied(sqrt(Add(*(c**2 for c in velocity.components))))
+            if isinstance(size, Abs) and size.args[0].is_Symbol:  # the arrow is drawn for a positive symbol
+                size = size.args[0]
             yield Edge(column_of(low), column_of(high), "edge")
             start = low + Rational(1, 10) * (high - low) - self.size * Rational(1, 5) * plane.unit_normal
             yield Arrow(column_of(start), column_of(velocity), Rational(1, 2), False, label=size)
@@ -517,7 +519,9 @@ class Connections:
             inwards = -self.size * plane.unit_normal  # a body with a vertical face, or with a face on its lower side
             corners, sort = (low, high, high + inwards, low + inwards), WedgeMark
         else:
-            if (height := self._floor_under(plane.of)) is not None:
+            height = self._floor_under(plane.of)
+            # If the top of the face is not above the floor, the wedge is drawn above it without its true height.
+            if height is not None and self.number(high.components[1] - height) > SMALL:
                 low = low + tidied((height - low.components[1]) / y) * (high - low)
             corners, sort = (low, high, Location((high.components[0], low.components[1]))), WedgeMark
             angle = _angle_in(plane.unit_normal)

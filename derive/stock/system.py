@@ -369,11 +369,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         """Return the equilibria; with constraint forces, the positions and forces that solve the static equations."""
         if self.described.given is not None or not self.system.constraints:
             return self.stationary
-        letters = {each.force for each in self.system.constraints}
-        if any(c.free_symbols & letters for force in self.system.given_forces for c in force.components):
-            message = "sliding friction does not act at rest: static friction can have any value up to a maximum"
-            help_line = "describe the contact with static friction, `{static: mu_s, force: F}`"
-            raise Rejected(Complaint("friction-at-rest", message, help=help_line))
+        self._check_friction_at_rest()
         forces = [each.force for each in self.system.constraints]
         if self.method in ABOUT:
             balances = [
@@ -519,6 +515,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         the Lagrangian."""
         if self.described.given is not None:
             return self.effective_potential if 0 < len(self.cyclic) < len(self.coordinates) else self.lagrangian
+        self._check_friction_at_rest()
         still: Mapping[Any, Any] = dict.fromkeys([q.rate for q in self.coordinates.values()], Integer(0))
         is_driven = explicit(self.kinetic_energy.value).xreplace(still) != 0
         is_pushed = is_driven or bool(self.system.given_forces)
@@ -545,6 +542,13 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
     def stationary(self) -> tuple[Quantity, ...]:
         """Return the states at which `potential_at_rest` is stationary."""
         return equilibria(self.potential_at_rest)
+
+    def _check_friction_at_rest(self) -> None:
+        letters = {each.force for each in self.system.constraints}
+        if any(c.free_symbols & letters for force in self.system.given_forces for c in force.components):
+            message = "sliding friction does not act at rest: static friction can have any value up to a maximum"
+            help_line = "describe the contact with static friction, `{static: mu_s, force: F}`"
+            raise Rejected(Complaint("friction-at-rest", message, help=help_line))
 
     def _stability_at(self, at: Quantity | Mapping[Any, Expr]) -> tuple[Quantity, ...]:
         """Decide stability by the potential energy, or by small motions if it does not decide.

@@ -142,6 +142,25 @@ def test_what_carries_a_slope_is_a_wedge_and_what_slides_on_it_a_block(tmp_path:
     assert "forces_wedge" not in drawn  # the table pushes the wedge by an unknown force
 
 
+def test_a_wedge_whose_top_is_described_at_the_floor_is_drawn_above_the_floor(tmp_path: Path) -> None:
+    text = edited(
+        BALL,
+        ("phi: angle}", "X: length}"),
+        ("bodies: {ball: {shape: ball, radius: a, mass: M, centre: [x, y], turned: -phi}}",
+         "particles: {wedge: {mass: a*M/a, at: [X, 0]}, "
+         "ball: {mass: M, at: [X + x*cos(alpha) + y*sin(alpha), -x*sin(alpha) + y*cos(alpha)]}}"),
+        ("{incline: {through: [0, 0], along: [cos(alpha), -sin(alpha)]}}",
+         "{incline: {through: wedge, along: [cos(alpha), -sin(alpha)], of: wedge}, "
+         "floor: {through: [0, 0], along: [1, 0]}}"),
+        ("{of: ball, on: incline, normal: N, friction: {rolling: F}}",
+         "[{of: ball, on: incline, normal: N}, {of: wedge, on: floor}]"),
+        ("[N, F]", "N"),
+    )  # fmt: skip
+    drawn = drawings(tmp_path, text)["system"]
+    (wedge,) = of_class(drawn, WedgeMark)
+    assert len({tuple(corner) for corner in wedge.corners}) == 3
+
+
 def test_a_bowl_is_a_circle(tmp_path: Path) -> None:
     text = edited(
         BALL, ("{through: [0, 0], along: [cos(alpha), -sin(alpha)]}", "{centre: [0, 0], radius: 6*a, side: inside}")

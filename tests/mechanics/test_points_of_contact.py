@@ -122,6 +122,6 @@ def test_the_couple_of_a_rigid_joint(tmp_path: Path) -> None:
     """A rigid rod of length 2l on a hinge: phi_ddot = -3 g sin(phi)/(4 l); the couple on its lower half is
     C = -m g l sin(phi)/8."""
     found = solved(tmp_path, WELDED)
-    phi, m, l, g = scalar("psi"), *symbols("m l g", positive=True)
+    phi, m, l, g = scalar("phi"), *symbols("m l g", positive=True)
     assert equal(found["acceleration_phi"].value, -3 * g * sin(phi) / (4 * l))
     assert equal(found["C"].value, -m * g * l * sin(phi) / 8)

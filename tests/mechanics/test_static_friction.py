@@ -441,3 +441,38 @@ def test_a_friction_that_is_not_along_a_surface_in_space_is_refused(
     monkeypatch.setattr(contacts, "_ways_along", lambda touch: {**right(touch), "y": touch.normal})
     with pytest.raises(DeriveError):
         solved(tmp_path, IN_SPACE)
+
+
+PEG = """\
+title: A rod on a peg
+solve: system
+method: newton
+symbols: {m: mass, l: length, h: length, g: acceleration, mu: positive number}
+given:
+  coordinates: {x: length, y: length, theta: 'angle in (0, pi/2)'}
+  bodies: {rod: {shape: rod, length: l, mass: m, along: [cos(theta), sin(theta)], from: [x, y]}}
+  gravity: g
+  surfaces:
+    floor: {through: [0, 0], along: [1, 0]}
+    under: {through: rod, along: [-cos(theta), -sin(theta)], of: rod}
+  contacts:
+    - {of: rod.end, on: floor, normal: N, friction: {static: mu, force: F}}
+    - {of: [0, h], on: under, normal: K}
+  results:
+    slip: {slips: rest_F, for: mu}
+statement: A rod leans on a smooth peg and stands on a rough floor.
+parts:
+  - ask: When does it not slip?
+    answer: slip
+"""
+
+
+def test_the_condition_holds_if_only_the_product_of_the_factors_of_n_is_known_to_be_positive(tmp_path: Path) -> None:
+    result = solved(tmp_path, PEG)["slip_1"].value
+    assert isinstance(result, Relation) and result.operator == ">="
+    h, l, theta = 1.0, 2.5, 0.8
+    numbers = {"h": h, "l": l, "theta": theta, "x": -h * cos(theta) / sin(theta), "y": 0.0}
+    K = l * sin(theta) * cos(theta) / (2 * h)  # the force of the peg in units of m g
+    wanted = K * sin(theta) / (1 - K * cos(theta))
+    right = explicit(result.right)
+    assert float(right.subs({s: numbers[s.name] for s in right.free_symbols})) == pytest.approx(wanted)

@@ -15,7 +15,7 @@ from sympy.matrices import ImmutableMatrix
 
 from derive.algebra.expressions import MassIntegral, bound, column, scalar, vector
 from derive.errors import Complaint, Rejected
-from derive.steps.record import named_coordinates
+from derive.steps.record import given_letters, named_coordinates
 
 Bounds = tuple[tuple[Symbol, Expr, Expr], ...]
 
@@ -122,9 +122,9 @@ class Region:
 
 
 def coordinates(names: Iterable[str], taken: Collection[Symbol]) -> list[Symbol]:
-    """Symbols for coordinates, distinct from the given symbols, from the coordinates of the problem and from each other
+    """Symbols for coordinates, distinct from the given symbols, from the letters of the problem and from each other
     as far as the names in `OTHERS` allow; for example r, or s if r is taken."""
-    letters = {letter.name for letter in (*taken, *named_coordinates())}
+    letters = {letter.name for letter in (*taken, *named_coordinates())} | given_letters()
     found: list[str] = []
     wanted = list(names)
     for name in wanted:

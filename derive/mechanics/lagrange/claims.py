@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from itertools import combinations
 from typing import Any
 
@@ -19,6 +19,7 @@ from sympy import (
     hessian,
 )
 
+from derive.algebra.derivatives import derivative
 from derive.algebra.equality import equal
 from derive.algebra.expressions import TIME, Partial, Relation, bound, depends_on_time, explicit, rate
 from derive.algebra.samples import letters_of, value_at
@@ -428,7 +429,7 @@ def follows_from_these_equations(facts: Judged, outcome: str) -> bool:
     present = {s for q in equations for s in explicit(q.value).free_symbols} - earlier.keys()
     unknowns = [facts.symbol, *(u for u in facts.inputs["unknowns"] if u in present and u != facts.symbol)]
     rows = [explicit(q.value.residual).xreplace(earlier) for q in equations]
-    rows = [explicit(row.xreplace(_values_by_constraints(facts))) for row in rows]
+    rows = [explicit(with_known(row, _values_by_constraints(facts), facts.inputs["moving"])) for row in rows]
     letters = {s for row in [*rows, explicit(facts.result)] for s in letters_of(row)} - {*unknowns}
     zero = dict.fromkeys(unknowns, Integer(0))
 
@@ -454,12 +455,33 @@ def follows_from_these_equations(facts: Judged, outcome: str) -> bool:
     return everywhere(trial_points(letters, *assumptions_about(letters), tried=4), gives)
 
 
+def with_known(value: Expr, known: Mapping[Symbol, Expr], moving: Sequence[Symbol]) -> Expr:
+    """Substitute known coordinates and rates, the constant ones first: a root of r**2 + z**2 becomes a positive r
+    before a formula replaces r."""
+    return value.xreplace(constant_ones(known, moving)).xreplace(dict(known))
+
+
+def constant_ones(known: Mapping[Symbol, Expr], moving: Sequence[Symbol]) -> dict[Symbol, Expr]:
+    varying = {*moving, *map(rate, moving)}
+    return {letter: each for letter, each in known.items() if varying.isdisjoint(each.free_symbols)}
+
+
 def _values_by_constraints(facts: Judged) -> dict[Symbol, Expr]:
     """Return the values of the coordinates, and of their rates, that the sentence takes from constraints."""
     fixed = [explicit(told) for role, told in facts.inputs.items() if role.startswith("fixed_")]
     moving = facts.inputs["moving"]
     rates = {rate(told.left): by_functions_of_time(told.right, moving, 1) for told in fixed if told.left in moving}
     return {**{told.left: told.right for told in fixed}, **rates}
+
+
+def _constants(facts: Judged) -> dict[Symbol, Expr]:
+    """Return the values of the coordinates that a constraint q = constant fixes."""
+    found = {}
+    for each in map(explicit, facts.inputs["constraints"]):
+        inside = [q for q in facts.inputs["moving"] if each.has(q)]
+        if len(inside) == 1 and (slope := derivative(each, inside[0])).is_number and slope.is_nonzero:
+            found[inside[0]] = -each.xreplace({inside[0]: Integer(0)}) / slope
+    return found
 
 
 def follows_from_a_constraint(facts: Judged, told: Relation) -> bool:
@@ -471,8 +493,9 @@ def follows_from_a_constraint(facts: Judged, told: Relation) -> bool:
     q = accelerated.get(told.left, told.left)
     if q is not told.left and not is_zero(by_functions_of_time(values[q], moving, 2) - told.right):
         return False
-    about = [each for each in facts.inputs["constraints"] if each.has(q)]
-    return any(is_zero(explicit(each).xreplace(values)) for each in about)
+    known = {**_constants(facts), **values}
+    about = [explicit(each) for each in facts.inputs["constraints"] if each.has(q)]
+    return any(is_zero(with_known(each, known, moving)) for each in about)
 
 
 def eliminated(facts: Judged) -> bool:

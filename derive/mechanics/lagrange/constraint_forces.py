@@ -100,13 +100,19 @@ class _Problem:
         for each in self.constraints:
             residual = each.residual.xreplace(found)
             slopes = {q: derivative(residual, q) for q in self.moving}
-            q = next((q for q, slope in slopes.items() if slope.is_nonzero and slope.is_number), None)
-            if each.in_rates or q is None:
+            fit = [q for q, slope in slopes.items() if slope.is_nonzero and slope.is_number]
+            if each.in_rates or not fit:
                 continue
+            q = min(fit, key=self._is_in_forces)
             value = -(residual - slopes[q] * q) / slopes[q]
             new = {q: tidied(value), rate(q): tidied(TimeRate(value, *self.moving))}
             found = {**{letter: old.xreplace(new) for letter, old in found.items()}, **new}
         return found
+
+    def _is_in_forces(self, q: Symbol) -> bool:
+        """Whether the derivative of the Lagrangian by q contains a coordinate or a rate."""
+        slope = derivative(explicit(self.lagrangian.value), q)
+        return not slope.free_symbols.isdisjoint([*self.moving, *map(rate, self.moving)])
 
     @property
     def residuals(self) -> list[Expr]:
@@ -115,7 +121,10 @@ class _Problem:
 
     @property
     def residuals_known(self) -> list[Expr]:
-        return [row.xreplace(self.known) for row in self.residuals]
+        return list(map(self.with_known, self.residuals))
+
+    def with_known(self, value: Expr) -> Expr:
+        return claims.with_known(value, self.known, self.moving)
 
 
 def _problem(verb: str, equations: Sequence[Quantity], keeping: Sequence[Coordinate] = ()) -> _Problem:
@@ -404,10 +413,14 @@ class _Isolation:
         """Return the eliminated unknowns, and the values of coordinates and accelerations from constraints that are
         substituted in the equations."""
         eliminated = {f"eliminated_{i}": each for i, each in enumerate(self.found.eliminated, 1)}
-        present = {s for each in self.equations for s in explicit(each.value).free_symbols}
-        known = self.problem.known
+        known, moving = self.problem.known, self.problem.moving
+        fixed_ones = claims.constant_ones(known, moving)
+        values = [explicit(each.value) for each in self.equations]
+        present = {s for each in values for s in each.free_symbols}
+        left = {s for each in values for s in explicit(each.residual).xreplace(fixed_ones).free_symbols}
         constant = {each.left: each for each in self._constant.values()}
-        used = [q for q in self.problem.moving if q in constant or (q in known and present & {q, rate(q)})]
+        inside = {q: present if q in fixed_ones else left for q in known}
+        used = [q for q in moving if q in constant or (q in known and inside[q] & {q, rate(q)})]
         fixed = [
             relation
             for q in used
@@ -645,10 +658,10 @@ def _by_newton(problem: _Problem, way: Mapping[Symbol, Expr]) -> Expr:
         kept = Add(*(load.work_along(q) for load in matter.others if load.multiplier is not None))
         total += dq * (matter.inertia_along(q) - matter.force_along(q) + kept)
     if not problem.keeping:
-        return total.xreplace(_solution(problem)).xreplace(problem.known)
-    known = problem.known
-    twice = {rate(q, 2): by_functions_of_time(v, problem.moving, 2) for q, v in known.items() if q in problem.moving}
-    return total.xreplace(twice).xreplace(known)
+        return problem.with_known(total.xreplace(_solution(problem)))
+    known = problem.known.items()
+    twice = {rate(q, 2): by_functions_of_time(v, problem.moving, 2) for q, v in known if q in problem.moving}
+    return problem.with_known(total.xreplace(twice))
 
 
 def _virtual_work(problem: _Problem, found: Mapping[Symbol, Expr]) -> tuple[Expr, Expr]:
@@ -664,7 +677,7 @@ def _virtual_work(problem: _Problem, found: Mapping[Symbol, Expr]) -> tuple[Expr
             for q, mark in zip(problem.solved, marks, strict=True)
         )
     )
-    return whole.xreplace(dict(found)).xreplace(problem.known), ZERO
+    return problem.with_known(whole.xreplace(dict(found))), ZERO
 
 
 def _keeps_holding(problem: _Problem, found: Mapping[Symbol, Expr]) -> tuple[Expr, Expr]:
@@ -672,7 +685,7 @@ def _keeps_holding(problem: _Problem, found: Mapping[Symbol, Expr]) -> tuple[Exp
     for i, each in enumerate(problem.constraints):
         changing = by_functions_of_time(each.residual, problem.moving, 1 if each.in_rates else 2)
         total += stand_in(f"delta_{i}") * changing
-    return total.xreplace(dict(found)).xreplace(problem.known), ZERO
+    return problem.with_known(total.xreplace(dict(found))), ZERO
 
 
 def _kind_of_acceleration(kind: str) -> str | None:
@@ -695,7 +708,7 @@ def _solution(problem: _Problem) -> dict[Symbol, Expr]:
 @lru_cache(maxsize=16)
 def _solved(problem: _Problem) -> dict[Symbol, Expr]:
     unknowns = problem.unknowns
-    rows = [row.xreplace(problem.known) for row in problem.residuals]
+    rows = problem.residuals_known
     matrix = ImmutableDenseMatrix([[derivative(row, u) for u in unknowns] for row in rows])
     right = ImmutableDenseMatrix([-row.xreplace(dict.fromkeys(unknowns, ZERO)) for row in rows])
     whole, names = _in_a_field(matrix.row_join(right))

@@ -6,7 +6,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Self, TypeAlias
 
-from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Mul, Symbol, sqrt
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Mul, Symbol, eye, sqrt
+from sympy.matrices import ImmutableMatrix
 
 from derive.algebra.expressions import Relation, as_expr, depends_on_time, scalar
 from derive.algebra.tidy import tidied
@@ -24,6 +25,7 @@ from derive.mechanics.model.surfaces import (
     Curve,
     Plane,
     Surface,
+    column_of,
     dot,
     unit,
     vector,
@@ -199,9 +201,37 @@ def _check_carried(touch: Contact, rough: bool) -> None:
             else ("name the body that carries the surface, `of: wedge`")
         )
         raise Rejected(Complaint("which-body", message, help=help_line))
-    if rough and surface.of is None and any(depends_on_time(c) for c in turning):
+    if rough and surface.of is None and not axes and any(depends_on_time(c) for c in turning):
         message = "the surface rotates, so the velocity of its material is unknown"
         raise Rejected(Complaint("wrong-argument", message, help="let a body carry the surface, `of: plate`"))
+    _check_moves_with_its_material(surface)
+
+
+def _check_moves_with_its_material(surface: Surface) -> None:
+    """Reject a plane or circle whose shape does not move with the body that carries it, or with its rotating axes.
+
+    A particle of a plane stays on the plane: with its place p, its unit normal n and the velocity v of the material,
+    n . (v(p) - dp/dt) = 0 and dn/dt = omega x n. A particle at the centre of a circle stays at the centre.
+    """
+    if surface.of is None and not isinstance(surface.moves, Axes) or isinstance(surface, Curve):
+        return
+    place, material = surface.place, surface.ground
+    apart = velocity_at(material, place) - velocity_at(place, place)
+    moving = [dot(surface.unit_normal, apart)] if isinstance(surface, Plane) else [*apart.components]
+    if isinstance(surface, Plane):
+        n = surface.unit_normal
+        turned = velocity_at(material, place + n) - velocity_at(material, place)
+        moving += [*(velocity_at(n, n) - turned).components]
+    if all(is_zero(tidied(c)) for c in moving):
+        return
+    who = "the axes in which it is at rest" if surface.of is None else "the body that carries it"
+    what = "`along` or `normal` has components in space, which must turn with the axes or the body, as in "
+    help_line = (
+        f"{what}`along: [cos(theta), sin(theta)]`; the place `through` must move with it"
+        if isinstance(surface, Plane)
+        else "its centre must be a place that moves with the body, such as a point of the body"
+    )
+    raise Rejected(Complaint("which-body", f"the surface does not move with {who}", help=help_line))
 
 
 def _normal(touch: Contact, letter: str) -> Constraint:
@@ -335,16 +365,24 @@ def _ways_along(touch: Contact) -> dict[str, Location]:
     """Return perpendicular unit vectors along a surface in space, by the names of axes.
 
     If two axes are in the surface, the vectors are along these axes. Otherwise one vector is along a horizontal axis in
-    the surface. The other vector is perpendicular to it, and has the name of the other horizontal axis.
+    the surface. The other vector is perpendicular to it, and has the name of the other horizontal axis. If the normal
+    rotates with the axes of the surface, the vectors are along these axes, otherwise along the axes in space.
     """
-    n = touch.normal.components
-    flat = {i: Location(tuple(Integer(int(i == k)) for k in range(3))) for i in range(3) if is_zero(n[i])}
+    turn = eye(3)
+    if isinstance(touch.surface.moves, Axes) and any(map(depends_on_time, touch.normal.components)):
+        turn = touch.surface.moves.in_space
+    return {axis: Location(tuple(turn * way)) for axis, way in _ways_across(turn.T * column_of(touch.normal)).items()}
+
+
+def _ways_across(normal: ImmutableMatrix) -> dict[str, ImmutableMatrix]:
+    n = [tidied(c) for c in normal]
+    flat = {i: eye(3)[:, i] for i in range(3) if is_zero(n[i])}
     if len(flat) == 2:
         return {"xyz"[i]: way for i, way in flat.items()}
     if 0 in flat:
-        return {"x": flat[0], "y": Location((ZERO, n[2], -n[1]))}
+        return {"x": flat[0], "y": ImmutableDenseMatrix((ZERO, n[2], -n[1]))}
     if 1 in flat:
-        return {"x": Location((n[2], ZERO, -n[0])), "y": flat[1]}
+        return {"x": ImmutableDenseMatrix((n[2], ZERO, -n[0])), "y": flat[1]}
     message = "in space, the components of friction are along axes, but no horizontal axis is in this surface"
     raise Rejected(Complaint("wrong-argument", message, help="let a horizontal axis be along the surface"))
 

@@ -114,8 +114,10 @@ def solved_line(contact: Friction, result: Relation, excess: Expr) -> Form:
     """Return the line with the solved relation, which is equivalent to the line before."""
     alone, solved = result.sides
     if alone == contact.limit.coefficient:
+        # The lines differ by the factor N > 0, so the factors of N together are positive.
         pushing = Mul.make_args(contact.N)
-        return Form(result, "solved", nonzero=(*pushing, *(each.expand() for each in pushing if each.is_Pow)))
+        bases = [each.as_base_exp()[0] for each in pushing if not each.is_number]
+        return Form(result, "solved", nonzero=(*pushing, *bases, *(each.expand() for each in pushing if each.is_Pow)))
     factor = tidied(_without_tangents(excess / result.residual))
     sign = sign_known(factor)
     return Form(result, "solved", nonzero=Mul.make_args(factor * sign) if sign else divided_out(excess, alone, solved))

@@ -241,10 +241,16 @@ def _factors(value: Expr) -> list[tuple[Expr, int]]:
 
 
 def _zero_in(view: View, base: Expr) -> Relation | None:
-    """Return the value of a mass, a length or an angle for which a factor vanishes; None if no such value is found."""
+    """Return the value of a mass or length in given symbols, or the angle, for which a factor vanishes; None if no such
+    value is found."""
     for letter in [s for s in view.in_order(base.free_symbols) if view.letters[s] in ("mass", "length")]:
         found = solved_for_letter(base, letter)
-        if found is not None and simple(found, 4) and sign_for_all(found) == 1:
+        if (
+            found is not None
+            and found.free_symbols <= {*view.letters}
+            and simple(found, 4)
+            and sign_for_all(found) == 1
+        ):
             return Relation(letter, "=", found)
     c = Symbol("c")
     for cosine in sorted(base.atoms(cos), key=str):

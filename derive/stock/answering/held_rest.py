@@ -27,6 +27,11 @@ def rest_with_forces(
     still = [_still(name, motion, coordinates) for name, motion in zip(coordinates, motions, strict=True)]
     present = {s for each in still for s in explicit(each.value).free_symbols}
     unknown = [s for s in forces if s in present]
+    if len(unknown) > len(still):
+        names = ", ".join(s.name for s in unknown)
+        message = f"{len(still)} static equations do not determine the {len(unknown)} forces {names}"
+        help_line = "leave out a force: describe one of the contacts without friction"
+        raise Rejected(Complaint("constrained", message, help=help_line))
     if len(unknown) != len(still):
         unknown = [q.symbol for q in coordinates.values() if q.symbol in present] + unknown
     if len(unknown) != len(still):

@@ -54,3 +54,26 @@ def test_a_wrong_solution_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyP
     right = solving.tidied
     monkeypatch.setattr(solving, "tidied", lambda value: 2 * right(value))
     assert messages(tmp_path, BLOCKS)
+
+
+LADDER = """\
+title: A ladder between two rough surfaces
+solve: system
+symbols: {M: mass, l: length, g: acceleration, mu: positive number}
+given:
+  coordinates: {x: length, y: length, theta: 'angle in (0, pi/2)'}
+  bodies: {ladder: {shape: rod, length: l, mass: M, along: [-cos(theta), sin(theta)], centre: [x, y]}}
+  gravity: g
+  surfaces: {wall: {through: [0, 0], along: [0, -1]}, floor: {through: [0, 0], along: [1, 0]}}
+  contacts:
+    - {of: ladder.far_end, on: wall, normal: K, friction: {static: mu, force: G}}
+    - {of: ladder.end, on: floor, normal: N, friction: {static: mu, force: F}}
+statement: A ladder.
+parts:
+  - ask: Find the forces at rest.
+    answer: equilibria
+"""
+
+
+def test_four_forces_on_one_body_in_a_plane_are_not_determined(tmp_path: Path) -> None:
+    assert "3 static equations do not determine the 4 forces K, G, N, F" in messages(tmp_path, LADDER)[0]
