@@ -20,6 +20,7 @@ from pathlib import Path
 from typing import Any
 
 from derive.building.cache import Cache, digest, file_digest, folder_digest
+from derive.building.class_record import ClassRecord
 from derive.building.cluster import Cluster
 from derive.building.files import folder, shown_path, write
 from derive.building.lock import locked
@@ -35,12 +36,12 @@ from derive.errors import Complaint, DeriveError, Faults, Misused, Place, Reject
 from derive.grading.table import harmless
 
 CACHE, MADE = ".derived", ".made"
-MADE_FROM = ".inputs"  # contains the digest of the inputs that the students share, and the seed
 ANSWERS = "answers"
 KINDS = (SHEET, KEY, SOLUTIONS)
 COLUMNS = ("student", "name", "problem", "part", "answer", "formula", "value", "unit", "figures")
 AT_ONCE = 10  # the number of students in one job
 LONGEST_ROSTER = 2_000_000
+RESEED = "leave out `--seed`, or add `--reseed` to give the students other values than on the sheets that they have"
 
 
 @dataclass(frozen=True)
@@ -174,16 +175,19 @@ def made_class(
     root: Path,
     set_id: str,
     students: Sequence[Student],
-    seed: str = "",
+    seed: str | None = None,
     engine: str | None = None,
     jobs: int = 0,
     limit: float = 120,
     tell: Callable[[str], None] = lambda _: None,
     scheduler: str = "",
+    reseed: bool = False,
 ) -> ClassReport:
     """Make the documents of the students, except those that are up to date. An error in one variant does not stop the
     others.
 
+    seed        by default the seed with which the class was made before
+    reseed      whether a seed may differ from the one with which the class was made before
     scheduler   the address of a Dask scheduler, whose workers do the jobs; by default, processes of this machine do the
                 jobs
     """
@@ -191,11 +195,16 @@ def made_class(
     begun, chosen = time.monotonic(), chosen_engine(engine)
     heading = done(Job(f"`problems/{set_id}/set.yaml`", partial(problem_set, root, set_id), limit))
     _check_codes(students, heading)
+    before = ClassRecord.read(root, set_id)
+    if before is not None and not reseed:
+        before.check_seed(seed, RESEED)
+    seed = seed if seed is not None else before.seed if before else ""
     inputs = _inputs(root, set_id, heading, chosen, seed)
     shared = ClassDocuments(root, set_id, heading, seed, chosen, limit, inputs)
     report = ClassReport(len(students))
     waiting: dict[Job, Sequence[Student]] = {}
     with locked(folder(shared.outputs), lambda: tell(f"waiting for another build of `{set_id}`")):
+        ClassRecord(set_id, seed, {each.code: each.name for each in students}, inputs).save(root)
         unmade = [student for student in students if shared.answers(student) is None]
         if unmade and not scheduler:
             preload(root, derives=True, draws=True, set_id=set_id)
@@ -227,7 +236,6 @@ def made_class(
         _remove_others(shared, students)
         _write_answers(shared, students)
         _write_page(shared, students)
-        write(shared.outputs / CLASS / MADE_FROM, json.dumps({"inputs": inputs, "seed": seed}))
         Cache(shared.outputs / CACHE).evict()
     list_again(root, set_id)
     report.seconds = time.monotonic() - begun
@@ -244,15 +252,11 @@ def _check_codes(students: Sequence[Student], heading: ProblemSet) -> None:
 
 def class_is_older(root: Path, set_id: str, engine: Engine) -> list[Complaint]:
     """Return a warning if the documents of a class are older than the set."""
-    try:
-        made = json.loads((set_folder(root, set_id) / CLASS / MADE_FROM).read_bytes())
-        inputs, seed = str(made["inputs"]), str(made["seed"])
-    except (OSError, ValueError, KeyError, TypeError):
-        return []
-    if inputs == _inputs(root, set_id, problem_set(root, set_id), engine, seed):
+    made = ClassRecord.read(root, set_id)
+    if made is None or made.inputs == _inputs(root, set_id, problem_set(root, set_id), engine, made.seed):
         return []
     message = f"the documents of the class in `{shown_path(set_folder(root, set_id))}` are older than the set"
-    help_line = f"`derive class {set_id}`, with the same roster and seed, makes them again"
+    help_line = f"`derive class {set_id}`, with the same roster, makes them again"
     return [Complaint("older", message, help=help_line, severity="warning")]
 
 

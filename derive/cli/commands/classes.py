@@ -21,9 +21,9 @@ def make_class(arguments: argparse.Namespace) -> int:
     check_asked(root, set_id)
     students = read_roster(Path(arguments.roster))
     voice = Voice(arguments.quiet, arguments.verbose)
-    limit, scheduler = arguments.time_limit, arguments.scheduler
+    seed, engine, limit = arguments.seed, arguments.engine, arguments.time_limit
     report = made_class(
-        root, set_id, students, arguments.seed, arguments.engine, arguments.jobs, limit, voice.tell, scheduler
+        root, set_id, students, seed, engine, arguments.jobs, limit, voice.tell, arguments.scheduler, arguments.reseed
     )
     voice.tell("")
     complain([*report.warnings, *report.complaints])
