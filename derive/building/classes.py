@@ -24,10 +24,12 @@ from derive.building.class_record import ClassRecord
 from derive.building.cluster import Cluster
 from derive.building.files import folder, shown_path, write
 from derive.building.lock import locked
+from derive.building.manifest import Manifest
 from derive.building.papers import list_again
 from derive.building.preload import preload
 from derive.building.recipe import recipe_digest, recipe_of, stated_by
 from derive.building.set_names import set_folder
+from derive.building.staleness import MOST, Asked, staleness
 from derive.building.tex import Engine, chosen_engine, typeset
 from derive.building.workers import Bug, Crew, Job, done
 from derive.course.names import CLASS, INDEX, KEY, LOGO, NAME, SHEET, SOLUTIONS, STUDENTS
@@ -54,10 +56,12 @@ class Student:
 
 @dataclass
 class ClassReport:
-    """The outcome of a run; `made` counts the students whose documents were made."""
+    """The outcome of a run; `made` counts the students whose documents were made, and `kept` those whose documents were
+    up to date."""
 
     students: int = 0
     made: int = 0
+    kept: int = 0
     complaints: list[Complaint] = field(default_factory=list)
     warnings: list[Complaint] = field(default_factory=list)
     bugs: list[Bug] = field(default_factory=list)
@@ -94,6 +98,10 @@ def read_roster(path: Path) -> tuple[Student, ...]:
         place = Place(shown, line, 1, lines[line - 1] if line <= len(lines) else "", 1)
         name = " ".join((row[columns["name"]] or "").split())
         code = (row[columns["code"]] or "").strip() if "code" in columns else ""
+        if any(cell.strip() for cell in row.get(None) or ()):
+            help_line = f"put a cell that contains `{delimiter}` in double quotes"
+            faults.error("roster", "this line has more cells than the first line", place, help=help_line)
+            continue
         if not name:
             faults.error("roster", "this line has no name", place)
             continue
@@ -206,6 +214,7 @@ def made_class(
     with locked(folder(shared.outputs), lambda: tell(f"waiting for another build of `{set_id}`")):
         ClassRecord(set_id, seed, {each.code: each.name for each in students}, inputs).save(root)
         unmade = [student for student in students if shared.answers(student) is None]
+        report.kept = len(students) - len(unmade)
         if unmade and not scheduler:
             preload(root, derives=True, draws=True, set_id=set_id)
 
@@ -233,13 +242,37 @@ def made_class(
                     report.complaints += made.complaints
                     report.warnings += [each for each in made.warnings if each not in report.warnings]
                     report.made += not made.complaints
-        _remove_others(shared, students)
+        _remove_others(shared, students, before)
+        current = {each.code for each in students if shared.answers(each) is not None}
+        older = [each for each in students if each.code not in current and any(map(Path.exists, shared.files(each)))]
+        if older:
+            report.warnings.append(_older(shared, older))
+        report.warnings += _older_set(root, set_id, engine)
         _write_answers(shared, students)
-        _write_page(shared, students)
+        _write_page(shared, students, current)
         Cache(shared.outputs / CACHE).evict()
     list_again(root, set_id)
     report.seconds = time.monotonic() - begun
     return report
+
+
+def _older(shared: ClassDocuments, students: Sequence[Student]) -> Complaint:
+    names = [f"{each.name} ({each.code})" for each in students[:MOST]]
+    names += [f"and {len(students) - MOST} more"] if students[MOST:] else []
+    message = f"the documents of {len(students)} students are from an earlier run: {', '.join(names)}"
+    help_line = f"correct the errors; until then `{CLASS}/{INDEX}.html` does not link these documents"
+    return Complaint("older", message, help=help_line, severity="warning")
+
+
+def _older_set(root: Path, set_id: str, engine: str | None) -> list[Complaint]:
+    """Return a warning if the documents of the last build of the set are out of date."""
+    if (
+        not Manifest.read(set_folder(root, set_id)).pages
+        or not staleness(Asked(root, set_id, (), engine=engine)).reasons
+    ):
+        return []
+    message = f"the documents of the whole set in `{shown_path(set_folder(root, set_id))}` are out of date"
+    return [Complaint("older", message, help=f"`derive build {set_id}` makes them again", severity="warning")]
 
 
 def _check_codes(students: Sequence[Student], heading: ProblemSet) -> None:
@@ -322,13 +355,13 @@ def _rows(student: Student, problem: str, page: Mapping[str, Any]) -> list[tuple
     return rows
 
 
-def _remove_others(shared: ClassDocuments, students: Sequence[Student]) -> None:
-    codes = {student.code for student in students}
-    for record in sorted((shared.outputs / CLASS / MADE).glob("*.json")):
-        if record.stem not in codes:
-            for file in shared.files(Student("", record.stem)):
-                file.unlink(missing_ok=True)
-            record.unlink()
+def _remove_others(shared: ClassDocuments, students: Sequence[Student], before: ClassRecord | None) -> None:
+    """Remove the documents of students who left, also if the user removed the folder of the class."""
+    earlier = {record.stem for record in (shared.outputs / CLASS / MADE).glob("*.json")}
+    earlier |= {code for code in (before.students if before else ()) if NAME.fullmatch(code)}
+    for student in (Student("", code) for code in earlier - {student.code for student in students}):
+        for file in (*shared.files(student), shared.record(student)):
+            file.unlink(missing_ok=True)
 
 
 def _write_answers(shared: ClassDocuments, students: Sequence[Student]) -> None:
@@ -340,14 +373,14 @@ def _write_answers(shared: ClassDocuments, students: Sequence[Student]) -> None:
     write(shared.outputs / CLASS / f"{ANSWERS}.csv", table.getvalue())
 
 
-def _write_page(shared: ClassDocuments, students: Sequence[Student]) -> None:
+def _write_page(shared: ClassDocuments, students: Sequence[Student], current: set[str]) -> None:
     from derive.building.set_document import class_page
 
     folder = shared.outputs / CLASS
     shown = []
     for student in students:
         files = [(kind, shared.file(student, kind)) for kind in KINDS]
-        links = [(kind, os.path.relpath(file, folder)) for kind, file in files if file.exists()]
+        links = [(kind, os.path.relpath(file, folder)) for kind, file in files if student.code in current]
         shown.append({"name": student.name, "code": student.code, "files": links})
     write(folder / f"{INDEX}.html", class_page(shared.root, shared.heading, shown))
 

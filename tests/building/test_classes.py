@@ -52,6 +52,7 @@ def test_without_codes_the_name_gives_the_code(tmp_path: Path) -> None:
         ("", [1]),
         ("name\n", [1]),
         ("name\nAda\n\nAda\n", [4]),
+        ("name\nAda\nNoether, Emmy\n", [3]),
         ("name,code\nAda,A1\nEmmy,a1\n,C\nLise,../x\n", [3, 4, 5]),
     ],
 )
@@ -123,7 +124,14 @@ def test_an_error_in_one_variant_stops_no_other_student(tmp_path: Path) -> None:
     report = made_class(tmp_path, "week1", students, jobs=1)
     assert report.failed and 0 < report.made < 4
     assert any(note.startswith("in the variant of Student ") for note in report.complaints[0].notes)
-    assert len(list((tmp_path / "build" / "week1" / "students").glob("*.pdf"))) == report.made
+    sheets = tmp_path / "build" / "week1" / "students"
+    assert len(list(sheets.glob("*.pdf"))) == report.made
+    (failed,) = [each.code for each in students if not (sheets / f"{each.code}.pdf").exists()][:1]
+    (sheets / f"{failed}.pdf").write_text("of another seed")
+    again = made_class(tmp_path, "week1", students, jobs=1)
+    assert (again.made, again.kept) == (0, report.made)
+    assert any(each.code == "older" and f"({failed})" in each.message for each in again.warnings)
+    assert f"{failed}.pdf" not in (tmp_path / "build" / "week1" / "class" / "index.html").read_text()
 
 
 @pytest.mark.parametrize(

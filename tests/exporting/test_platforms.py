@@ -73,7 +73,7 @@ def test_moodle_has_a_question_of_the_right_type_for_each_part(questions: list[Q
     assert (answer.get("fraction"), answer.findtext("text"), answer.findtext("tolerance")) == ("100", "7.004", "0.0005")
     assert asked[1].findtext("units/unit/unit_name") == "rad/s"
     cloze = asked[2].findtext("questiontext/text") or ""
-    assert "{1:NUMERICAL:=7.004:0.0005} rad/s" in cloze
+    assert "{2:NUMERICAL:=7.004:0.0005} rad/s" in cloze
     assert "{1:NUMERICAL:=0.9:0.005} s" in cloze
     for each in asked:
         text = each.findtext("questiontext/text") or ""
