@@ -80,8 +80,11 @@ def read_roster(path: Path) -> tuple[Student, ...]:
         if path.stat().st_size > LONGEST_ROSTER:
             raise Rejected(Complaint("roster", f"`{shown}` is larger than {LONGEST_ROSTER // 10**6} MB"))
         text = path.read_text(encoding="utf-8-sig")
-    except (OSError, UnicodeError) as error:
-        raise Rejected(Complaint("roster", f"`{shown}` cannot be read: {error}")) from None
+    except OSError as error:
+        message, help_line = f"`{shown}` cannot be read: {error.strerror}", "give the path of a CSV file"
+        raise Rejected(Complaint("roster", message, help=help_line)) from None
+    except UnicodeError:
+        raise Rejected(Complaint("roster", f"`{shown}` is not in UTF-8", help="save it as CSV in UTF-8")) from None
     lines = text.splitlines()
     delimiter = ";" if lines and ";" in lines[0] and "," not in lines[0] else ","
     table = csv.DictReader(io.StringIO(text), delimiter=delimiter)
