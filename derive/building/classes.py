@@ -296,6 +296,30 @@ def class_is_older(root: Path, set_id: str, engine: Engine) -> list[Complaint]:
     return [Complaint("older", message, help=help_line, severity="warning")]
 
 
+def why_of_class(root: Path, built: Path, engine: str | None) -> str | None:
+    """Return whether a document of a student is out of date; None if no class has such a document."""
+    folder_of, set_id = built.parent.name, built.parent.parent.name
+    made = ClassRecord.read(root, set_id)
+    if made is None or folder_of not in (CLASS, STUDENTS) or not NAME.fullmatch(set_id):
+        return None
+    names = {code: [code, *(f"{code}-{kind}" for kind in KINDS)] for code in made.students}
+    code = next((code for code, stems in names.items() if built.stem in stems), None)
+    if code is None:
+        return None
+    shown, heading, chosen = (
+        f"build/{set_id}/{folder_of}/{built.name}",
+        problem_set(root, set_id),
+        chosen_engine(engine),
+    )
+    inputs = _inputs(root, set_id, heading, chosen, made.seed)
+    shared = ClassDocuments(root, set_id, heading, made.seed, chosen, 0, inputs)
+    if shared.answers(Student(made.students[code], code)) is not None:
+        return f"{shown} is up to date"
+    why = "an input of the class has changed" if inputs != made.inputs else "its variant has an error, or it was edited"
+    again = f"to bring it up to date: `derive class {set_id}`, with the same roster"
+    return f"{shown} is out of date:\n  {why}\n{again}"
+
+
 def _inputs(root: Path, set_id: str, heading: ProblemSet, engine: Engine, seed: str) -> str:
     recipe = recipe_of(root, of_set=stated_by(heading))
     files = [file_digest(root / path) for path in heading.inputs]

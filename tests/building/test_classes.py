@@ -12,7 +12,7 @@ from pypdf import PdfReader
 
 from derive.building import classes
 from derive.building.class_record import ClassRecord, class_to_grade
-from derive.building.classes import Student, code_of, made_class, plain, read_roster
+from derive.building.classes import Student, code_of, made_class, plain, read_roster, why_of_class
 from derive.cli.options import main
 from derive.course.variants import chosen_for
 from derive.errors import Misused, Rejected
@@ -103,6 +103,17 @@ def test_each_student_has_documents_with_own_numbers_and_the_sheet_has_no_answer
     assert {each.partition(":")[0] for each in leaks(build / "class", {"json": page})} >= {"E2-solutions.pdf"}
     links = re.findall(r'href="([^"#]*)"', (build / "class" / "index.html").read_text())
     assert all((build / "class" / link).is_file() for link in links if link != "../index.html") and len(links) >= 8
+
+    sheet = build / "students" / "A1.pdf"
+    assert (why_of_class(tmp_path, sheet, None) or "").endswith("students/A1.pdf is up to date")
+    assert why_of_class(tmp_path, build / "students" / "problems.pdf", None) is None
+    made, content = tmp_path / "problems" / "week1" / "bead.yaml", sheet.read_bytes()
+    sheet.write_bytes(b"edited")
+    assert "it was edited" in (why_of_class(tmp_path, sheet, None) or "")
+    sheet.write_bytes(content)
+    made.write_text((before := made.read_text()) + "# edited\n")
+    assert "an input of the class has changed" in (why_of_class(tmp_path, sheet, None) or "")
+    made.write_text(before)
 
     monkeypatch.setattr(classes, "_documents_of", lambda *_: pytest.fail("nothing changed"))
     assert made_class(tmp_path, "week1", students, seed="3", jobs=1).made == 0
