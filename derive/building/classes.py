@@ -20,13 +20,16 @@ from pathlib import Path
 from typing import Any
 
 from derive.building.cache import Cache, digest, file_digest, folder_digest
+from derive.building.class_record import ClassRecord
 from derive.building.cluster import Cluster
 from derive.building.files import folder, shown_path, write
 from derive.building.lock import locked
+from derive.building.manifest import Manifest
 from derive.building.papers import list_again
 from derive.building.preload import preload
 from derive.building.recipe import recipe_digest, recipe_of, stated_by
 from derive.building.set_names import set_folder
+from derive.building.staleness import MOST, Asked, staleness
 from derive.building.tex import Engine, chosen_engine, typeset
 from derive.building.workers import Bug, Crew, Job, done
 from derive.course.names import CLASS, INDEX, KEY, LOGO, NAME, SHEET, SOLUTIONS, STUDENTS
@@ -35,12 +38,12 @@ from derive.errors import Complaint, DeriveError, Faults, Misused, Place, Reject
 from derive.grading.table import harmless
 
 CACHE, MADE = ".derived", ".made"
-MADE_FROM = ".inputs"  # contains the digest of the inputs that the students share, and the seed
 ANSWERS = "answers"
 KINDS = (SHEET, KEY, SOLUTIONS)
 COLUMNS = ("student", "name", "problem", "part", "answer", "formula", "value", "unit", "figures")
 AT_ONCE = 10  # the number of students in one job
 LONGEST_ROSTER = 2_000_000
+RESEED = "leave out `--seed`, or add `--reseed` to give the students other values than on the sheets that they have"
 
 
 @dataclass(frozen=True)
@@ -53,10 +56,12 @@ class Student:
 
 @dataclass
 class ClassReport:
-    """The outcome of a run; `made` counts the students whose documents were made."""
+    """The outcome of a run; `made` counts the students whose documents were made, and `kept` those whose documents were
+    up to date."""
 
     students: int = 0
     made: int = 0
+    kept: int = 0
     complaints: list[Complaint] = field(default_factory=list)
     warnings: list[Complaint] = field(default_factory=list)
     bugs: list[Bug] = field(default_factory=list)
@@ -75,8 +80,11 @@ def read_roster(path: Path) -> tuple[Student, ...]:
         if path.stat().st_size > LONGEST_ROSTER:
             raise Rejected(Complaint("roster", f"`{shown}` is larger than {LONGEST_ROSTER // 10**6} MB"))
         text = path.read_text(encoding="utf-8-sig")
-    except (OSError, UnicodeError) as error:
-        raise Rejected(Complaint("roster", f"`{shown}` cannot be read: {error}")) from None
+    except OSError as error:
+        message, help_line = f"`{shown}` cannot be read: {error.strerror}", "give the path of a CSV file"
+        raise Rejected(Complaint("roster", message, help=help_line)) from None
+    except UnicodeError:
+        raise Rejected(Complaint("roster", f"`{shown}` is not in UTF-8", help="save it as CSV in UTF-8")) from None
     lines = text.splitlines()
     delimiter = ";" if lines and ";" in lines[0] and "," not in lines[0] else ","
     table = csv.DictReader(io.StringIO(text), delimiter=delimiter)
@@ -93,6 +101,10 @@ def read_roster(path: Path) -> tuple[Student, ...]:
         place = Place(shown, line, 1, lines[line - 1] if line <= len(lines) else "", 1)
         name = " ".join((row[columns["name"]] or "").split())
         code = (row[columns["code"]] or "").strip() if "code" in columns else ""
+        if any(cell.strip() for cell in row.get(None) or ()):
+            help_line = f"put a cell that contains `{delimiter}` in double quotes"
+            faults.error("roster", "this line has more cells than the first line", place, help=help_line)
+            continue
         if not name:
             faults.error("roster", "this line has no name", place)
             continue
@@ -174,16 +186,19 @@ def made_class(
     root: Path,
     set_id: str,
     students: Sequence[Student],
-    seed: str = "",
+    seed: str | None = None,
     engine: str | None = None,
     jobs: int = 0,
     limit: float = 120,
     tell: Callable[[str], None] = lambda _: None,
     scheduler: str = "",
+    reseed: bool = False,
 ) -> ClassReport:
     """Make the documents of the students, except those that are up to date. An error in one variant does not stop the
     others.
 
+    seed        by default the seed with which the class was made before
+    reseed      whether a seed may differ from the one with which the class was made before
     scheduler   the address of a Dask scheduler, whose workers do the jobs; by default, processes of this machine do the
                 jobs
     """
@@ -191,12 +206,18 @@ def made_class(
     begun, chosen = time.monotonic(), chosen_engine(engine)
     heading = done(Job(f"`problems/{set_id}/set.yaml`", partial(problem_set, root, set_id), limit))
     _check_codes(students, heading)
+    before = ClassRecord.read(root, set_id)
+    if before is not None and not reseed:
+        before.check_seed(seed, RESEED)
+    seed = seed if seed is not None else before.seed if before else ""
     inputs = _inputs(root, set_id, heading, chosen, seed)
     shared = ClassDocuments(root, set_id, heading, seed, chosen, limit, inputs)
     report = ClassReport(len(students))
     waiting: dict[Job, Sequence[Student]] = {}
     with locked(folder(shared.outputs), lambda: tell(f"waiting for another build of `{set_id}`")):
+        ClassRecord(set_id, seed, {each.code: each.name for each in students}, inputs).save(root)
         unmade = [student for student in students if shared.answers(student) is None]
+        report.kept = len(students) - len(unmade)
         if unmade and not scheduler:
             preload(root, derives=True, draws=True, set_id=set_id)
 
@@ -224,14 +245,37 @@ def made_class(
                     report.complaints += made.complaints
                     report.warnings += [each for each in made.warnings if each not in report.warnings]
                     report.made += not made.complaints
-        _remove_others(shared, students)
+        _remove_others(shared, students, before)
+        current = {each.code for each in students if shared.answers(each) is not None}
+        older = [each for each in students if each.code not in current and any(map(Path.exists, shared.files(each)))]
+        if older:
+            report.warnings.append(_older(shared, older))
+        report.warnings += _older_set(root, set_id, engine)
         _write_answers(shared, students)
-        _write_page(shared, students)
-        write(shared.outputs / CLASS / MADE_FROM, json.dumps({"inputs": inputs, "seed": seed}))
+        _write_page(shared, students, current)
         Cache(shared.outputs / CACHE).evict()
     list_again(root, set_id)
     report.seconds = time.monotonic() - begun
     return report
+
+
+def _older(shared: ClassDocuments, students: Sequence[Student]) -> Complaint:
+    names = [f"{each.name} ({each.code})" for each in students[:MOST]]
+    names += [f"and {len(students) - MOST} more"] if students[MOST:] else []
+    message = f"the documents of {len(students)} students are from an earlier run: {', '.join(names)}"
+    help_line = f"correct the errors; until then `{CLASS}/{INDEX}.html` does not link these documents"
+    return Complaint("older", message, help=help_line, severity="warning")
+
+
+def _older_set(root: Path, set_id: str, engine: str | None) -> list[Complaint]:
+    """Return a warning if the documents of the last build of the set are out of date."""
+    if (
+        not Manifest.read(set_folder(root, set_id)).pages
+        or not staleness(Asked(root, set_id, (), engine=engine)).reasons
+    ):
+        return []
+    message = f"the documents of the whole set in `{shown_path(set_folder(root, set_id))}` are out of date"
+    return [Complaint("older", message, help=f"`derive build {set_id}` makes them again", severity="warning")]
 
 
 def _check_codes(students: Sequence[Student], heading: ProblemSet) -> None:
@@ -244,16 +288,36 @@ def _check_codes(students: Sequence[Student], heading: ProblemSet) -> None:
 
 def class_is_older(root: Path, set_id: str, engine: Engine) -> list[Complaint]:
     """Return a warning if the documents of a class are older than the set."""
-    try:
-        made = json.loads((set_folder(root, set_id) / CLASS / MADE_FROM).read_bytes())
-        inputs, seed = str(made["inputs"]), str(made["seed"])
-    except (OSError, ValueError, KeyError, TypeError):
-        return []
-    if inputs == _inputs(root, set_id, problem_set(root, set_id), engine, seed):
+    made = ClassRecord.read(root, set_id)
+    if made is None or made.inputs == _inputs(root, set_id, problem_set(root, set_id), engine, made.seed):
         return []
     message = f"the documents of the class in `{shown_path(set_folder(root, set_id))}` are older than the set"
-    help_line = f"`derive class {set_id}`, with the same roster and seed, makes them again"
+    help_line = f"`derive class {set_id}`, with the same roster, makes them again"
     return [Complaint("older", message, help=help_line, severity="warning")]
+
+
+def why_of_class(root: Path, built: Path, engine: str | None) -> str | None:
+    """Return whether a document of a student is out of date; None if no class has such a document."""
+    folder_of, set_id = built.parent.name, built.parent.parent.name
+    made = ClassRecord.read(root, set_id)
+    if made is None or folder_of not in (CLASS, STUDENTS) or not NAME.fullmatch(set_id):
+        return None
+    names = {code: [code, *(f"{code}-{kind}" for kind in KINDS)] for code in made.students}
+    code = next((code for code, stems in names.items() if built.stem in stems), None)
+    if code is None:
+        return None
+    shown, heading, chosen = (
+        f"build/{set_id}/{folder_of}/{built.name}",
+        problem_set(root, set_id),
+        chosen_engine(engine),
+    )
+    inputs = _inputs(root, set_id, heading, chosen, made.seed)
+    shared = ClassDocuments(root, set_id, heading, made.seed, chosen, 0, inputs)
+    if shared.answers(Student(made.students[code], code)) is not None:
+        return f"{shown} is up to date"
+    why = "an input of the class has changed" if inputs != made.inputs else "its variant has an error, or it was edited"
+    again = f"to bring it up to date: `derive class {set_id}`, with the same roster"
+    return f"{shown} is out of date:\n  {why}\n{again}"
 
 
 def _inputs(root: Path, set_id: str, heading: ProblemSet, engine: Engine, seed: str) -> str:
@@ -318,13 +382,13 @@ def _rows(student: Student, problem: str, page: Mapping[str, Any]) -> list[tuple
     return rows
 
 
-def _remove_others(shared: ClassDocuments, students: Sequence[Student]) -> None:
-    codes = {student.code for student in students}
-    for record in sorted((shared.outputs / CLASS / MADE).glob("*.json")):
-        if record.stem not in codes:
-            for file in shared.files(Student("", record.stem)):
-                file.unlink(missing_ok=True)
-            record.unlink()
+def _remove_others(shared: ClassDocuments, students: Sequence[Student], before: ClassRecord | None) -> None:
+    """Remove the documents of students who left, also if the user removed the folder of the class."""
+    earlier = {record.stem for record in (shared.outputs / CLASS / MADE).glob("*.json")}
+    earlier |= {code for code in (before.students if before else ()) if NAME.fullmatch(code)}
+    for student in (Student("", code) for code in earlier - {student.code for student in students}):
+        for file in (*shared.files(student), shared.record(student)):
+            file.unlink(missing_ok=True)
 
 
 def _write_answers(shared: ClassDocuments, students: Sequence[Student]) -> None:
@@ -336,14 +400,14 @@ def _write_answers(shared: ClassDocuments, students: Sequence[Student]) -> None:
     write(shared.outputs / CLASS / f"{ANSWERS}.csv", table.getvalue())
 
 
-def _write_page(shared: ClassDocuments, students: Sequence[Student]) -> None:
+def _write_page(shared: ClassDocuments, students: Sequence[Student], current: set[str]) -> None:
     from derive.building.set_document import class_page
 
     folder = shared.outputs / CLASS
     shown = []
     for student in students:
         files = [(kind, shared.file(student, kind)) for kind in KINDS]
-        links = [(kind, os.path.relpath(file, folder)) for kind, file in files if file.exists()]
+        links = [(kind, os.path.relpath(file, folder)) for kind, file in files if student.code in current]
         shown.append({"name": student.name, "code": student.code, "files": links})
     write(folder / f"{INDEX}.html", class_page(shared.root, shared.heading, shown))
 

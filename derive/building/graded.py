@@ -8,6 +8,7 @@ from functools import partial
 from pathlib import Path
 
 from derive.building.cache import Cache
+from derive.building.class_record import ClassRecord
 from derive.building.set_names import set_folder
 from derive.building.sets import CACHE
 from derive.building.workers import TIME_LIMIT, Bug, Crew, Job, job_of
@@ -18,7 +19,8 @@ from derive.grading.outcomes import Outcome, Verdict
 _REPORT = "this is a bug in derive: report it with the answer and the files of the problem"
 CHUNK = 200  # the greatest number of answers in one job
 
-Asked = tuple[int, str, str, str]  # the number of the row, the name of the part, the answer, the code of the student
+# the number of the row, the name of the part, the answer, and the student; None: the values of the problem itself
+Asked = tuple[int, str, str, str | None]
 
 
 @dataclass(frozen=True)
@@ -37,10 +39,10 @@ def grade_answers(
     jobs: int,
     limit: float = TIME_LIMIT,
     tick: Callable[[int, Mapping[str, float]], None] = lambda *_: None,
-    seed: str | None = None,
+    of_class: ClassRecord | None = None,
 ) -> dict[int, Result]:
-    """Return the result of each row by the number of the row. With a seed, each answer is compared with the variant of
-    the student.
+    """Return the result of each row by the number of the row. With a class, each answer is compared with the variant of
+    its student.
 
     If a worker fails, new workers judge its answers.
     """
@@ -48,7 +50,7 @@ def grade_answers(
     waiting: dict[Job, tuple[str, Sequence[Asked]]] = {}
 
     def put(crew: Crew, problem_id: str, rows: Sequence[Asked]) -> None:
-        work = partial(_graded, root, problem_id, rows, seed)
+        work = partial(_graded, root, problem_id, rows, of_class)
         job = job_of(root, problem_id, work, limit + SECONDS * len(rows))
         waiting[job] = problem_id, rows
         crew.put(job)
@@ -78,7 +80,7 @@ def _failed(error: DeriveError | Bug, part: str, answer: str) -> Result:
     return Graded(part, answer, Verdict(Outcome.UNREADABLE, "too large: the worker that compared it was stopped"))
 
 
-def _graded(root: Path, problem_id: str, rows: Sequence[Asked], seed: str | None) -> dict[int, Result]:
+def _graded(root: Path, problem_id: str, rows: Sequence[Asked], of_class: ClassRecord | None) -> dict[int, Result]:
     from derive.building.solution import answer_key
     from derive.course.problem import load_problem
     from derive.course.variants import chosen_for
@@ -88,11 +90,17 @@ def _graded(root: Path, problem_id: str, rows: Sequence[Asked], seed: str | None
     set_id, _, problem = problem_id.partition("/")
     outputs = set_folder(root, set_id)
     cache = Cache(outputs / CACHE if outputs.is_dir() else None)
-    variations = load_problem(root, problem_id).variations if seed is not None else ()
+    with_class = of_class is not None and of_class.set_id == set_id
+    variations = load_problem(root, problem_id).variations if with_class else ()
     keys: dict[tuple[tuple[str, int], ...], Key] = {}
 
-    def key_of(student: str) -> Key:
-        chosen = chosen_for(set_id, problem, variations, student, seed or "")
+    def key_of(student: str | None) -> Key:
+        chosen: Mapping[str, int] = {}
+        if of_class and variations and student is not None:
+            code = of_class.code_of(student)
+            if code is None:
+                raise Misused(of_class.unknown(student))
+            chosen = chosen_for(set_id, problem, variations, code, of_class.seed)
         which = tuple(chosen.items())
         if which not in keys:
             keys[which] = answer_key(root, problem_id, cache, chosen or None)
@@ -100,7 +108,11 @@ def _graded(root: Path, problem_id: str, rows: Sequence[Asked], seed: str | None
 
     def results() -> Iterator[tuple[int, Result]]:
         for number, name, answer, student in rows:
-            key = key_of(student)
+            try:
+                key = key_of(student)
+            except Misused as error:
+                yield number, NotGraded(error.complaints[0])
+                continue
             part = key.part(name)
             yield (
                 number,

@@ -57,6 +57,21 @@ def misnamed_sets(root: Path) -> list[Complaint]:
     ]
 
 
+def outputs_without_set(root: Path) -> list[Complaint]:
+    """Return a warning about each folder of outputs whose set has no set.yaml any more."""
+    built = sorted(path.parent.name for path in (root / "build").glob("*/.manifest.json"))
+    return [
+        Complaint(
+            "older",
+            f"`build/{name}` has the outputs of a set that does not exist any more",
+            help=f"`derive clean {name}` removes them",
+            severity="warning",
+        )
+        for name in built
+        if not (root / "problems" / name / "set.yaml").is_file()
+    ]
+
+
 def check_asked(root: Path, set_id: str, problems: Collection[str] = ()) -> None:
     """Check that a set and the problems that are asked for exist and can be built."""
     if set_id not in set_names(root):

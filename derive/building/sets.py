@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from derive.building.cache import NOT_KEPT, PACKAGES, Cache, Kept, digest, engine_digest, file_digest, not_kept
+from derive.building.class_record import RECORD
 from derive.building.documents import named_documents, still_there, with_asked
 from derive.building.files import folder, write, writing
 from derive.building.lock import locked
@@ -189,7 +190,7 @@ class _Build:
         return result
 
     def _of_class(self) -> list[Complaint]:
-        if not (self.outputs / "class").is_dir():
+        if not (self.outputs / RECORD).is_file():
             return []
         from derive.building.classes import class_is_older
 

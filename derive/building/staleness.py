@@ -92,11 +92,11 @@ def asked_about(root: Path, what: str) -> tuple[str, tuple[str, ...]]:
 def _below_build(root: Path, what: str) -> tuple[str, str, str] | None:
     """Split a path below build/ into the set, "/" and the file; return None for any other path."""
     found = [Path(os.path.relpath(os.path.normpath(base / what), root / "build")) for base in (Path.cwd(), root)]
-    below = [path.parts for path in found if ".." not in path.parts and len(path.parts) <= 2]
+    below = [path.parts for path in found if ".." not in path.parts and len(path.parts) <= 3]
     of_a_set = [parts for parts in below if parts and parts[0] in set_names(root)]
     if of_a_set or below:  # the caller reports a folder without a set
-        set_id, name = (*(of_a_set or below)[0], "", "")[:2]
-        return set_id, "/", name
+        set_id, *names = (of_a_set or below)[0] or ("",)
+        return set_id, "/", "/".join(names)
     return None
 
 

@@ -38,7 +38,7 @@ def _question(question: Question, part: Part, stack: bool) -> str:
         return _typed("essay", question, part, _ESSAY)
     if len(part.answers) == 1:
         return _typed("numerical", question, part, _numerical(part.answers[0]))
-    return _typed("cloze", question, part, "", _gaps(part.answers))
+    return _typed("cloze", question, part, "", _gaps(part))
 
 
 _ESSAY = (
@@ -75,11 +75,18 @@ def _numerical(answer: Answer) -> str:
     )
 
 
-def _gaps(answers: Sequence[Answer]) -> str:
+def _marks(part: Part) -> list[int]:
+    """Return the marks of the numbers of a cloze question: whole numbers, whose sum is the mark of the question."""
+    count, points = len(part.answers), part.points or 0
+    whole = int(points) if points >= count and points == int(points) else count
+    return [whole // count + (number < whole % count) for number in range(count)]
+
+
+def _gaps(part: Part) -> str:
     return "\n".join(
         f"<p>{formula_html(answer.symbol or answer.latex)} = "
-        f"{{1:NUMERICAL:={answer.value:.12g}:{answer.tolerance:.12g}}} {escape(answer.unit)}</p>"
-        for answer in answers
+        f"{{{marks}:NUMERICAL:={answer.value:.12g}:{answer.tolerance:.12g}}} {escape(answer.unit)}</p>"
+        for answer, marks in zip(part.answers, _marks(part), strict=True)
     )
 
 

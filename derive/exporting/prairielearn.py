@@ -35,7 +35,11 @@ def _folder(set_id: str, title: str, question: Question, part: Part) -> dict[str
     (asked, used), (solution, also) = (with_files(each, lambda file: address + file, question.files) for each in texts)
     fields = [_field(number, answer) for number, answer in enumerate(part.answers, 1)]
     graded = all(fields) and bool(fields)
-    shown = "\n".join(each for each in fields if each) if graded else '<pl-rich-text-editor file-name="answer.html"/>'
+    shown = (
+        "\n".join(each for each in fields if each)
+        if graded
+        else _element("pl-rich-text-editor", 'file-name="answer.html"')
+    )
     page = (
         f"<pl-question-panel>\n{asked}\n</pl-question-panel>\n{shown}\n"
         f"<pl-answer-panel>\n{solution}\n</pl-answer-panel>\n"
@@ -65,14 +69,19 @@ def _without_tags(html: str) -> str:
 
 
 def _field(number: int, answer: Answer) -> str:
+    name = f'answers-name="answer{number}"'
     label = f"<p>{_without_tags(formula_html(answer.symbol or answer.key))} =</p>"
     if answer.value is not None:
         unit = f' suffix="{escape(answer.unit)}"' if answer.unit else ""
         figures = answer.figures or 4
-        return f'{label}\n<pl-number-input answers-name="answer{number}" comparison="sigfig" digits="{figures}"{unit}/>'
+        return f"{label}\n" + _element("pl-number-input", f'{name} comparison="sigfig" digits="{figures}"{unit}')
     if (letters := answer.letters) is None:
         return ""
-    return f'{label}\n<pl-symbolic-input answers-name="answer{number}" variables="{", ".join(sorted(letters))}"/>'
+    return f"{label}\n" + _element("pl-symbolic-input", f'{name} variables="{", ".join(sorted(letters))}"')
+
+
+def _element(tag: str, attributes: str) -> str:
+    return f"<{tag} {attributes}></{tag}>"  # HTML has no self-closing form of these elements
 
 
 def _server(answers: Sequence[Answer]) -> str:

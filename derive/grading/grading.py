@@ -543,7 +543,10 @@ class _Grading:
         told = [self.told(target, found[target.key][0]) for target in targets if target.key in found]
         because = "; ".join(dict.fromkeys(filter(None, told)))
         if missing := [each for each in targets if each.key not in found]:
-            because = "; ".join(filter(None, [because, f"no answer to: {', '.join(map(_short_name, missing))}"]))
+            given = f"{len(targets) - len(missing)} of {len(targets)} answers given"
+            none_to = f"{given}, no answer to: {', '.join(map(_short_name, missing))}"
+            because = "; ".join(filter(None, [because, none_to]))
+            worst = max(worst, Verdict(Outcome.MISSING, ""), key=lambda each: each.rank)
         if self.left_over and not missing:
             more = "; ".join(self.reading_of(each) for each in self.left_over)[:200]
             if (extra := self.contradicts(found)) is not None:

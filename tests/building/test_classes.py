@@ -11,7 +11,8 @@ import pytest
 from pypdf import PdfReader
 
 from derive.building import classes
-from derive.building.classes import Student, code_of, made_class, plain, read_roster
+from derive.building.class_record import ClassRecord, class_to_grade
+from derive.building.classes import Student, code_of, made_class, plain, read_roster, why_of_class
 from derive.cli.options import main
 from derive.course.variants import chosen_for
 from derive.errors import Misused, Rejected
@@ -51,6 +52,7 @@ def test_without_codes_the_name_gives_the_code(tmp_path: Path) -> None:
         ("", [1]),
         ("name\n", [1]),
         ("name\nAda\n\nAda\n", [4]),
+        ("name\nAda\nNoether, Emmy\n", [3]),
         ("name,code\nAda,A1\nEmmy,a1\n,C\nLise,../x\n", [3, 4, 5]),
     ],
 )
@@ -102,6 +104,17 @@ def test_each_student_has_documents_with_own_numbers_and_the_sheet_has_no_answer
     links = re.findall(r'href="([^"#]*)"', (build / "class" / "index.html").read_text())
     assert all((build / "class" / link).is_file() for link in links if link != "../index.html") and len(links) >= 8
 
+    sheet = build / "students" / "A1.pdf"
+    assert (why_of_class(tmp_path, sheet, None) or "").endswith("students/A1.pdf is up to date")
+    assert why_of_class(tmp_path, build / "students" / "problems.pdf", None) is None
+    made, content = tmp_path / "problems" / "week1" / "bead.yaml", sheet.read_bytes()
+    sheet.write_bytes(b"edited")
+    assert "it was edited" in (why_of_class(tmp_path, sheet, None) or "")
+    sheet.write_bytes(content)
+    made.write_text((before := made.read_text()) + "# edited\n")
+    assert "an input of the class has changed" in (why_of_class(tmp_path, sheet, None) or "")
+    made.write_text(before)
+
     monkeypatch.setattr(classes, "_documents_of", lambda *_: pytest.fail("nothing changed"))
     assert made_class(tmp_path, "week1", students, seed="3", jobs=1).made == 0
     made_class(tmp_path, "week1", students[:1], seed="3", jobs=1)
@@ -122,7 +135,14 @@ def test_an_error_in_one_variant_stops_no_other_student(tmp_path: Path) -> None:
     report = made_class(tmp_path, "week1", students, jobs=1)
     assert report.failed and 0 < report.made < 4
     assert any(note.startswith("in the variant of Student ") for note in report.complaints[0].notes)
-    assert len(list((tmp_path / "build" / "week1" / "students").glob("*.pdf"))) == report.made
+    sheets = tmp_path / "build" / "week1" / "students"
+    assert len(list(sheets.glob("*.pdf"))) == report.made
+    (failed,) = [each.code for each in students if not (sheets / f"{each.code}.pdf").exists()][:1]
+    (sheets / f"{failed}.pdf").write_text("of another seed")
+    again = made_class(tmp_path, "week1", students, jobs=1)
+    assert (again.made, again.kept) == (0, report.made)
+    assert any(each.code == "older" and f"({failed})" in each.message for each in again.warnings)
+    assert f"{failed}.pdf" not in (tmp_path / "build" / "week1" / "class" / "index.html").read_text()
 
 
 @pytest.mark.parametrize(
@@ -141,13 +161,54 @@ def test_an_answer_is_graded_with_the_variant_of_its_student(tmp_path: Path, cap
         length = float(variations[0].told(chosen["b"]).split()[0]) / 100
         rows += [f"{code},a,{(9.81 / length) ** 0.5:.4g} rad/s", f"{code},a,{(9.81 / length) ** 0.5 * 2:.4g} rad/s"]
     (tmp_path / "answers.csv").write_text("student,part,answer\n" + "\n".join(rows) + "\n")
-    main(["--root", str(tmp_path), "grade", "week1/bead", "--answers", str(tmp_path / "answers.csv"), "--seed", "3"])
+    of_class = ["--seed", "3", "--roster", str(roster(tmp_path, "name,code\nAda,A1\nEmmy,E2\nLise,L3\n"))]
+    main(["--root", str(tmp_path), "grade", "week1/bead", "--answers", str(tmp_path / "answers.csv"), *of_class])
     verdicts = [line.split()[3] for line in capfd.readouterr().out.splitlines()[1:]]
     assert verdicts[::2] == ["equal"] * 3
     assert "equal" not in verdicts[1::2]
-    command = ["--root", str(tmp_path), "grade", "week1/bead", rows[0].split(",")[2], "--seed", "3", "--student"]
-    assert main([*command, "A1"]) == 0
+    command = ["--root", str(tmp_path), "grade", "week1/bead", rows[0].split(",")[2], *of_class, "--student"]
+    assert main([*command, "A1"]) == main([*command, "Ada"]) == 0
     assert len({chosen_for("week1", "bead", variations, code, "3")["b"] for code in ("A1", "E2", "L3")}) > 1
+
+
+def made_before(root: Path, seed: str = "autumn") -> ClassRecord:
+    bead(root, "{b: [10 cm, 16 cm, 27 cm, 33 cm]}")
+    record = ClassRecord("week1", seed, {"A1": "Ada Lovelace", "E2": "Emmy Noether"})
+    record.save(root)
+    return record
+
+
+def test_the_seed_of_a_class_is_kept_and_another_seed_is_an_error(tmp_path: Path) -> None:
+    record = made_before(tmp_path)
+    assert ClassRecord.read(tmp_path, "week1") == record == class_to_grade(tmp_path, "week1", None, None)
+    with pytest.raises(Misused, match="made with the seed `autumn`, not with `B`"):
+        class_to_grade(tmp_path, "week1", "B", None)
+    with pytest.raises(Misused) as caught:
+        made_class(tmp_path, "week1", [Student("Ada Lovelace", "A1")], seed="B", jobs=1)
+    assert "--reseed" in (caught.value.complaints[0].help or "")
+    assert ClassRecord.read(tmp_path, "week1") == record
+
+
+def test_a_seed_without_a_class_needs_the_roster(tmp_path: Path) -> None:
+    assert class_to_grade(tmp_path, "week1", None, None) is None
+    with pytest.raises(Misused) as caught:
+        class_to_grade(tmp_path, "week1", "B", None)
+    assert "--roster" in (caught.value.complaints[0].help or "")
+    assert class_to_grade(tmp_path, "week1", "B", {"A1": "Ada"}) == ClassRecord("week1", "B", {"A1": "Ada"})
+
+
+def test_only_students_of_the_class_are_graded(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    made_before(tmp_path)
+    rows = ["A1,a,1 rad/s", "emmy noether,a,1 rad/s", "A2,a,1 rad/s", ",a,1 rad/s"]
+    (tmp_path / "answers.csv").write_text("student,part,answer\n" + "\n".join(rows) + "\n")
+    grade = ["--root", str(tmp_path), "grade", "week1/bead"]
+    assert main([*grade, "--answers", str(tmp_path / "answers.csv"), "--format", "csv"]) == 1
+    told = capfd.readouterr()
+    verdicts = [row["verdict"] for row in csv.DictReader(told.out.splitlines())]
+    assert verdicts[:2] != ["not graded"] * 2 and verdicts[2:] == ["not graded"] * 2
+    assert "no student with the code or the name `A2`" in told.err and "no student is named" in told.err
+    for more in (["--student", "A2"], ["--seed", "autumn"], ["--seed", "B", "--student", "A1"]):
+        assert main([*grade, "1 rad/s", *more]) == 2
 
 
 @pytest.mark.long

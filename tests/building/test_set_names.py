@@ -6,7 +6,14 @@ from pathlib import Path
 
 import pytest
 
-from derive.building.set_names import check_asked, misnamed_sets, set_folder, set_names, wrong_set_name
+from derive.building.set_names import (
+    check_asked,
+    misnamed_sets,
+    outputs_without_set,
+    set_folder,
+    set_names,
+    wrong_set_name,
+)
 from derive.errors import Misused
 from tests.courses import course_in
 
@@ -37,3 +44,13 @@ def test_only_a_set_and_problems_that_there_are_can_be_asked_for(tmp_path: Path)
     for set_id, problems in (("hw8", []), ("hw9", ["blok"])):
         with pytest.raises(Misused):
             check_asked(root, set_id, problems)
+
+
+def test_outputs_of_a_set_that_was_removed_are_named(tmp_path: Path) -> None:
+    for name in ("hw1", "hw2"):
+        (tmp_path / "build" / name).mkdir(parents=True)
+        (tmp_path / "build" / name / ".manifest.json").write_text("")
+    (tmp_path / "problems" / "hw2").mkdir(parents=True)
+    (tmp_path / "problems" / "hw2" / "set.yaml").write_text("title: A\n")
+    (told,) = outputs_without_set(tmp_path)
+    assert "`build/hw1`" in told.message and told.help == "`derive clean hw1` removes them"

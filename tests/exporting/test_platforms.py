@@ -19,7 +19,7 @@ from derive.errors import BuildFailed, Misused
 from derive.exporting.canvas import PACKAGE as CANVAS_PACKAGE
 from derive.exporting.canvas import QTI as QTI_1
 from derive.exporting.canvas import canvas_package
-from derive.exporting.moodle import moodle_xml
+from derive.exporting.moodle import _marks, moodle_xml
 from derive.exporting.prairielearn import prairielearn_package
 from derive.exporting.qti import PACKAGE, QTI, qti_package
 from derive.exporting.questions import Answer, Question, questions_of
@@ -73,8 +73,8 @@ def test_moodle_has_a_question_of_the_right_type_for_each_part(questions: list[Q
     assert (answer.get("fraction"), answer.findtext("text"), answer.findtext("tolerance")) == ("100", "7.004", "0.0005")
     assert asked[1].findtext("units/unit/unit_name") == "rad/s"
     cloze = asked[2].findtext("questiontext/text") or ""
-    assert "{1:NUMERICAL:=7.004:0.0005} rad/s" in cloze
-    assert "{1:NUMERICAL:=0.9:0.005} s" in cloze
+    assert "{2:NUMERICAL:=7.004:0.0005} rad/s" in cloze
+    assert "{2:NUMERICAL:=0.9:0.005} s" in cloze
     for each in asked:
         text = each.findtext("questiontext/text") or ""
         assert "&lt; 1\xa0m &amp; more" in text, "the text is HTML"
@@ -302,3 +302,20 @@ def test_a_formula_in_letters_is_a_question_of_stack(questions: list[Question]) 
 def test_an_answer_with_a_coordinate_is_not_of_positive_letters(questions: list[Question]) -> None:
     positive = {each.key: each.is_of_positive_letters for part in questions[0].parts for each in part.answers}
     assert positive == {"motion_x": False, "frequency": True, "period": True}
+
+
+@pytest.mark.parametrize(
+    ("points", "marks"), [(4.0, [2, 2]), (3.0, [2, 1]), (2.0, [1, 1]), (1.0, [1, 1]), (2.5, [1, 1]), (None, [1, 1])]
+)
+def test_the_marks_of_moodle_are_whole_and_their_sum_is_that_of_the_points(
+    questions: list[Question], points: float | None, marks: list[int]
+) -> None:
+    assert _marks(replace(questions[0].parts[2], points=points)) == marks
+
+
+def test_the_elements_of_prairielearn_have_closing_tags(questions: list[Question]) -> None:
+    with zipfile.ZipFile(io.BytesIO(prairielearn_package("week1", "A", questions))) as package:
+        pages = [package.read(name).decode() for name in package.namelist() if name.endswith("question.html")]
+    for tag in ("pl-number-input", "pl-rich-text-editor", "pl-symbolic-input"):
+        opened, closed = (sum(page.count(mark) for page in pages) for mark in (f"<{tag} ", f"></{tag}>"))
+        assert opened == closed

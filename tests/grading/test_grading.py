@@ -170,3 +170,9 @@ def test_an_answer_may_begin_with_a_minus_sign(capfd: pytest.CaptureFixture[str]
 def test_a_part_that_does_not_exist_is_answered_with_the_parts(capfd: pytest.CaptureFixture[str]) -> None:
     assert main(["grade", "hw9/block", "--part", "z", "1"]) == 2
     assert "(b) Find the kinetic energy." in capfd.readouterr().err
+
+
+def test_an_answer_that_lacks_a_result_is_not_equal(capfd: pytest.CaptureFixture[str]) -> None:
+    assert main(["grade", "library/yoyo", "--part", "b", "2/3 g"]) == 1
+    told = capfd.readouterr().out
+    assert "missing term" in told and "1 of 2 answers given, no answer to: S" in told and "credit: 2 of 4" in told

@@ -40,13 +40,14 @@ class Voice:
 
 
 def build(arguments: argparse.Namespace) -> int:
-    from derive.building.set_names import check_asked, set_names
+    from derive.building.set_names import check_asked, outputs_without_set, set_names
     from derive.building.sets import Options, built_set
 
     root = root_of(arguments)
     warn_of_templates(root)
     if not arguments.sets:
         warn_of_names(root)
+        complain(outputs_without_set(root))
     options = Options(
         arguments.engine,
         arguments.detail,

@@ -21,9 +21,9 @@ def make_class(arguments: argparse.Namespace) -> int:
     check_asked(root, set_id)
     students = read_roster(Path(arguments.roster))
     voice = Voice(arguments.quiet, arguments.verbose)
-    limit, scheduler = arguments.time_limit, arguments.scheduler
+    seed, engine, limit = arguments.seed, arguments.engine, arguments.time_limit
     report = made_class(
-        root, set_id, students, arguments.seed, arguments.engine, arguments.jobs, limit, voice.tell, scheduler
+        root, set_id, students, seed, engine, arguments.jobs, limit, voice.tell, arguments.scheduler, arguments.reseed
     )
     voice.tell("")
     complain([*report.warnings, *report.complaints])
@@ -31,7 +31,8 @@ def make_class(arguments: argparse.Namespace) -> int:
         internal(str(bug), bug.trace)
     outputs = shown_path(set_folder(root, set_id))
     voice.say(
-        f"{set_id}: made the documents of {report.made} of {report.students} students ({report.seconds:.1f} s): the "
-        f"sheets are in {outputs}/{STUDENTS}; solutions, keys and answers are in {outputs}/{CLASS}"
+        f"{set_id}: made the documents of {report.made} of {report.students} students, {report.kept} were up to date "
+        f"({report.seconds:.1f} s): the sheets are in {outputs}/{STUDENTS}; "
+        f"solutions, keys and answers are in {outputs}/{CLASS}"
     )
     return 1 if report.failed else 0

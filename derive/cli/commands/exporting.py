@@ -19,6 +19,7 @@ def export(arguments: argparse.Namespace) -> int:
     from derive.building.set_names import set_folder
     from derive.building.solution import rendered
     from derive.building.workers import done, job_of
+    from derive.course.problem import load_problem
     from derive.course.problem_set import path_of, problem_set
     from derive.exporting.questions import questions_of
 
@@ -60,5 +61,10 @@ def export(arguments: argparse.Namespace) -> int:
     deliver(content, output)
     list_again(root, set_id)
     if output != "-":
-        print(f"wrote {shown_path(root / output)}: {sum(len(each.parts) for each in questions)} questions")
+        parts = [part for each in questions for part in each.parts]
+        separate = arguments.format == "canvas"  # there each number is a question
+        count = sum(len(part.answers) if separate and part.is_numerical else 1 for part in parts)
+        print(f"wrote {shown_path(root / output)}: {count} questions")
+        if any(load_problem(root, page.id).variations for page in pages):
+            print("the questions have the values of the problems themselves, not those under `variants:`")
     return 0

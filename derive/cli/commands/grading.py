@@ -17,6 +17,7 @@ from derive.cli.terminal import complain, table, tell
 from derive.errors import Complaint, DeriveError, Misused
 
 if TYPE_CHECKING:
+    from derive.building.class_record import ClassRecord
     from derive.building.graded import Asked, Result
     from derive.grading.table import Row, Table
 
@@ -46,13 +47,23 @@ def _grade_one(arguments: argparse.Namespace) -> int:
     check_output(arguments.output, root)
     path_of(root, problem_id)
     part = check_part(root, problem_id, arguments.part)
+    of_class = _class_of(arguments, root, problem_id)
+    if arguments.student is None and (arguments.seed is not None or arguments.roster is not None):
+        message = "`--seed` and `--roster` choose the variant of a student, but no student is named"
+        raise Misused(Complaint("usage", message, help="add `--student CODE`"))
+    if arguments.student is not None:
+        if of_class is None:
+            message = f"no class of `{problem_id.partition('/')[0]}` has been made here, so its codes are unknown"
+            raise Misused(Complaint("no-class", message, help="give its roster with `--roster`, and its seed"))
+        if of_class.code_of(arguments.student) is None:
+            raise Misused(of_class.unknown(arguments.student))
     with waiting(f"deriving {problem_id}"):
         found = grade_answers(
             root,
             {problem_id: [(0, part, arguments.answer, arguments.student)]},
             1,
             arguments.time_limit,
-            seed=arguments.seed,
+            of_class=of_class,
         )[0]
     if isinstance(found, NotGraded):
         raise DeriveError(found.complaint)
@@ -63,6 +74,15 @@ def _grade_one(arguments: argparse.Namespace) -> int:
         raise Misused(Complaint("usage", "`--format csv` needs `--answers`", help="use `text` or `json`"))
     deliver(text.encode() + b"\n", arguments.output)
     return 0 if found.verdict.is_right else 1
+
+
+def _class_of(arguments: argparse.Namespace, root: Path, asked: str) -> ClassRecord | None:
+    from derive.building.class_record import class_to_grade
+    from derive.building.classes import read_roster
+
+    roster = read_roster(Path(arguments.roster)) if arguments.roster is not None else None
+    students = {each.code: each.name for each in roster} if roster is not None else None
+    return class_to_grade(root, asked.partition("/")[0], arguments.seed, students)
 
 
 def _grade_table(arguments: argparse.Namespace) -> int:
@@ -83,9 +103,8 @@ def _grade_table(arguments: argparse.Namespace) -> int:
     def tick(done: int, running: Mapping[str, float]) -> None:
         tell(f"{done} of {len(answers.rows)} graded; {under_way(running)}")
 
-    found = grade_answers(
-        root, asked, arguments.jobs or os.cpu_count() or 1, arguments.time_limit, tick, arguments.seed
-    )
+    of_class = _class_of(arguments, root, new_id_of(arguments.id))
+    found = grade_answers(root, asked, arguments.jobs or os.cpu_count() or 1, arguments.time_limit, tick, of_class)
     tell("")
     unknown = NotGraded(Complaint("no-such-problem", "there is no such problem"))
     results = [found.get(number, unknown) for number in range(len(answers.rows))]

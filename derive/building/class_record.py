@@ -1,0 +1,85 @@
+"""The record of the class of a set: the seed and the students for whom `derive class` last made documents."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from derive.building.files import write
+from derive.building.set_names import set_folder
+from derive.errors import Complaint, Misused, did_you_mean
+
+RECORD = ".class.json"  # a file of the folder of the set, so it stays if the documents of the class are removed
+
+
+@dataclass(frozen=True)
+class ClassRecord:
+    """The inputs of a class; `students` maps each code to the name of the student."""
+
+    set_id: str
+    seed: str
+    students: Mapping[str, str]
+    inputs: str = ""  # the digest of the inputs that the students share
+
+    @classmethod
+    def read(cls, root: Path, set_id: str) -> ClassRecord | None:
+        """Return the record; None if no class has been made here."""
+        try:
+            kept = json.loads((set_folder(root, set_id) / RECORD).read_bytes())
+            students = {str(code): str(name) for code, name in kept["students"].items()}
+            return cls(set_id, str(kept["seed"]), students, str(kept["inputs"]))
+        except (OSError, ValueError, KeyError, TypeError, AttributeError):
+            return None
+
+    def save(self, root: Path) -> None:
+        kept = {"seed": self.seed, "inputs": self.inputs, "students": dict(self.students)}
+        write(set_folder(root, self.set_id) / RECORD, json.dumps(kept, ensure_ascii=False, indent=1) + "\n")
+
+    def check_seed(self, seed: str | None, help_line: str) -> None:
+        """Report an error if the class was made with another seed than this one."""
+        if seed is not None and seed != self.seed:
+            made = f"the seed `{self.seed}`" if self.seed else "no seed"
+            message = f"the class of `{self.set_id}` was made with {made}, not with `{seed}`"
+            raise Misused(Complaint("seed", message, help=help_line))
+
+    def code_of(self, student: str) -> str | None:
+        """Return the code of the student with this code or name; None if there is no such student, or if several
+        students have this name."""
+        wanted = " ".join(student.split()).casefold()
+        for code in self.students:
+            if code.casefold() == wanted:
+                return code
+        named = [code for code, name in self.students.items() if name.casefold() == wanted]
+        return named[0] if len(named) == 1 else None
+
+    def unknown(self, student: str) -> Complaint:
+        """Return the error about an answer of a student who is not in the class."""
+        if not student.strip():
+            message = f"the problem has variants, but no student is named; the class of `{self.set_id}` has codes"
+            return Complaint("no-such-student", message, help="give the code of the student in the column `student`")
+        shown = student if len(student) <= 40 else f"{student[:40]} ..."
+        help_line = did_you_mean(student, [*self.students, *self.students.values()])
+        return Complaint(
+            "no-such-student",
+            f"the class of `{self.set_id}` has no student with the code or the name `{shown}`",
+            help=help_line or f"the roster or `build/{self.set_id}/class/answers.csv` has the codes",
+        )
+
+
+def class_to_grade(root: Path, set_id: str, seed: str | None, students: Mapping[str, str] | None) -> ClassRecord | None:
+    """Return the class whose answers are graded; None if no class has been made and none is described.
+
+    students   the students of a roster, by their codes; None if no roster is given
+    """
+    made = ClassRecord.read(root, set_id)
+    if made is not None:
+        made.check_seed(seed, "leave out `--seed`")
+        return made if students is None else ClassRecord(set_id, made.seed, students)
+    if students is not None:
+        return ClassRecord(set_id, seed or "", students)
+    if seed is not None:
+        message = f"no class of `{set_id}` has been made here, so its codes are unknown"
+        raise Misused(Complaint("no-class", message, help="give the roster of the class with `--roster`"))
+    return None
