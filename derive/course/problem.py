@@ -28,7 +28,7 @@ from derive.course.assumed import Assumed, check_assumed, narrowed, order_of
 from derive.course.declared import declared_letters
 from derive.course.defined import Defined, read_defined
 from derive.course.expression import Declared
-from derive.course.given import Given, Measured, read_givens, read_numbers
+from derive.course.given import Given, Measured, read_givens, read_numbers, value_in_prose
 from derive.course.own_figure import OwnFigure, read_figure
 from derive.course.parts import Question
 from derive.course.placement import Placement, case_label, placements
@@ -79,6 +79,7 @@ class Problem:
     reference: str = ""
     variations: tuple[Variation, ...] = ()
     is_variant: bool = False
+    in_prose: tuple[Given, ...] = ()  # values of a description that prose mentions by their paths
     figure: OwnFigure | None = None
     units: tuple[Word, ...] = ()  # the units of answers that the set prefers
     warnings: tuple[Complaint, ...] = field(default=(), repr=False, compare=False)
@@ -239,7 +240,19 @@ def problem_and_faults(root: Path, problem_id: str, chosen: Chosen | None = None
         is_variant=bool(chosen),
         warnings=warnings,
     )
-    return problem, of_drawings
+    return replace(problem, in_prose=(*_in_prose(problem, written.given),)), of_drawings
+
+
+def _in_prose(problem: Problem, given: Mapping | None) -> Iterator[Given]:
+    """Yield the values of a description that prose mentions by their paths, such as `<<body.sides>>`."""
+    if given is None or problem.described is None:
+        return
+    symbols = {**problem.described.letters, **problem.symbols}
+    names = {mention.name for prose in problem.texts for mention in prose.mentions if not mention.of}
+    for name in sorted(names - {*symbols, *(each.name for each in problem.givens)}):
+        node = given.at(name)
+        if node is not None and (value := value_in_prose(name, node, symbols, problem.measured)):
+            yield value
 
 
 def _asked(parts: Iterable[Question], limits: Iterable[LimitKeys], drawings: Iterable[Placement]) -> tuple[Word, ...]:

@@ -216,6 +216,13 @@ class Mapping:
     def get(self, key: str) -> Tree | None:
         return self._by_name.get(key)
 
+    def at(self, path: str) -> Tree | None:
+        """Return the value at a path such as `body.inner`."""
+        node: Tree | None = self
+        for key in path.split("."):
+            node = node.get(key) if isinstance(node, Mapping) else None
+        return node
+
     @property
     def places(self) -> dict[str, Place]:
         """The place of each key, including nested keys such as `show.spin`."""

@@ -118,3 +118,12 @@ def test_all_choices_are_about_equally_frequent(tmp_path: Path) -> None:
     counts = Counter(chosen_for("week1", "bead", variations, str(number), "")["b"] for number in range(5000))
     assert set(counts) == set(range(10))
     assert max(abs(count - 500) for count in counts.values()) < 100  # more than four standard deviations
+
+
+@pytest.mark.parametrize(("choice", "printed"), [(0, "m"), (1, "2*m")])
+def test_prose_can_mention_a_given_value_by_its_path(tmp_path: Path, choice: int, printed: str) -> None:
+    bead(tmp_path, "{particles.bead.mass: [m, 2*m]}")
+    file = tmp_path / "problems" / "week1" / "bead.yaml"
+    file.write_text(file.read_text().replace("<<m>>", "<<particles.bead.mass>>"))
+    (mentioned,) = load_problem(tmp_path, "week1/bead", {"particles.bead.mass": choice}).in_prose
+    assert (mentioned.name, str(mentioned.value)) == ("particles.bead.mass", printed)
