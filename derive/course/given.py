@@ -209,9 +209,6 @@ def _scalar(node: Tree, wanted: Wanted, where: Place | None = None) -> Scalar:
 
 def _value(scalar: Scalar, wanted: Wanted, symbols: Mapping[str, Declared]) -> Expr | Number:
     """Read a scalar as an expression or as a number with its unit."""
-    if comma := re.fullmatch(r"\s*(\d+),(\d+)(.*)", scalar.text):
-        point = f"{comma[1]}.{comma[2]}{comma[3]}"
-        wanted.refuse("decimal-comma", f"`{scalar.text}` has a comma in it", scalar.place, f"write `{point}`")
     number = number_with_unit(scalar, wanted, symbols)
     if number is not None:
         _check_sign(number.si, scalar, wanted)

@@ -210,6 +210,9 @@ def problem_and_faults(root: Path, problem_id: str, chosen: Chosen | None = None
     assert written.title is not None
     assert written.statement is not None
     assert script is not None
+    if not chosen:
+        _check_choices(root, problem_id, written, script, faults)
+        faults.stop()
     form = form_of_set(root, problem_id.partition("/")[0])
     problem = Problem(
         id=problem_id,
@@ -241,6 +244,29 @@ def problem_and_faults(root: Path, problem_id: str, chosen: Chosen | None = None
         warnings=warnings,
     )
     return replace(problem, in_prose=(*_in_prose(problem, written.given),)), of_drawings
+
+
+def _check_choices(
+    root: Path, problem_id: str, written: ProblemKeys, script: Script | StockScript, faults: Faults
+) -> None:
+    """Report the errors in the choices of each variation; the other values are those of the file. An error elsewhere is
+    reported at the choice of a given value. A number may cause it by its relation to other numbers, so then it is left
+    out."""
+    for variation in written.variants:
+        known: set[tuple[str, Place]] = set()
+        for number in variation.tried:
+            own = Faults()
+            with own:
+                varied = written_problem(root, problem_id, own, chosen={str(variation.name): number})
+                if not own:
+                    pinned_by(varied.symbols, varied.values, varied.given, varied.places, script, own)
+            for each in own.complaints:
+                is_here = each.place is not None and variation.contains(number, each.place)
+                found = each if is_here else replace(each, place=variation.choices[number].place)
+                assert found.place is not None
+                if (is_here or variation.name not in written.values) and (found.code, found.place) not in known:
+                    known.add((found.code, found.place))
+                    faults.add(found)
 
 
 def _in_prose(problem: Problem, given: Mapping | None) -> Iterator[Given]:

@@ -11,8 +11,8 @@ from derive.steps.derivation import Derivation
 
 
 def page_names(problem: Problem, derivation: Derivation, words: Phrases) -> dict[str, Any]:
-    """Return each name with its text. If an entry of `given:` and a step have the same name, the name denotes the entry;
-    a step has precedence over a value that is not a symbol of the description."""
+    """Return each name with its text. If an entry of `given:` and a step have the same name, the name denotes the
+    entry. A step has precedence over a value that prose mentions by its path."""
     described = problem.described.letters if problem.described else {}
     names: dict[str, Any] = {**AXIS_NAMES, **{name: (Math(known.symbol),) for name, known in described.items()}}
     coordinates = (q for step in derivation.steps for q, _ in step.coordinates)
