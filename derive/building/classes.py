@@ -221,7 +221,10 @@ def made_class(
                 elif outcome.error:
                     report.bugs.append(outcome.error)
                 for made in outcome.value or ():
-                    report.complaints += made.complaints
+                    known = {(each.code, each.message, each.place) for each in report.complaints}
+                    report.complaints += [
+                        each for each in made.complaints if (each.code, each.message, each.place) not in known
+                    ]
                     report.warnings += [each for each in made.warnings if each not in report.warnings]
                     report.made += not made.complaints
         _remove_others(shared, students)
@@ -272,6 +275,7 @@ def _documents_of_one(shared: ClassDocuments, student: Student) -> Made:
     from derive.building.solution import rendered
     from derive.course.problem import problem_and_faults
     from derive.course.variants import chosen_for
+    from derive.render.notation.latex import unprintable
 
     if shared.answers(student) is not None:
         return Made(student)
@@ -289,8 +293,9 @@ def _documents_of_one(shared: ClassDocuments, student: Student) -> Made:
         own = replace(shared.heading, student=f"{student.name} ({student.code})")
         drawings = [file for page in pages for file in page.files if file[0].endswith(".pdf")]
         logo = [(LOGO, own.logo)] if own.logo else []
+        in_pdf = own if unprintable(student.name) is None else replace(own, student=student.code)
         for kind in KINDS:
-            tex = the_document(kind)(shared.root, own, pages)
+            tex = the_document(kind)(shared.root, in_pdf, pages)
             typeset(
                 tex, shared.file(student, kind), shared.engine, timeout=shared.limit,
                 log=shared.outputs / "log", included=[*drawings, *logo], formats=replace(cache, fresh=False),
@@ -303,7 +308,13 @@ def _documents_of_one(shared: ClassDocuments, student: Student) -> Made:
     rows = [row for page in pages for row in _rows(student, page.id, json.loads(page.texts["json"]))]
     files = [file_digest(file) for file in shared.files(student)]
     write(shared.record(student), json.dumps({"key": shared.key(student), "files": files, "answers": rows}))
-    return Made(student, warnings=tuple(warning for page in pages for warning in page.warnings))
+    warnings = [warning for page in pages for warning in page.warnings]
+    if in_pdf is not own:
+        name, code = student.name, student.code
+        message = f"the fonts of the PDF lack a letter of `{name}`, so the PDF has only the code `{code}`"
+        help_line = "write the name in Latin letters in the roster; the page for a browser has the name"
+        warnings.append(Complaint("character", message, help=help_line, severity="warning"))
+    return Made(student, warnings=tuple(warnings))
 
 
 def _rows(student: Student, problem: str, page: Mapping[str, Any]) -> list[tuple[str, ...]]:
