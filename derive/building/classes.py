@@ -273,8 +273,8 @@ def _documents_of(shared: ClassDocuments, students: Sequence[Student]) -> list[M
 def _documents_of_one(shared: ClassDocuments, student: Student) -> Made:
     from derive.building.set_document import document_page, the_document
     from derive.building.solution import rendered
-    from derive.course.problem import problem_and_faults
     from derive.course.variants import chosen_for
+    from derive.course.written import written_problem
     from derive.render.notation.latex import unprintable
 
     if shared.answers(student) is not None:
@@ -282,7 +282,7 @@ def _documents_of_one(shared: ClassDocuments, student: Student) -> Made:
     told, pages, cache = "", [], Cache(shared.outputs / CACHE)
     try:
         for problem_id in shared.heading.problems:
-            variations = problem_and_faults(shared.root, problem_id)[0].variations
+            variations = written_problem(shared.root, problem_id, Faults()).variants
             chosen = chosen_for(shared.set_id, problem_id.rpartition("/")[2], variations, student.code, shared.seed)
             told = ", ".join(f"{each.name} = {each.told(chosen[each.name])}" for each in variations)
             page = rendered(
