@@ -242,7 +242,10 @@ def made_class(
                 elif outcome.error:
                     report.bugs.append(outcome.error)
                 for made in outcome.value or ():
-                    report.complaints += made.complaints
+                    known = {(each.code, each.message, each.place) for each in report.complaints}
+                    report.complaints += [
+                        each for each in made.complaints if (each.code, each.message, each.place) not in known
+                    ]
                     report.warnings += [each for each in made.warnings if each not in report.warnings]
                     report.made += not made.complaints
         _remove_others(shared, students, before)
@@ -334,15 +337,16 @@ def _documents_of(shared: ClassDocuments, students: Sequence[Student]) -> list[M
 def _documents_of_one(shared: ClassDocuments, student: Student) -> Made:
     from derive.building.set_document import document_page, the_document
     from derive.building.solution import rendered
-    from derive.course.problem import problem_and_faults
     from derive.course.variants import chosen_for
+    from derive.course.written import written_problem
+    from derive.render.notation.latex import unprintable
 
     if shared.answers(student) is not None:
         return Made(student)
     told, pages, cache = "", [], Cache(shared.outputs / CACHE)
     try:
         for problem_id in shared.heading.problems:
-            variations = problem_and_faults(shared.root, problem_id)[0].variations
+            variations = written_problem(shared.root, problem_id, Faults()).variants
             chosen = chosen_for(shared.set_id, problem_id.rpartition("/")[2], variations, student.code, shared.seed)
             told = ", ".join(f"{each.name} = {each.told(chosen[each.name])}" for each in variations)
             page = rendered(
@@ -353,8 +357,9 @@ def _documents_of_one(shared: ClassDocuments, student: Student) -> Made:
         own = replace(shared.heading, student=f"{student.name} ({student.code})")
         drawings = [file for page in pages for file in page.files if file[0].endswith(".pdf")]
         logo = [(LOGO, own.logo)] if own.logo else []
+        in_pdf = own if unprintable(student.name) is None else replace(own, student=student.code)
         for kind in KINDS:
-            tex = the_document(kind)(shared.root, own, pages)
+            tex = the_document(kind)(shared.root, in_pdf, pages)
             typeset(
                 tex, shared.file(student, kind), shared.engine, timeout=shared.limit,
                 log=shared.outputs / "log", included=[*drawings, *logo], formats=replace(cache, fresh=False),
@@ -367,7 +372,13 @@ def _documents_of_one(shared: ClassDocuments, student: Student) -> Made:
     rows = [row for page in pages for row in _rows(student, page.id, json.loads(page.texts["json"]))]
     files = [file_digest(file) for file in shared.files(student)]
     write(shared.record(student), json.dumps({"key": shared.key(student), "files": files, "answers": rows}))
-    return Made(student, warnings=tuple(warning for page in pages for warning in page.warnings))
+    warnings = [warning for page in pages for warning in page.warnings]
+    if in_pdf is not own:
+        name, code = student.name, student.code
+        message = f"the fonts of the PDF lack a letter of `{name}`, so the PDF has only the code `{code}`"
+        help_line = "write the name in Latin letters in the roster; the page for a browser has the name"
+        warnings.append(Complaint("character", message, help=help_line, severity="warning"))
+    return Made(student, warnings=tuple(warnings))
 
 
 def _rows(student: Student, problem: str, page: Mapping[str, Any]) -> list[tuple[str, ...]]:

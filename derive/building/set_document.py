@@ -14,8 +14,10 @@ from derive.building.papers import Paper
 from derive.course.names import LOGO, MORE, REPORT, SHEET, SOLUTIONS
 from derive.course.parts import points_text
 from derive.course.problem_set import ProblemSet
+from derive.errors import Faults, Place
 from derive.page.template import templates_of
 from derive.page.wording import Phrases, phrases
+from derive.render.notation.latex import unprintable
 from derive.render.printing.figure_numbers import equations_numbered, numbered_in_a_row
 from derive.render.printing.latex_page import dotted, whole_latex
 from derive.render.printing.templates import HTML, filled_html
@@ -150,10 +152,25 @@ def _listed(problems: Sequence[Rendered], kind: str = SOLUTIONS) -> list[Listed]
 
 
 def _document(root: Path, template: str, heading: ProblemSet, problems: Sequence[Listed], kind: str = SOLUTIONS) -> str:
+    _check_characters(root, heading)
     facts = _facts(root, heading, problems)
     labels = facts["labels"]
     facts["kind_of_document"] = labels["solutions"] if kind == SOLUTIONS else labels["documents"][kind]
     return whole_latex(templates_of(root), template, facts)
+
+
+def _check_characters(root: Path, heading: ProblemSet) -> None:
+    """Report the words of a heading that the fonts of the PDF cannot print."""
+    faults = Faults()
+    for fact in filter(lambda fact: unprintable(fact) is not None, (heading.title, *heading.facts)):
+        files = (path for path in heading.inputs if path.endswith(".yaml"))
+        lines = (
+            (path, *line) for path in files for line in enumerate((root / path).read_text("utf-8").splitlines(), 1)
+        )
+        place = next((Place(path, n, 1, text, len(text)) for path, n, text in lines if fact in text), None)
+        help_line = "the fonts of the PDF have Latin and Greek letters"
+        faults.error("character", f"`{fact}` cannot be printed", place, help=help_line)
+    faults.stop()
 
 
 def _facts(root: Path, heading: ProblemSet, problems: Sequence[Listed]) -> dict[str, Any]:

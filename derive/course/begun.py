@@ -12,7 +12,7 @@ from os.path import relpath
 from pathlib import Path
 
 from derive.course.names import DOCUMENTS, INDEX, NAME
-from derive.course.problem_set import mapping_in, path_of, problem_set
+from derive.course.problem_set import COURSE, mapping_in, path_of, problem_set
 from derive.course.schema import wrong_type
 from derive.course.yaml_tree import Scalar, Sequence
 from derive.errors import Complaint, Faults, Misused, did_you_mean
@@ -20,7 +20,8 @@ from derive.errors import Complaint, Faults, Misused, did_you_mean
 PATTERNS = ("system", "body", "rotation", "script")
 SCHEMA = "problem.schema.json"
 SOLVED_BY = re.compile(r"^solve:[ \t]*(\S+\.py)", re.MULTILINE)
-NEW_SET = "course: Mechanics\ntitle: {}\n# date: Fall term\n# instructor: your name\n\nproblems:\n"
+SCHEMA_OF_SET = "set.schema.json"
+NEW_SET = "title: {}\n# date: Fall term\n# instructor: your name\n\nproblems:\n"
 PROBLEM_NAMED = re.compile(r"<<\s*problem\s+([\w-]+)\s*>>")
 
 
@@ -43,14 +44,29 @@ def begun(
     written_for = f"{name}.py" if script else ""
     if script:
         yaml = SOLVED_BY.sub(lambda found: found[0].replace(found[1], written_for), yaml, count=1)
-    modeline = f"# yaml-language-server: $schema={relpath(schemas / SCHEMA, root / folder)}\n"
-    files = {f"{folder}/{name}.yaml": modeline + yaml}
+    files = {f"{folder}/{name}.yaml": _for_editors(root / folder, schemas / SCHEMA) + yaml}
     if script:
         files[f"{folder}/{written_for}"] = script
     if taken := next((path for path in files if (root / path).exists()), None):
         raise Misused(Complaint("exists", f"the file `{taken}` already exists", help="choose another name"))
-    files[f"{folder}/set.yaml"] = _with_problem(root, f"{folder}/set.yaml", set_id, name)
+    path = f"{folder}/set.yaml"
+    if (root / path).is_file():
+        files[path] = _with_problem(root, path, name)
+    else:
+        files[path] = _for_editors(root / folder, schemas / SCHEMA_OF_SET) + _new_set(root, set_id, name)
     return files
+
+
+def _for_editors(folder: Path, schema: Path) -> str:
+    """Return the line that names the schema of a file."""
+    return f"# yaml-language-server: $schema={relpath(schema, folder)}\n"
+
+
+def _new_set(root: Path, set_id: str, name: str) -> str:
+    """Return the text of the file of a new set; the course is left out if `course.yaml` states it."""
+    shared = mapping_in(root, COURSE, "a course") if (root / COURSE).is_file() else None
+    course = "" if shared and shared.get("course") else "course: Mechanics\n"
+    return f"{course}{NEW_SET.format(set_id)}  - {name}\n"
 
 
 def _check_names(root: Path, set_id: str, name: str) -> None:
@@ -85,12 +101,9 @@ def _copied(root: Path, like: str) -> tuple[str, str]:
     return PROBLEM_NAMED.sub(in_words, text), _read(script) if script and script.is_file() else ""
 
 
-def _with_problem(root: Path, path: str, set_id: str, name: str) -> str:
-    """Return the text of a set's file with one more problem, or the text of a new file."""
-    file = root / path
-    if not file.is_file():
-        return f"{NEW_SET.format(set_id)}  - {name}\n"
-    text, faults = _read(file), Faults()
+def _with_problem(root: Path, path: str, name: str) -> str:
+    """Return the text of a set's file with one more problem."""
+    text, faults = _read(root / path), Faults()
     listed = mapping_in(root, path, "a set").get("problems")
     if not isinstance(listed, Sequence) or not listed.items:
         wrong_type(faults, "`problems`", "a list of names", listed or mapping_in(root, path, "a set"))

@@ -30,8 +30,9 @@ from derive.algebra.kinds import (
 from derive.algebra.ranges import Range
 from derive.course.expression import Declared, read_expression
 from derive.course.measures import Number, Wanted, check_range, is_more_than_unit, number_with_unit
+from derive.course.yaml_tree import Mapping as MappingNode
 from derive.course.yaml_tree import Scalar, Sequence, Tree, Word, shape_of
-from derive.errors import Faults, Place, did_you_mean, rejected
+from derive.errors import DeriveError, Faults, Place, did_you_mean, rejected
 from derive.units import read_unit
 
 DIRECTION_NAMES = ("diagonal", "x", "y", "z")
@@ -208,9 +209,6 @@ def _scalar(node: Tree, wanted: Wanted, where: Place | None = None) -> Scalar:
 
 def _value(scalar: Scalar, wanted: Wanted, symbols: Mapping[str, Declared]) -> Expr | Number:
     """Read a scalar as an expression or as a number with its unit."""
-    if comma := re.fullmatch(r"\s*(\d+),(\d+)(.*)", scalar.text):
-        point = f"{comma[1]}.{comma[2]}{comma[3]}"
-        wanted.refuse("decimal-comma", f"`{scalar.text}` has a comma in it", scalar.place, f"write `{point}`")
     number = number_with_unit(scalar, wanted, symbols)
     if number is not None:
         _check_sign(number.si, scalar, wanted)
@@ -281,6 +279,30 @@ def _direction(node: Tree, wanted: Wanted, symbols: Mapping[str, Declared]) -> D
         wanted.refuse("zero-axis", f"`{wanted.name}` has no direction: every component is zero", node.place)
     x, y, z = components
     return Direction(None, (x, y, z))
+
+
+def value_in_prose(
+    name: str, node: Tree, symbols: Mapping[str, Declared], measured: Iterable[Measured]
+) -> Given | None:
+    """Return a value of a description for prose that mentions it by its path; None if prose cannot state it.
+
+    measured   the numbers of the description; a number is found here by its place in the file
+    """
+    if isinstance(node, MappingNode):
+        return None
+    if isinstance(node, Scalar) and re.fullmatch(r"[^\W\d][\w -]*", node.text) and node.text not in symbols:
+        return Given(name, DIRECTION, Direction(node.text), (), node.text)
+    letters = {each.place: each.symbol for each in measured}
+    items = node.items if isinstance(node, Sequence) else (node,)
+    values = []
+    for item in items:
+        if not isinstance(item, Scalar):
+            return None
+        try:
+            values.append(letters[item.place] if item.place in letters else read_expression(item, symbols)[0])
+        except DeriveError:
+            return None
+    return Given(name, Asked("number", count=len(values)), values[0] if isinstance(node, Scalar) else tuple(values))
 
 
 # -- letters for numbers ----------------------------------------------------------------------------------------------

@@ -12,8 +12,8 @@ from sympy import Expr, Rational, Symbol
 from derive.algebra.dimensions import NUMBER
 from derive.algebra.kinds import dimension_of_kind, kind_with_article, named
 from derive.course.expression import RESERVED, Declared, rational
-from derive.course.yaml_tree import Scalar
-from derive.errors import Place, did_you_mean, rejected
+from derive.course.yaml_tree import Scalar, decimal_comma
+from derive.errors import Place, Rejected, did_you_mean, rejected
 from derive.units import UNIT_NAMES, begins_with_unit, misfit, read_unit
 
 _NUMBER_UNIT = re.compile(
@@ -72,6 +72,8 @@ def is_number_with_unit(scalar: Scalar) -> bool:
 
 def number_with_unit(scalar: Scalar, wanted: Wanted, symbols: Mapping[str, Declared]) -> Number | None:
     """Read a number with its unit, such as `1.5 kg`; return None if the text is an expression."""
+    if re.fullmatch(r"\s*[+-]?\d+,\d+(\s.*)?", scalar.text):
+        raise Rejected(decimal_comma(scalar.text, scalar.place))
     match = _NUMBER_UNIT.fullmatch(scalar.text)
     if not match or not match["unit"].strip() or len(scalar.text) > 80:
         return None

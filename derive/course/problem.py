@@ -28,7 +28,7 @@ from derive.course.assumed import Assumed, check_assumed, narrowed, order_of
 from derive.course.declared import declared_letters
 from derive.course.defined import Defined, read_defined
 from derive.course.expression import Declared
-from derive.course.given import Given, Measured, read_givens, read_numbers
+from derive.course.given import Given, Measured, read_givens, read_numbers, value_in_prose
 from derive.course.own_figure import OwnFigure, read_figure
 from derive.course.parts import Question
 from derive.course.placement import Placement, case_label, placements
@@ -79,6 +79,7 @@ class Problem:
     reference: str = ""
     variations: tuple[Variation, ...] = ()
     is_variant: bool = False
+    in_prose: tuple[Given, ...] = ()  # values of a description that prose mentions by their paths
     figure: OwnFigure | None = None
     units: tuple[Word, ...] = ()  # the units of answers that the set prefers
     warnings: tuple[Complaint, ...] = field(default=(), repr=False, compare=False)
@@ -209,6 +210,9 @@ def problem_and_faults(root: Path, problem_id: str, chosen: Chosen | None = None
     assert written.title is not None
     assert written.statement is not None
     assert script is not None
+    if not chosen:
+        _check_choices(root, problem_id, written, script, faults)
+        faults.stop()
     form = form_of_set(root, problem_id.partition("/")[0])
     problem = Problem(
         id=problem_id,
@@ -239,7 +243,42 @@ def problem_and_faults(root: Path, problem_id: str, chosen: Chosen | None = None
         is_variant=bool(chosen),
         warnings=warnings,
     )
-    return problem, of_drawings
+    return replace(problem, in_prose=(*_in_prose(problem, written.given),)), of_drawings
+
+
+def _check_choices(
+    root: Path, problem_id: str, written: ProblemKeys, script: Script | StockScript, faults: Faults
+) -> None:
+    """Report the errors in the choices of each variation; the other values are those of the file. An error elsewhere is
+    reported at the choice of a given value. A number may cause it by its relation to other numbers, so then it is left
+    out."""
+    for variation in written.variants:
+        known: set[tuple[str, Place]] = set()
+        for number in variation.tried:
+            own = Faults()
+            with own:
+                varied = written_problem(root, problem_id, own, chosen={str(variation.name): number})
+                if not own:
+                    pinned_by(varied.symbols, varied.values, varied.given, varied.places, script, own)
+            for each in own.complaints:
+                is_here = each.place is not None and variation.contains(number, each.place)
+                found = each if is_here else replace(each, place=variation.choices[number].place)
+                assert found.place is not None
+                if (is_here or variation.name not in written.values) and (found.code, found.place) not in known:
+                    known.add((found.code, found.place))
+                    faults.add(found)
+
+
+def _in_prose(problem: Problem, given: Mapping | None) -> Iterator[Given]:
+    """Yield the values of a description that prose mentions by their paths, such as `<<body.sides>>`."""
+    if given is None or problem.described is None:
+        return
+    symbols = {**problem.described.letters, **problem.symbols}
+    names = {mention.name for prose in problem.texts for mention in prose.mentions if not mention.of}
+    for name in sorted(names - {*symbols, *(each.name for each in problem.givens)}):
+        node = given.at(name)
+        if node is not None and (value := value_in_prose(name, node, symbols, problem.measured)):
+            yield value
 
 
 def _asked(parts: Iterable[Question], limits: Iterable[LimitKeys], drawings: Iterable[Placement]) -> tuple[Word, ...]:

@@ -1,6 +1,7 @@
 r"""Prose as an instructor writes it: plain text with mentions and formulas.
 
-`<<name>>` stands for a symbol or a derived result, `<<eq torque>>` for the equation number of the step `torque`,
+`<<name>>` stands for a symbol, a given value or a derived result, `<<body.sides>>` for a value inside another one,
+`<<eq torque>>` for the equation number of the step `torque`,
 `<<figure axes>>` for the number of the drawing `axes`, and `<<problem top>>` for the number of another problem of the
 set. `$y = x^2/(2b)$` is a formula in LaTeX. It is parsed when the page is made (`derive.page.formulas`), and its
 letters are the letters of the problem. Between double dollar signs, it has a line of its own. `\$` is a dollar sign.
@@ -27,7 +28,7 @@ _PIECE = re.compile(
     r"(?P<dollar>\\\$)"
     r"|(?P<displayed>\$\$[^$]+\$\$)"
     r"|(?P<formula>\$(?:(?<!\d\$)(?=[^\d$])|(?=[A-Za-z\\({]))[^$]*\$|\$(?=\d)[^$]*[^$\s]\$(?!\d))"
-    r"|<<\s*(?:(?P<of>eq|figure)\s+)?(?P<name>[A-Za-z][A-Za-z0-9_]*)\s*>>"
+    r"|<<\s*(?:(?P<of>eq|figure)\s+)?(?P<name>[A-Za-z][A-Za-z0-9_]*(?:\.[A-Za-z][A-Za-z0-9_]*)*)\s*>>"
     r"|<<\s*problem\s+(?P<problem>[A-Za-z0-9][\w-]*)\s*>>"
     r"|(?P<odd><<[^<>\n]{0,40}>{0,2}|<%|<#)",
     re.ASCII,

@@ -13,13 +13,15 @@ from __future__ import annotations
 
 import hashlib
 import re
+from collections.abc import Iterator
 from collections.abc import Mapping as Table
 from dataclasses import dataclass
 from decimal import Decimal
+from itertools import pairwise
 
 from derive.course.schema import Reader, wrong_type
-from derive.course.yaml_tree import Mapping, Scalar, Sequence, Tree, Word
-from derive.errors import Faults, did_you_mean
+from derive.course.yaml_tree import Mapping, Scalar, Sequence, Tree, Word, decimal_comma
+from derive.errors import Faults, Place, did_you_mean
 
 MOST = 10_000  # greatest number of values of a range
 WANTED = "a range such as `10..30 cm in steps of 2`, or a list of at least two values"
@@ -35,11 +37,35 @@ class Variation:
 
     name: Word
     choices: tuple[Tree, ...]
+    is_range: bool = False
+
+    @property
+    def tried(self) -> tuple[int, ...]:
+        """The choices that are read with the problem: the ends of a range, or each entry of a list."""
+        last = len(self.choices) - 1
+        return (0, last) if self.is_range else tuple(range(last + 1))
+
+    def contains(self, choice: int, place: Place) -> bool:
+        """Return whether a place in the file is within a choice."""
+        within = [*_places(self.choices[choice])]
+        last = within[-1]
+        ends = (last.line, last.column + last.width)
+        return (within[0].line, within[0].column) <= (place.line, place.column) <= ends
 
     def told(self, choice: int) -> str:
         """Return a choice as text, for a list of the variants."""
         node = self.choices[choice]
         return _told(node)
+
+
+def _places(node: Tree) -> Iterator[Place]:
+    """Yield the places of a value and of the values inside it, in the order of the file."""
+    yield node.place
+    inner = node.items if isinstance(node, Sequence) else ()
+    if isinstance(node, Mapping):
+        inner = tuple(each for pair in node.pairs for each in pair)
+    for each in inner:
+        yield from _places(each)
 
 
 def _told(node: Tree) -> str:
@@ -54,17 +80,26 @@ def _read(node: Tree, name: str, faults: Faults) -> tuple[Variation, ...] | None
     if not isinstance(node, Mapping) or not node.pairs:
         wrong_type(faults, f"`{name}`", "a mapping of names to their choices", node)
         return None
-    found = [Variation(key.word, _choices(value, key.text, faults)) for key, value in node.pairs]
+    found = [
+        Variation(key.word, _choices(value, key.text, faults), isinstance(value, Scalar)) for key, value in node.pairs
+    ]
     return tuple(each for each in found if each.choices)
 
 
 def _choices(node: Tree, name: str, faults: Faults) -> tuple[Tree, ...]:
     if isinstance(node, Sequence) and len(node.items) > 1:
-        return node.items
+        cut = next(filter(None, (_cut_at_comma(*pair) for pair in pairwise(node.items))), None)
+        if cut is None:
+            return node.items
+        faults.add(decimal_comma(cut.text, cut.place))
+        return ()
     if not isinstance(node, Scalar):
         wrong_type(faults, f"the variation of `{name}`", WANTED, node)
         return ()
     found = _RANGE.fullmatch(node.text)
+    if not found and re.search(r"\d,\d", node.text):
+        faults.add(decimal_comma(node.text, node.place))
+        return ()
     if not found:
         faults.error("variants", f"the variation of `{name}` must be {WANTED}", node.place)
         return ()
@@ -76,7 +111,22 @@ def _choices(node: Tree, name: str, faults: Faults) -> tuple[Tree, ...]:
     if not 1 < count <= MOST:
         faults.error("variants", f"a range has 2 to {MOST} values, but this one has {count}", node.place)
         return ()
+    if (end := first + (count - 1) * step) != last:
+        unit = f" {found[3]}" if found[3] else ""
+        message = f"steps of {found[4]} lead from {found[1]} to {_plain(end)}{unit}, not to {found[2]}{unit}"
+        help_line = f"write `{found[1]}..{_plain(end)}{unit} in steps of {found[4]}`"
+        faults.error("variants", message, node.place, help=help_line)
+        return ()
     return tuple(_scalar(f"{_plain(first + number * step)} {found[3]}".strip(), node) for number in range(count))
+
+
+def _cut_at_comma(first: Tree, second: Tree) -> Scalar | None:
+    """Return the whole number if two items of a list are one number with a decimal comma, as in `[0,8 m, 0,9 m]`."""
+    if not (isinstance(first, Scalar) and isinstance(second, Scalar)):
+        return None
+    if not (first.text.isdigit() and second.start == first.end + 1 and re.match(r"\d+\s", second.text)):
+        return None
+    return Scalar(first.source.text[first.start : second.end], "", first.start, second.end, first.source)
 
 
 def _plain(number: Decimal) -> str:

@@ -216,6 +216,13 @@ class Mapping:
     def get(self, key: str) -> Tree | None:
         return self._by_name.get(key)
 
+    def at(self, path: str) -> Tree | None:
+        """Return the value at a path such as `body.inner`."""
+        node: Tree | None = self
+        for key in path.split("."):
+            node = node.get(key) if isinstance(node, Mapping) else None
+        return node
+
     @property
     def places(self) -> dict[str, Place]:
         """The place of each key, including nested keys such as `show.spin`."""
@@ -369,6 +376,9 @@ class _Reader:
                 self.refuse("key", "a key must be a word", event, 1)
             elif opening.flow_style and before and (cut := _cut_off(before[1], key, value)):
                 self.faults.add(_needs_quotes(f"{before[0].text}: ", cut))
+            elif opening.flow_style and before and (cut := _cut_at_comma(before[1], key, value)):
+                last = before[0], cut  # more pieces of the same value may follow
+                pairs[before[0].text] = last
             elif key.text == "<<" and not key.quoted:
                 self.refuse("merge-key", "merge keys are not used here", event, 2, "write the keys out")
             elif key.text in pairs:
@@ -404,6 +414,22 @@ def _cut_off(before: Tree, key: Scalar, value: Tree) -> Scalar | None:
     source, start = key.source, before.start
     closed = before.text.count("(") > before.text.count(")") and ")" in key.text and value.left_empty
     return Scalar(source.text[start : key.end], "", start, key.end, source) if closed else None
+
+
+def _cut_at_comma(before: Tree, key: Scalar, value: Tree) -> Scalar | None:
+    """Return the whole value if a decimal comma inside braces has split it, as in `{l: 1,2 m}`."""
+    if not (isinstance(before, Scalar) and before.style == key.style == "" and isinstance(value, Scalar)):
+        return None
+    source, start = key.source, before.start
+    is_cut = value.left_empty and before.text[-1:].isdigit() and key.text[:1].isdigit() and key.start == before.end + 1
+    return Scalar(source.text[start : key.end], "", start, key.end, source) if is_cut else None
+
+
+def decimal_comma(text: str, place: Place) -> Complaint:
+    """Return the error for a number with a decimal comma."""
+    point = re.sub(r"(?<=\d),(?=\d)", ".", text.strip())
+    help_line = f"write `{point}`: a number in a file has a point, also if pages print a comma"
+    return Complaint("decimal-comma", f"`{text.strip()}` has a comma in it", place, help=help_line)
 
 
 def _needs_quotes(name: str, value: Scalar) -> Complaint:

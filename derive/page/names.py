@@ -11,13 +11,15 @@ from derive.steps.derivation import Derivation
 
 
 def page_names(problem: Problem, derivation: Derivation, words: Phrases) -> dict[str, Any]:
-    """Return each name with its text; if an entry of `given:` and a step have the same name, the name denotes the entry
-    of `given:`."""
+    """Return each name with its text. If an entry of `given:` and a step have the same name, the name denotes the
+    entry. A step has precedence over a value that prose mentions by its path."""
     described = problem.described.letters if problem.described else {}
     names: dict[str, Any] = {**AXIS_NAMES, **{name: (Math(known.symbol),) for name, known in described.items()}}
     coordinates = (q for step in derivation.steps for q, _ in step.coordinates)
     names.update({q.name: (Math(q),) for q in (*coordinates, *_functions(derivation))})
     names.update({step.key: name_of(step) for step in derivation.steps})
+    for given in problem.in_prose:
+        names.setdefault(given.name, given_words(given, problem.measured, words))
     for given in problem.givens:
         names[given.name] = given_words(given, problem.measured, words)
     return names

@@ -13,7 +13,7 @@ from jinja2 import StrictUndefined
 from jinja2.sandbox import ImmutableSandboxedEnvironment
 
 from derive import FOLDER
-from derive.errors import Complaint, Rejected, did_you_mean
+from derive.errors import Complaint, Rejected, did_you_mean, nearest
 
 COMPLETE = "new"  # a folder that only the templates of derive itself have
 
@@ -59,7 +59,19 @@ def unused_templates(root: Path) -> list[Complaint]:
         for file in found
         if not (ours / file.parent.name / file.name).exists() and not any(f'"{file.name}"' in text for text in texts)
     ]
-    return [
+    languages = {page.parent.name for folder in (own, ours) for page in (folder / "phrases").glob("*/page.yaml")}
+    words = [*own.glob("*.yaml"), *(own / "phrases").glob("*.yaml"), *(own / "phrases").glob("*/*.yaml")]
+    apart = [
+        Complaint(
+            "unused-template",
+            f"nothing uses `templates/{file.relative_to(own).as_posix()}`: it is not in the folder of a language",
+            help=f"put it in `templates/phrases/{nearest(file.parent.name, languages) or 'en'}`",
+            severity="warning",
+        )
+        for file in sorted(words)
+        if file.parent.parent != own / "phrases" or file.parent.name not in languages
+    ]
+    return apart + [
         Complaint(
             "unused-template",
             f"nothing uses `templates/{file.parent.name}/{file.name}`: derive has no template of this name",

@@ -130,7 +130,8 @@ def test_a_code_cannot_be_the_name_of_the_sheet_of_the_set(tmp_path: Path) -> No
 
 
 def test_an_error_in_one_variant_stops_no_other_student(tmp_path: Path) -> None:
-    bead(tmp_path, "{b: [20 cm, 3 s]}")
+    with pytest.raises(Rejected):
+        bead(tmp_path, "{b: [20 cm, 3 s]}")
     students = [Student(f"Student {number}", f"S{number}") for number in range(4)]
     report = made_class(tmp_path, "week1", students, jobs=1)
     assert report.failed and 0 < report.made < 4

@@ -74,3 +74,14 @@ def test_the_file_of_a_set_with_a_fault_is_told_and_left_alone(tmp_path: Path) -
     (root / "problems" / "hw9" / "set.yaml").write_text("course: M\ntitle: T\nproblems: block\n")
     with pytest.raises(Rejected, match="list of names"):
         begun(root, templates_of(ROOT).file, ROOT / "templates", "hw9/wheel", "body", root)
+
+
+def test_the_file_of_a_new_set_leaves_out_the_course_that_course_yaml_states(tmp_path: Path) -> None:
+    root = course_in(tmp_path)
+    (root / "course.yaml").write_text("course: Classical Mechanics\n")
+    files = begun(root, templates_of(ROOT).file, ROOT / "templates", "fall/wheel", "body", root)
+    text = files["problems/fall/set.yaml"]
+    assert text.startswith("# yaml-language-server: $schema=") and "set.schema.json" in text
+    assert "course:" not in text
+    (root / "course.yaml").write_text("term: Fall 2026\n")
+    assert "\ncourse: Mechanics\n" in written(root, "hw10/wheel", "body")["problems/hw10/set.yaml"]

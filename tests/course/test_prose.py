@@ -56,7 +56,7 @@ def test_other_signs_are_text(text: str) -> None:
     assert prose(f"title: {text}").pieces == (text.strip("'"),)
 
 
-@pytest.mark.parametrize("odd", ["<<a b>>", "<<1>>", "<<>>", "<<a.b>>", "<<a", "<< c", "<%if%>", "<# a #>", "<<é>>"])
+@pytest.mark.parametrize("odd", ["<<a b>>", "<<1>>", "<<>>", "<<a.>>", "<<a", "<< c", "<%if%>", "<# a #>", "<<é>>"])
 def test_what_is_almost_a_mention_is_told_at_its_place(odd: str) -> None:
     _, faults = read(f'title: "say {odd}"')
     assert [(fault.code, fault.place and fault.place.column) for fault in faults] == [("mention", 13)]

@@ -260,3 +260,10 @@ def test_what_is_only_looked_at_has_the_complaints_of_what_is_read(tmp_path: Pat
             read_yaml(tmp_path / "x.yaml", "x.yaml", quickly)
         said.append(str(caught.value))
     assert said[0] == said[1]
+
+
+def test_a_decimal_comma_within_braces_does_not_split_a_number(tmp_path: Path) -> None:
+    (tmp_path / "x.yaml").write_text("a: {b: 1,2 m, c: 0,8..1,6 m in steps of 0,1, d: [1,2,3]}\n")
+    assert as_text(read_yaml(tmp_path / "x.yaml", "x.yaml")) == (
+        "{'a': {'b': '1,2 m', 'c': '0,8..1,6 m in steps of 0,1', 'd': ['1', '2', '3']}}"
+    )

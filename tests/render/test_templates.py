@@ -100,3 +100,15 @@ def test_a_template_that_nothing_uses_is_reported(tmp_path: Path) -> None:
     assert "templates/latex/headng.tex.j2" in complaint.message
     assert complaint.help == "did you mean `heading.tex.j2`?"
     assert unused_templates(ROOT) == []
+
+
+def test_phrases_outside_of_the_folder_of_a_language_have_no_effect(tmp_path: Path) -> None:
+    for name in ("own.yaml", "phrases/own.yaml", "phrases/dee/a.yaml", "phrases/de/a.yaml"):
+        file = tmp_path / "templates" / name
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text("labels: {problem: Exercise}\n")
+    complaints = unused_templates(tmp_path)
+    assert [each.message.split("`")[1] for each in complaints] == [
+        "templates/own.yaml", "templates/phrases/dee/a.yaml", "templates/phrases/own.yaml"
+    ]  # fmt: skip
+    assert complaints[1].help == "put it in `templates/phrases/de`"
