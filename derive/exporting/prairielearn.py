@@ -74,10 +74,12 @@ def _field(number: int, answer: Answer) -> str:
     if answer.value is not None:
         unit = f' suffix="{escape(answer.unit)}"' if answer.unit else ""
         figures = answer.figures or 4
-        return f"{label}\n" + _element("pl-number-input", f'{name} comparison="sigfig" digits="{figures}"{unit}')
+        compared = f'{name} comparison="sigfig" digits="{figures}"{unit}'
+        return f"{label}\n" + _element("pl-number-input", compared)
     if (letters := answer.letters) is None:
         return ""
-    return f"{label}\n" + _element("pl-symbolic-input", f'{name} variables="{", ".join(sorted(letters))}"')
+    variables = f'{name} variables="{", ".join(sorted(letters))}"'
+    return f"{label}\n" + _element("pl-symbolic-input", variables)
 
 
 def _element(tag: str, attributes: str) -> str:
