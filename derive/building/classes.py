@@ -215,7 +215,8 @@ def made_class(
     report = ClassReport(len(students))
     waiting: dict[Job, Sequence[Student]] = {}
     with locked(folder(shared.outputs), lambda: tell(f"waiting for another build of `{set_id}`")):
-        ClassRecord(set_id, seed, {each.code: each.name for each in students}, inputs).save(root)
+        record = ClassRecord(set_id, seed, {each.code: each.name for each in students})
+        record.save(root)  # without its inputs, so that after an interruption the class counts as older than the set
         unmade = [student for student in students if shared.answers(student) is None]
         report.kept = len(students) - len(unmade)
         if unmade and not scheduler:
@@ -256,6 +257,8 @@ def made_class(
         report.warnings += _older_set(root, set_id, engine)
         _write_answers(shared, students)
         _write_page(shared, students, current)
+        if len(current) == len(students):
+            replace(record, inputs=inputs).save(root)
         Cache(shared.outputs / CACHE).evict()
     list_again(root, set_id)
     report.seconds = time.monotonic() - begun

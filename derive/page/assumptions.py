@@ -12,7 +12,6 @@ from derive.algebra.expressions import Amount, Relation
 from derive.algebra.kinds import unit_of_kind
 
 MIRRORED = {">": "<", ">=": "<="}
-FRICTION = "mu"  # the name of a coefficient of friction
 ANGLE = unit_of_kind("angle")  # bounds of angles, such as pi/2, are written without a unit
 
 
@@ -46,13 +45,6 @@ def _bounds(conditions: Iterable[Relation]) -> tuple[dict[Expr, Relation], dict[
     numbers = [each for each in conditions if isinstance(each.left, Symbol) and each.right.is_number]
     below = {each.left: each for each in numbers if each.operator in MIRRORED}
     return below, {each.left: each for each in numbers if each.operator in MIRRORED.values() and each.left in below}
-
-
-def is_of_a_magnitude(condition: Relation) -> bool:
-    """Return whether the condition is that a coefficient of friction is positive."""
-    letter = condition.left
-    is_positive = condition.operator == ">" and condition.right == 0
-    return is_positive and isinstance(letter, Symbol) and letter.name.partition("_")[0] == FRICTION
 
 
 def says_the_same(condition: Relation, other: Relation) -> bool:

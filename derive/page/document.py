@@ -26,7 +26,7 @@ from derive.course.reference.comparison import Told
 from derive.course.written import ANY_OUTCOME
 from derive.errors import Complaint, Place, did_you_mean
 from derive.figures.marks import Plot, Recorded
-from derive.page.assumptions import between_bounds, is_of_a_magnitude, not_implied, says_the_same, with_units
+from derive.page.assumptions import between_bounds, not_implied, says_the_same, with_units
 from derive.page.chain_lines import ChainWriter, Equations, conditions_of, without_inserted
 from derive.page.checks import checks_of, second_ways_of
 from derive.page.clauses import Clauses, continues_sentence
@@ -44,7 +44,7 @@ from derive.page.depiction import (
 from derive.page.figures_named import figures_mentioned
 from derive.page.formulas import Formulas
 from derive.page.in_words import in_words
-from derive.page.introduced import letters_in, references_in, wanting
+from derive.page.introduced import references_in, wanting
 from derive.page.names import page_names
 from derive.page.numbering import Numbering
 from derive.page.numbers_given import are_told, numbers_left, numbers_of_cases, take
@@ -278,10 +278,8 @@ class _Writer:
 
     def _assumed(self) -> tuple[Inline, ...]:
         """Return a sentence with the assumptions about symbols, to follow the statement, without those that the
-        statement or a question contains. The figure and the motion show the range of a coordinate."""
-        moving = {q for step in self.derivation.steps for q, _ in step.coordinates}
+        statement or a question contains."""
         assumed = [each for each in not_implied(self.derivation.assumed) if each not in self.derivation.in_words]
-        assumed = [each for each in assumed if not letters_in([each]) <= moving and not is_of_a_magnitude(each)]
         assumed = [each for each in assumed if not any(says_the_same(each, other) for other in self.formulas.stated)]
         if not assumed:
             return ()
