@@ -65,6 +65,7 @@ KINDS: Mapping[str, Kind] = {
     "spring constant": Kind(dimension(1, 0, -2), "N/m", positive=True),
     "gravitational constant": Kind(dimension(-1, 3, -2), "N m^2/kg^2", positive=True),
     "coupling constant": Kind(dimension(1, 3, -2), "J m", positive=True),  # the k of an energy k/r
+    "coefficient of friction": Kind(NUMBER, "", positive=True),
     "damping constant": Kind(dimension(1, 0, -1), "kg/s", positive=True),
     "current": Kind(dimension(0, 0, 0, 1), "A"),
     "rate of current": Kind(dimension(0, 0, -1, 1), "A/s"),

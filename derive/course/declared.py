@@ -8,7 +8,7 @@ from collections.abc import Mapping as Table
 from sympy import Expr, oo
 
 from derive.algebra.expressions import TIME
-from derive.algebra.kinds import about_kind, dimension_of_kind, kind_with_article
+from derive.algebra.kinds import about_kind, dimension_of_kind, kind_with_article, unit_of_kind
 from derive.algebra.ranges import POSITIVE, Range
 from derive.course.expression import RESERVED, Declared, read_expression
 from derive.course.given import symbol_of_kind
@@ -54,7 +54,7 @@ def _end(name: str, node: Scalar, kind: str) -> Expr:
         if refusal.complaints[0].code != "undeclared-symbol":
             raise
         rejected("range", f"the ends of a range are numbers, but `{text}` has letters", node.place)
-    bare = expr.is_Rational and kind != "number"
+    bare = expr.is_Rational and unit_of_kind(kind) != ""
     if not expr.is_zero and (bare or dimension != dimension_of_kind(kind)):
         wanted.refuse("missing-unit", f"`{node.text.strip()}` needs a unit: {wanted.must_be_it}", node.place)
     return expr

@@ -218,7 +218,7 @@ def _value(scalar: Scalar, wanted: Wanted, symbols: Mapping[str, Declared]) -> E
     is_bare = expr.is_Rational and dimension == NUMBER and not (expr.is_zero and wanted.kind == "angle")
     if expr.is_zero and about_kind(wanted.kind).positive:
         _check_sign(expr, scalar, wanted)
-    if is_bare and wanted.kind != "number":
+    if is_bare and unit_of_kind(wanted.kind):
         units = ("deg", "rad") if wanted.kind == "angle" else (unit_of_kind(wanted.kind),)
         help_line = "write " + " or ".join(f"`{text} {unit}`" for unit in units)
         wanted.refuse("missing-unit", f"`{text}` needs a unit: {wanted.must_be_it}", scalar.place, help_line)

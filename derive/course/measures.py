@@ -10,7 +10,7 @@ from typing import NoReturn
 from sympy import Expr, Rational, Symbol
 
 from derive.algebra.dimensions import NUMBER
-from derive.algebra.kinds import dimension_of_kind, kind_with_article, named
+from derive.algebra.kinds import dimension_of_kind, kind_with_article, named, unit_of_kind
 from derive.course.expression import RESERVED, Declared, rational
 from derive.course.yaml_tree import Scalar, decimal_comma
 from derive.errors import Place, Rejected, did_you_mean, rejected
@@ -88,7 +88,7 @@ def number_with_unit(scalar: Scalar, wanted: Wanted, symbols: Mapping[str, Decla
         rejected("unknown-unit", message, scalar.place_within(start, len(first[1])), help_of_unit)
     unit = read_unit(match["unit"], scalar.place_within(start, len(scalar.text.rstrip()) - start))
     text = " ".join(scalar.text.split())
-    if wanted.kind == "number" or unit.dimension != dimension_of_kind(wanted.kind):
+    if not unit_of_kind(wanted.kind) or unit.dimension != dimension_of_kind(wanted.kind):
         is_a = named(unit.dimension) if unit.dimension != NUMBER else kind_with_article("angle")
         product = f"{match['number']}*{match['unit'].strip()}" if first and first[1] in symbols else None
         help_line = f"write `{product}` if you mean the symbol" if product else None
