@@ -7,7 +7,7 @@ evaluates everything. Nodes contain no notation; the notation is in `derive.rend
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from functools import lru_cache
 from typing import Any
@@ -437,3 +437,15 @@ def scaled(factor: Expr, v: Value) -> MatMul:
 def bound(expr: Value, values: Mapping[Any, Any]) -> Value:
     """The expression with these names replaced by their values."""
     return expr.xreplace(dict(values)) if values else expr
+
+
+def with_known(value: Expr, known: Mapping[Symbol, Expr], moving: Sequence[Symbol]) -> Expr:
+    """Substitute known coordinates and rates, the constant ones first: a root of r**2 + z**2 becomes a positive r
+    before a formula replaces r."""
+    return value.xreplace(constant_ones(known, moving)).xreplace(dict(known))
+
+
+def constant_ones(known: Mapping[Symbol, Expr], moving: Sequence[Symbol]) -> dict[Symbol, Expr]:
+    """Return the values that contain no coordinate and no rate."""
+    varying = {*moving, *map(rate, moving)}
+    return {letter: each for letter, each in known.items() if varying.isdisjoint(each.free_symbols)}

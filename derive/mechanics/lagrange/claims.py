@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable
 from itertools import combinations
 from typing import Any
 
@@ -21,7 +21,7 @@ from sympy import (
 
 from derive.algebra.derivatives import derivative
 from derive.algebra.equality import equal
-from derive.algebra.expressions import TIME, Partial, Relation, bound, depends_on_time, explicit, rate
+from derive.algebra.expressions import TIME, Partial, Relation, bound, depends_on_time, explicit, rate, with_known
 from derive.algebra.samples import letters_of, value_at
 from derive.algebra.taylor import slope
 from derive.algebra.tidy import tidied
@@ -453,17 +453,6 @@ def follows_from_these_equations(facts: Judged, outcome: str) -> bool:
         return bool(abs(apart) <= (abs(found) + abs(number) + terms) / 10**12)
 
     return everywhere(trial_points(letters, *assumptions_about(letters), tried=4), gives)
-
-
-def with_known(value: Expr, known: Mapping[Symbol, Expr], moving: Sequence[Symbol]) -> Expr:
-    """Substitute known coordinates and rates, the constant ones first: a root of r**2 + z**2 becomes a positive r
-    before a formula replaces r."""
-    return value.xreplace(constant_ones(known, moving)).xreplace(dict(known))
-
-
-def constant_ones(known: Mapping[Symbol, Expr], moving: Sequence[Symbol]) -> dict[Symbol, Expr]:
-    varying = {*moving, *map(rate, moving)}
-    return {letter: each for letter, each in known.items() if varying.isdisjoint(each.free_symbols)}
 
 
 def _values_by_constraints(facts: Judged) -> dict[Symbol, Expr]:

@@ -20,11 +20,13 @@ from derive.algebra.expressions import (
     Terms,
     TimeRate,
     as_expr,
+    constant_ones,
     depends_on_time,
     explicit,
     rate,
     scalar,
     stand_in,
+    with_known,
 )
 from derive.algebra.kinds import dimension_of_kind, kind_of_dimension
 from derive.algebra.normal_form import vanishes as vanishes_identically
@@ -124,7 +126,7 @@ class _Problem:
         return list(map(self.with_known, self.residuals))
 
     def with_known(self, value: Expr) -> Expr:
-        return claims.with_known(value, self.known, self.moving)
+        return with_known(value, self.known, self.moving)
 
 
 def _problem(verb: str, equations: Sequence[Quantity], keeping: Sequence[Coordinate] = ()) -> _Problem:
@@ -414,7 +416,7 @@ class _Isolation:
         substituted in the equations."""
         eliminated = {f"eliminated_{i}": each for i, each in enumerate(self.found.eliminated, 1)}
         known, moving = self.problem.known, self.problem.moving
-        fixed_ones = claims.constant_ones(known, moving)
+        fixed_ones = constant_ones(known, moving)
         values = [explicit(each.value) for each in self.equations]
         present = {s for each in values for s in each.free_symbols}
         left = {s for each in values for s in explicit(each.residual).xreplace(fixed_ones).free_symbols}
