@@ -19,7 +19,7 @@ from derive.audit.deciding import Decision, counterexample, same
 from derive.audit.dimensions import odd_claim
 from derive.audit.expected import Compared, Expected, compared
 from derive.audit.known import ASSUMED, Known
-from derive.audit.limited import FAULTS, OutOfTime, limited
+from derive.audit.limited import FAULTS, LimitReached, time_limited
 from derive.audit.near import Nearness, letters_in, terms_in
 from derive.audit.slips import WHY, Edit, nearest_edit
 from derive.audit.systems import expanded, root_equation
@@ -219,22 +219,22 @@ class _Auditor:
             return
         seconds, begun = max(LEAST_SECONDS, SECONDS - self.late * SECONDS / MOST_LATE), process_time()
         try:
-            with limited(seconds):
+            with time_limited(seconds):
                 claim.verdict = self.best(claim)
-        except OutOfTime:
+        except LimitReached:
             claim.verdict = Verdict(Outcome.UNDECIDED, f"this takes more than {seconds:.1g} seconds")
         except RecursionError:
             claim.verdict = Verdict(Outcome.UNDECIDED, "this formula is nested too deeply")
         search = min(seconds, SECONDS_OF_SEARCH)
         display, undecided = claim.row.block.display, claim.verdict.outcome is Outcome.UNDECIDED
         if claim.verdict.outcome is Outcome.DEFINES or (undecided and display):
-            with suppress(OutOfTime, RecursionError), limited(search):
+            with suppress(LimitReached, RecursionError), time_limited(search):
                 self.accuse_if_near(claim, claim.verdict)
         failed = claim.verdict.outcome is Outcome.DIFFERS and claim.verdict.inherits is None
         if failed or (claim.verdict.outcome is Outcome.UNDECIDED and display and not self.may_be_special(claim)):
-            with suppress(OutOfTime, RecursionError), limited(search):
+            with suppress(LimitReached, RecursionError), time_limited(search):
                 self.fixes += self.fixes_before(claim)
-        with suppress(OutOfTime, RecursionError), limited(seconds):
+        with suppress(LimitReached, RecursionError), time_limited(seconds):
             self.remark(claim, claim.verdict)
             self.remember(claim)
         self.late += max(0.0, process_time() - begun - USUAL_SECONDS)

@@ -17,7 +17,7 @@ from sympy import Expr, MatrixBase, Symbol
 from derive.audit.claims import Claim, Outcome, Verdict
 from derive.audit.deciding import Decision, is_multiple, same
 from derive.audit.known import Known
-from derive.audit.limited import FAULTS, OutOfTime, limited
+from derive.audit.limited import FAULTS, LimitReached, time_limited
 from derive.documents.choices import readings
 from derive.documents.facts import Facts
 from derive.documents.layout import read_document
@@ -125,9 +125,9 @@ def _of(expected: Expected, sections: list[_Section]) -> Compared:
                      Status.MISSING)  # fmt: skip
     for section in sections:
         try:
-            with limited(SECONDS):
+            with time_limited(SECONDS):
                 section.compare(found)
-        except OutOfTime:
+        except LimitReached:
             found.status = Status.UNREAD if found.status is Status.MISSING else found.status
     return found
 

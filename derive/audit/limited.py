@@ -23,17 +23,17 @@ FAULTS = (
 AGAIN = 0.5  # seconds of processor time after which the limit is enforced again
 
 
-class OutOfTime(BaseException):
+class LimitReached(BaseException):
     """The limit is reached. This class is not an `Exception`, so that handlers in SymPy do not catch it."""
 
 
 @contextmanager
-def limited(seconds: float) -> Iterator[None]:
+def time_limited(seconds: float) -> Iterator[None]:
     """Limit the time of the work in the `with` block."""
 
     def stop(*_: object) -> NoReturn:
         signal.setitimer(signal.ITIMER_PROF, AGAIN)  # the exception is lost if it is raised while a cache is cleared
-        raise OutOfTime
+        raise LimitReached
 
     begun = process_time()
     before = signal.signal(signal.SIGPROF, stop)

@@ -13,7 +13,7 @@ from sympy import Abs, Expr, Matrix, MatrixBase, Symbol
 from derive.algebra.expressions import PLUS_MINUS, Relation
 from derive.algebra.order import in_order
 from derive.algebra.ranges import within
-from derive.audit.limited import FAULTS, OutOfTime, limited
+from derive.audit.limited import FAULTS, LimitReached, time_limited
 from derive.audit.slips import nearest_edit
 from derive.documents.meaning import Meaningless
 from derive.documents.source import Source, Span
@@ -50,13 +50,13 @@ def grade(answer: str, part: Part, key: Key, seconds: float = SECONDS) -> Graded
     """Grade an answer; a verdict also says that an answer is not readable or takes too long."""
     most = sum((target.whole for target in part.targets), Fraction(0))
     try:
-        with limited(seconds), within(key.ranges), in_order(key.order):
+        with time_limited(seconds), within(key.ranges), in_order(key.order):
             return replace(_Grading(answer, part, key).graded(), most=most)
     except Unread as error:
         verdict = Verdict(Outcome.UNREADABLE, error.message, marked=_marked(error))
     except TooLarge:
         verdict = Verdict(Outcome.UNREADABLE, "too large: the answer has too many tokens")
-    except OutOfTime:
+    except LimitReached:
         verdict = Verdict(Outcome.UNREADABLE, f"too large: it takes more than {seconds:g} s to compare")
     except RecursionError:
         verdict = Verdict(Outcome.UNREADABLE, "too large: it is nested too deeply")
@@ -396,9 +396,9 @@ class _Grading:
                 return False
 
         try:
-            with limited(SECONDS / 4):
+            with time_limited(SECONDS / 4):
                 edit = nearest_edit(read.node, list(letters.values()), is_right, self.text_at)
-        except OutOfTime:
+        except LimitReached:
             return ""
         if edit is None:
             return ""
