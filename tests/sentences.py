@@ -1,7 +1,8 @@
 """`python -P -m tests.sentences 200 --seed 7` draws sentences at random, for a reader who has not seen the project.
 
-The sentences are those of the documents, the docstrings, the comments and the longer strings of the code. Each one is
-listed with its file and line, so that the reader can look at the lines around it.
+The sentences are those of the documents, the docstrings, the comments, the longer strings of the code and the English
+phrases; citations of books are left out. Each one is listed with its file and line, so that the reader can look at the
+lines around it.
 """
 
 from __future__ import annotations
@@ -16,11 +17,15 @@ from collections.abc import Iterator
 from itertools import pairwise
 from pathlib import Path
 
+import yaml
+
 from tests.courses import ROOT
 from tests.style import PROSE, files
 
 END = re.compile(r"(?<=[.?!:])\s+(?=[A-Z`$<])")
 GENERATED = ("docs/errors.md", "docs/yaml.md", "docs/rules.md", "docs/gallery.md", "NOTATION.md")
+NOT_READ = (*GENERATED, "templates/phrases/de/", "templates/phrases/fr/")
+CITATION = re.compile(r"(?:Source: )?[^*]*, \*[^*]+\*, .*(?:section|chapter|problem|p\.)")
 SHORTEST = 4  # words
 
 
@@ -71,13 +76,29 @@ def _paragraphs(text: str, line: int = 1) -> Iterator[tuple[int, str]]:
         start = gap.end() if gap else start
 
 
+def _phrases(source: str) -> Iterator[tuple[int, str]]:
+    """Yield the line and the text of each value in a file of phrases."""
+    waiting = [yaml.compose(source)]
+    while waiting:
+        node = waiting.pop()
+        if isinstance(node, yaml.ScalarNode):
+            yield node.start_mark.line + 1, " ".join(node.value.split())
+        elif isinstance(node, yaml.SequenceNode):
+            waiting += node.value
+        elif node is not None:
+            waiting += [value for _, value in node.value]
+
+
 def sentences(path: Path) -> Iterator[tuple[int, str]]:
     """Yield the line of its paragraph, and the text, of each sentence of a file."""
     source = path.read_text(encoding="utf-8")
-    texts = [*_comments(source), *_strings(source)] if path.suffix == ".py" else [*_paragraphs(source)]
-    for line, text in texts:
+    of_kind = {
+        ".py": lambda: [*_comments(source), *_strings(source)],
+        ".yaml": lambda: [*_phrases(source)],
+    }
+    for line, text in of_kind.get(path.suffix, lambda: [*_paragraphs(source)])():
         for sentence in END.split(text):
-            if len(re.findall(r"[A-Za-z]{2,}", sentence)) >= SHORTEST:
+            if len(re.findall(r"[A-Za-z]{2,}", sentence)) >= SHORTEST and not CITATION.match(sentence):
                 yield line, sentence
 
 
@@ -86,7 +107,7 @@ def main() -> None:
     options.add_argument("count", type=int)
     options.add_argument("--seed", type=int, required=True)
     asked = options.parse_args()
-    written = [path for path in files("derive", *PROSE) if str(path.relative_to(ROOT)) not in GENERATED]
+    written = [path for path in files("derive", *PROSE) if not str(path.relative_to(ROOT)).startswith(NOT_READ)]
     drawn = [(path, line, text) for path in written for line, text in sentences(path)]
     for path, line, text in random.Random(asked.seed).sample(drawn, asked.count):
         print(f"{path.relative_to(ROOT)}:{line}: {text}")
