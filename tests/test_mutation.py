@@ -19,7 +19,7 @@ from tests.mutation.known import KNOWN
 from tests.mutation.mutants import Mutant
 from tests.mutation.runs import RUNS as EVERY_RUN
 from tests.mutation.trial import Trials, Tried, Verdict, recording
-from tests.test_house_rules import rules_of_verb, verbs
+from tests.test_architecture import rules_of_verb, verbs
 
 RUNS = ("block", "euler", "body-cylinder", "slab")
 SIZE, SEED = 20, 2026

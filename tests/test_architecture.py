@@ -32,9 +32,9 @@ MODULES = {
     if path.name != "__init__.py"
 }
 
-# The packages (rooms) from the lowest level up: a room imports from lower levels, and not from another room of its
-# level. Three modules are outside of the rooms: `given` for scripts, `notebook` for notebooks, and `__main__`.
-FLOORS = (
+# The packages from the lowest level up: a package imports from lower levels, and not from another package of its level.
+# Three modules are outside of the packages: `given` for scripts, `notebook` for notebooks, and `__main__`.
+LEVELS = (
     ("errors",),
     ("algebra",),
     ("units",),
@@ -51,8 +51,8 @@ FLOORS = (
     ("preview", "exporting"),
     ("cli",),
 )
-DOORS = {"given": "course", "notebook": "cli", "__main__": "cli"}
-FLOOR = {room: level for level, rooms in enumerate(FLOORS) for room in rooms}
+LIKE = {"given": "course", "notebook": "cli", "__main__": "cli"}  # module -> the package whose imports it may have
+LEVEL = {package: level for level, packages in enumerate(LEVELS) for package in packages}
 ENGINE = {
     name
     for name in MODULES
@@ -97,27 +97,27 @@ def strings(name: str) -> Iterator[ast.Constant]:
 # --- modules ---
 
 
-def room(name: str) -> str:
+def package(name: str) -> str:
     return name.partition(".")[0]
 
 
-def test_the_house_has_these_rooms() -> None:
-    assert {room(name) for name in MODULES} == set(FLOOR) | set(DOORS)
+def test_the_packages_are_these() -> None:
+    assert {package(name) for name in MODULES} == set(LEVEL) | set(LIKE)
 
 
-def test_each_room_says_what_it_is_for() -> None:
+def test_each_package_says_what_it_is_for() -> None:
     for folder in (path.parent for path in SOURCE.rglob("__init__.py")):
         assert ast.get_docstring(ast.parse((folder / "__init__.py").read_text(encoding="utf-8"))), folder
 
 
-def test_the_tests_stand_in_the_rooms() -> None:
+def test_the_tests_are_in_folders_of_the_packages() -> None:
     """Three more folders have the tests of the manual, of printed pages and of the tools."""
     folders = {path.relative_to(ROOT / "tests").parts[0] for path in (ROOT / "tests").glob("*/**/test_*.py")}
-    assert folders - set(FLOOR) == {"manual", "printed", "tools"}
+    assert folders - set(LEVEL) == {"manual", "printed", "tools"}
 
 
-@over(FLOOR)
-def test_the_readme_shows_each_room_with_its_sentence(name: str) -> None:
+@over(LEVEL)
+def test_the_readme_shows_each_package_with_its_sentence(name: str) -> None:
     file = SOURCE / f"{name}.py" if (SOURCE / f"{name}.py").exists() else SOURCE / name / "__init__.py"
     said = (ast.get_docstring(ast.parse(file.read_text(encoding="utf-8"))) or "").partition("\n\n")[0]
     assert f"\n{name:10} {said}\n" in (ROOT / "README.md").read_text(encoding="utf-8")
@@ -125,12 +125,12 @@ def test_the_readme_shows_each_room_with_its_sentence(name: str) -> None:
 
 @over(MODULES)
 def test_imports_point_down(name: str) -> None:
-    own = DOORS.get(name, room(name))
-    allowed = {other for other in FLOOR if FLOOR[other] < FLOOR[own]} | {own}
-    assert {module for module in imported(name) if room(module) not in allowed} == set()
+    own = LIKE.get(name, package(name))
+    allowed = {other for other in LEVEL if LEVEL[other] < LEVEL[own]} | {own}
+    assert {module for module in imported(name) if package(module) not in allowed} == set()
 
 
-@over([name for name in MODULES if room(name) in {"page", "render", "building", "preview"}])
+@over([name for name in MODULES if package(name) in {"page", "render", "building", "preview"}])
 def test_a_page_names_no_rule(name: str) -> None:
     """What a page needs to know of a rule is in its record, so a rule of a script is shown in the same way."""
     chapters = {rule.partition(".")[0] for rule in RULES}
