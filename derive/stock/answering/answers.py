@@ -142,9 +142,12 @@ class StockAnswers(Answers[W]):
 
     def mark(self, drawings: Sequence[Placement]) -> None:
         """Add the marks of the problem to the drawings, and make drawings that are like another one."""
+        latest: dict[str, str] = {}  # the latest copy of each drawing
         for drawing in drawings:
             if drawing.adds or drawing.like or drawing.without:
-                Marked(drawing, self.place_of_mark).add()
+                like = drawing.like or ""
+                Marked(drawing, self.place_of_mark, latest.get(like, like)).add()
+                latest[like] = drawing.key
 
     def place_of_mark(self, node: Tree, name: str, letters: InLetters) -> MatrixBase:
         """Return the place of a mark, whose components are written in the file."""

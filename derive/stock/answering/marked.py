@@ -62,10 +62,12 @@ class Marked:
 
     drawing   the entry of `drawings:`
     place_of  a function that returns the place that is written in a node
+    after     the key of the drawing after which a drawing that is like another one is placed
     """
 
     drawing: Placement
     place_of: Callable[[Tree, str, InLetters], MatrixBase]
+    after: str = ""
 
     def add(self) -> None:
         """Add the marks to the recorded drawing, or record a further drawing that is like another one."""
@@ -87,7 +89,7 @@ class Marked:
         if self.drawing.like:
             with told_at(self.drawing.place):
                 noted(replace(own, key=self.drawing.key, forces_on=None, mode=None, leads_to=()))
-            drawings.insert(drawings.index(shown[name]) + 1, drawings.pop())  # figures have numbers in this order
+            drawings.insert(drawings.index(shown[self.after]) + 1, drawings.pop())  # figures have numbers in this order
         else:
             drawings[drawings.index(shown[name])] = own
 

@@ -44,7 +44,7 @@ def observations_of(
     views = _views(problem, known, asked)
     general = [quantity for quantity, case_of in zip(run.established, run.cases, strict=True) if case_of is None]
     with deriving(problem, replace(run, established=general, cases=[None] * len(general), memory=None)):
-        if everywhere == [] or everywhere is None and not any(chosen):
+        if not everywhere and not any(chosen):
             found = best(views) if everywhere is None else [[] for _ in views]
             return [[] if names == [] else own for names, own in zip(chosen, found, strict=True)]
         named = [everywhere if names is None else names for names in chosen]

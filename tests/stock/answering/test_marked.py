@@ -120,6 +120,11 @@ def test_a_drawing_may_be_like_another_one(tmp_path: Path) -> None:
     assert {name.rpartition(".")[0] for name, _ in page.files} >= {"one-system", "one-moving"}
 
 
+def test_drawings_that_are_like_another_one_keep_the_order_of_the_file(tmp_path: Path) -> None:
+    later = "  later: {like: system, at: a, values: {theta: 70 deg}, caption: The pendulum later.}\n"
+    assert [*drawn(tmp_path, PENDULUM + later)] == ["system", "moving", "later"]
+
+
 def test_an_arrow_may_show_an_answer(tmp_path: Path) -> None:
     shown = drawn(tmp_path, DISC)["vectors"]
     arrow = added(shown, Arrow)[-1]

@@ -51,8 +51,9 @@ def test_none_turns_observations_off(parts: str, tmp_path: Path) -> None:
     assert SAID not in page(tmp_path, parts)
 
 
-def test_a_part_may_choose_its_observations(tmp_path: Path) -> None:
-    text = page(tmp_path, PARTS.replace("period}", "period, observations: [pendulum]}"))
+@pytest.mark.parametrize("elsewhere", ["", "observations: none\n"])
+def test_a_part_may_choose_its_observations(elsewhere: str, tmp_path: Path) -> None:
+    text = page(tmp_path, elsewhere + PARTS.replace("period}", "period, observations: [pendulum]}"))
     assert text.count(SAID) == 1
     assert text.index(SAID) > text.index("(b) Find the period")
 
