@@ -462,10 +462,8 @@ def test_the_caption_of_a_statement_is_under_its_drawing_also_if_the_drawing_is_
     assert places["Figure 1"][1] < places["One line"][1]
 
 
-def test_words_before_a_display_appear_once_although_a_passage_beside_a_drawing_is_measured_first(
-    tmp_path: Path,
-) -> None:
-    """A passage that is too high begins beside the drawing; to measure its first lines, TeX sets it without displays."""
+def test_words_before_a_display_appear_once_beside_a_drawing(tmp_path: Path) -> None:
+    """A passage that is too high begins beside the drawing; TeX sets it without displays to measure its first lines."""
     solution = rendered_once(course_in(tmp_path), "hw9/block", draws=True)
     drawings = [each for each in solution.files if each[0].endswith(".pdf")]
     row = r"\row{x}{= y}{.}{}{}"
