@@ -11,8 +11,10 @@ from typing import Any
 
 import pytest
 
+from derive.algebra.expressions import explicit
 from derive.building.drawn import HEIGHT, WIDTH, numbers_of
 from derive.course.problem import Problem
+from derive.figures.annotations import Cone
 from derive.figures.marks import Drawing
 from derive.figures.pieces import Piece, Stroke, Tag
 from derive.page.depiction import placement_of
@@ -100,3 +102,11 @@ def test_what_is_asked_is_in_no_figure_of_a_statement() -> None:
     assert {key: at for key, (_, at) in found.items()} == {"axes": "statement", "vectors": "d"}
     _, found = figures("slab")
     assert found["forces"][1] != "statement"
+
+
+def test_the_tip_of_the_angular_momentum_of_the_block_goes_round_the_axis() -> None:
+    _, found = figures("block")
+    (cone,) = [mark for mark in found["vectors"][0].marks if isinstance(mark, Cone)]
+    axis, momentum = explicit(cone.axis), explicit(cone.value)
+    assert [13 * entry / momentum[0] for entry in momentum] == [13, 20, 15]
+    assert [entry / axis[0] for entry in axis] == [1, 2, 3]

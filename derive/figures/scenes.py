@@ -17,7 +17,7 @@ from sympy import Expr, ImmutableDenseMatrix, Integer, MatrixBase, Rational, Sym
 
 from derive.algebra.expressions import AXES, At, as_expr, explicit, scalar
 from derive.errors import Complaint, Rejected
-from derive.figures.annotations import AngleMark, Arrow, Axis, AxisOfRotation, PointMark, Turn
+from derive.figures.annotations import AngleMark, Arrow, Axis, AxisOfRotation, Cone, PointMark, Turn
 from derive.figures.bodies import ORIGIN, axes_at, outline
 from derive.figures.marks import (
     PLANE,
@@ -220,7 +220,7 @@ def axes(at: Any = ORIGIN, reach: Any = 1, names: Sequence[str] = AXES) -> list[
 
 
 def vectors_in(
-    body: Any, *vectors: Quantity, angle: Any = None, at: Any = None, about: str | None = None
+    body: Any, *vectors: Quantity, angle: Any = None, at: Any = None, about: str | None = None, circling: bool = False
 ) -> list[Mark]:
     """The outline of a body, with vectors in their true directions, and the axis of rotation along the first vector.
 
@@ -229,6 +229,7 @@ def vectors_in(
     angle     the angle between the first two vectors, a quantity or a name; by default no arc is drawn
     at        the point at which the vectors start; by default the centre of mass of the body
     about     the name of a point of the body; if it is given, the vectors and the axes of the body start at this point
+    circling  whether the drawing shows the circle that the tip of the second vector describes about the first
     """
     if about is not None:
         start: Any = ORIGIN
@@ -237,5 +238,9 @@ def vectors_in(
         start = body.middle if at is None else at
         shown = outline(body, named=False)
     marks = [*shown, axis_of_rotation(vectors[0], start)]
-    marks += [arrow(vector, start, LONG * Rational(4, 5) ** i) for i, vector in enumerate(vectors)]
+    sizes = [LONG * Rational(4, 5) ** i for i in range(len(vectors))]
+    marks += [arrow(vector, start, size) for vector, size in zip(vectors, sizes, strict=True)]
+    if circling:
+        (axis, _), (carried, _), (place, _) = vector_of(vectors[0]), vector_of(vectors[1]), vector_of(start)
+        marks.append(Cone(place, carried, sizes[1], axis=axis))
     return marks if angle is None else [*marks, arc(vectors[0], vectors[1], angle, start)]

@@ -45,6 +45,7 @@ def solve(
     plot(
         "well", V, theta.symbol, (-pi / 3, pi / 3), shown=well.subs(letters), above=0, per=(weigh, weigh.subs(letters))
     )
-    sleeping = put_in(stable_where(stability(V, {theta: 0}, spin)), *top.values, key="sleeping_spin")
+    sleeps = stable_where(stability(V, {theta: 0}, spin))
+    sleeping = put_in(sleeps, *top.values, key="sleeping_spin")
 
-    return slow, fast, condition, sleeping
+    return slow, fast, condition, sleeps, sleeping

@@ -460,3 +460,18 @@ def test_the_caption_of_a_statement_is_under_its_drawing_also_if_the_drawing_is_
     page.extract_text(visitor_text=note)
     assert places["Figure 1"][0] > float(page.mediabox.width) / 2 > places["One line"][0]
     assert places["Figure 1"][1] < places["One line"][1]
+
+
+def test_words_before_a_display_appear_once_beside_a_drawing(tmp_path: Path) -> None:
+    """A passage that is too high begins beside the drawing; TeX sets it without displays to measure its first lines."""
+    solution = rendered_once(course_in(tmp_path), "hw9/block", draws=True)
+    drawings = [each for each in solution.files if each[0].endswith(".pdf")]
+    row = r"\row{x}{= y}{.}{}{}"
+    first = rf"\passage{{\todisplay{{{'A line of words. ' * 6}}}\chain{{{row}}}}}"
+    high = (
+        rf"\passage{{\todisplay{{{'More words. ' * 70}}}\chain{{{row * 8}}}\wordstodisplay{{so it is}}\chain{{{row}}}}}"
+    )
+    beside = rf"\drawingbeside{{{Path(drawings[0][0]).name}}}{{words}}{{Figure 1.}}{{The axes.}}{{}}{{{first}{high}}}"
+    tex = problem_document(tmp_path, replace(solution, latex=Tex(beside)), problem_set(tmp_path, "hw9"))
+    typeset(tex, tmp_path / "beside.pdf", chosen_engine(None), included=drawings)
+    assert PdfReader(tmp_path / "beside.pdf").pages[0].extract_text().count("so it is") == 1
