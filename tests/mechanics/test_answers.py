@@ -6,11 +6,11 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 import pytest
-from sympy import Abs, Eq, Expr, ImmutableMatrix, Integer, Rational, cos, exp, log, oo, pi, sin, sqrt, symbols, tan
+from sympy import Abs, Eq, Expr, Integer, Rational, cos, exp, log, oo, pi, sin, sqrt, symbols, tan
 
 from derive.algebra.equality import Grade, equal
 from derive.algebra.expressions import TIME as t
-from derive.algebra.expressions import Relation, vector
+from derive.algebra.expressions import Relation
 from derive.errors import Rejected, Unverified
 from derive.mechanics import (
     Coordinate,
@@ -23,7 +23,6 @@ from derive.mechanics import (
     leaves_contact,
     let,
     limiting_case,
-    magnitude,
     maximum,
     minimum,
     period_by_energy,
@@ -384,12 +383,6 @@ def test_a_throw_reaches_farthest_at_half_a_right_angle() -> None:
     """Kleppner, Kolenkow, example 1.11, and problem 1.22 up a slope."""
     reach = given(2 * v0**2 * sin(theta0) * cos(theta0) / g, symbol="X")
     assert values(*maximum(reach, theta0, within=(0, pi / 2))) == [pi / 4, v0**2 / g]
-
-
-def test_the_greatest_length_of_a_vector_is_named_by_the_letter_of_the_vector() -> None:
-    length = magnitude(let("tau", lambda: ImmutableMatrix([M * sin(theta0) * cos(theta0), 0, 0]), symbol=vector("tau")))
-    _, greatest = maximum(length, theta0, within=(0, pi / 2))
-    assert str(greatest.symbol) == "tau_max" and equal(greatest.value, M / 2)
 
 
 def test_a_throw_up_a_slope_reaches_farthest_halfway_to_the_vertical() -> None:
