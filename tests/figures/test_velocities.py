@@ -26,7 +26,7 @@ from derive.steps.record import recorded
 from tests.courses import library_drawings
 from tests.figures.machines import labels, of, seen
 from tests.figures.test_connected import drawings, library
-from tests.stock.described import complaints
+from tests.stock.described import complaints, edited
 
 M, m, R, l, b, v, g, h, J, alpha = symbols("M m R l b v g h J alpha", positive=True)
 a, phi = symbols("a", positive=True), symbols("phi", real=True)
@@ -176,8 +176,10 @@ def test_the_distance_of_two_supports_is_drawn_on_the_side_away_from_the_masses(
         assert list(line.aside) == [0, -1]
 
 
-def test_an_angle_that_rolling_relates_to_another_is_drawn_with_its_positive_sense() -> None:
-    found = library_drawings("cylinder_inside")["system"]
+def test_an_angle_that_rolling_relates_to_another_is_drawn_with_its_positive_sense(tmp_path: Path) -> None:
+    found = drawings(tmp_path, edited(library("cylinder_inside"), ("    without: [psi]\n    marks", "    marks")))[
+        "system"
+    ]
     angle = next(mark for mark in of(found, AngleBetween) if str(mark.label) == "psi")
     assert angle.growing is not None and list(angle.a) == [1, 0]
     pieces = angle.pieces(OnPaper(Numbers({phi: 0.6, a: 1.0, b: 0.7}), FLAT))

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import pytest
-from sympy import Integer, Matrix, Rational, sqrt, symbols
+from sympy import Integer, Matrix, Rational, Symbol, sqrt, symbols
 
 from derive.algebra.expressions import vector
 from derive.errors import Rejected
-from derive.mechanics import Cuboid, Direction, any_angular_velocity, at, kinetic_energy, let, magnitude, spin
+from derive.mechanics import Cuboid, Direction, any_angular_velocity, at, kinetic_energy, let, magnitude, maximum, spin
 from derive.steps.establish import establish
 from derive.steps.rule import RULES
 from derive.steps.step import Quantity
@@ -35,6 +35,12 @@ def defined(name: str, *components: object) -> Quantity:
 )
 def test_magnitude_is_the_length_of_a_vector(components: tuple[object, ...], length: object) -> None:
     assert magnitude(defined("v", *components)).value == length
+
+
+def test_the_greatest_length_of_a_vector_is_named_by_the_letter_of_the_vector() -> None:
+    alpha = Symbol("alpha", real=True)
+    _, greatest = maximum(magnitude(defined("v", a / (1 + alpha**2), 0, 0)), alpha)
+    assert str(greatest.symbol) == "v_max" and greatest.value == a
 
 
 def test_magnitude_says_when_a_vector_vanishes() -> None:

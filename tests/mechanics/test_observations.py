@@ -43,7 +43,7 @@ FOUND = [  # problem, part, rule, outcome
     ("library/two_bodies", 2, "reduced", "generic"),
     ("hw9/euler", 0, "polhode", "generic"),
     ("library/ball_on_turntable", 1, "circling", "generic"),
-    ("library/off_a_sphere", 3, "angle", "generic"),
+    ("library/off_a_sphere", 2, "angle", "generic"),
     ("library/hoop_oscillations", 2, "below", "generic"),
     ("library/penning_trap", 1, "pair", "generic"),
     ("library/simple_pendulum", 3, "longer", "generic"),

@@ -546,6 +546,12 @@ def test_both_axes_of_a_path_in_one_unit_have_one_step() -> None:
     assert steps == {1.0}
 
 
+def test_a_path_around_the_origin_has_thin_lines_through_it() -> None:
+    (around,), (beyond,) = panels(path_of(cos(theta), sin(theta))), panels(path_of(theta, theta + 1, upper=Integer(4)))
+    assert around.is_signed and around.is_signed_across
+    assert not beyond.is_signed and not beyond.is_signed_across
+
+
 def test_symbols_that_differ_in_their_subscripts_have_one_name_at_the_axis() -> None:
     first, *others = (Symbol(name) for name in ("x_1", "x_2", "x_3"))
     more = tuple(Further(each, cos(theta) + i, each.name) for i, each in enumerate(others, 1))

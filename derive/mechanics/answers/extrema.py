@@ -7,10 +7,10 @@ from collections.abc import Mapping, Sequence
 from itertools import islice
 from typing import Any
 
-from sympy import Abs, Dummy, Expr, Integer, Rational, Symbol
+from sympy import Abs, Dummy, Expr, Integer, MatrixSymbol, Rational, Symbol
 
 from derive.algebra.equality import Grade, Verdict
-from derive.algebra.expressions import TIME, At, Relation, explicit, scalar
+from derive.algebra.expressions import TIME, At, Norm, Relation, explicit, scalar
 from derive.algebra.ranges import range_of
 from derive.algebra.relation import sides_without_minus
 from derive.algebra.samples import NoNumber, Undefined, letters_of, points, seed_of, value_at
@@ -149,7 +149,7 @@ def _extremum(
     )
     top = establish(
         EXTREMUM_VALUE,
-        scalar(f"{of.symbol.name}_{verb[:3]}") if isinstance(of.symbol, Symbol) else scalar(key),
+        scalar(key if (name_of := _letter_of(of)) is None else f"{name_of}_{verb[:3]}"),
         lambda f, p: At(f, x, p),
         {"quantity": of, "place": at},
         lines=Lines(put_in=Level.FULL, law=Level.FULL, arranged=presented),
@@ -160,6 +160,12 @@ def _extremum(
         phrase_data=PhraseData(outcome_data={"value": value, "letter": x, "place": place, **conditions}),
     )
     return at, top
+
+
+def _letter_of(of: Quantity) -> str | None:
+    """Return the letter of a quantity, or of the vector whose length the quantity is."""
+    symbol = of.symbol.args[0] if isinstance(of.symbol, Norm) else of.symbol
+    return str(symbol.name) if isinstance(symbol, Symbol | MatrixSymbol) else None
 
 
 def _not_one(of: Quantity, x: Symbol, verb: str, count: int, elsewhere: bool) -> Rejected:

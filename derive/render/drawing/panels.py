@@ -102,6 +102,7 @@ class Panel:
     points           zeros of a curve, or points at which two curves meet, with their names
     heights          horizontal lines at energies, from one end to the other
     is_signed        whether the vertical axis extends well to both sides of zero, so that a thin line shows zero
+    is_signed_across whether the horizontal axis of a path does so, too
     has_open         whether the dots of maxima are open, because they are unstable equilibria
     """
 
@@ -122,6 +123,7 @@ class Panel:
     points: tuple[tuple[Spot, str], ...] = ()
     heights: tuple[tuple[Spot, Spot], ...] = ()
     is_signed: bool = False
+    is_signed_across: bool = False
     has_open: bool = False
 
     @property
@@ -239,7 +241,7 @@ def curve_panel(
             for energy, ranges in curve.heights
             for start, end in ranges
         ),
-        is_signed=low < -BARELY * tall and high > BARELY * tall,
+        is_signed=_is_well_inside(0.0, low, high),
         has_open=curves.has_unstable,
     )
 
@@ -280,6 +282,7 @@ def path_panel(plot: Plot, own: Sequence[Curve], curves: Curves, notation: Notat
     surfaces = tuple(dict.fromkeys(outline for curve in own for outline in curve.outlines))
     corners = [tuple(zip(each.corners[::2], each.corners[1::2], strict=True)) for each in surfaces]
     left, low, right, high = _box([*traces, *map(Trace, filter(None, corners))])
+    is_signed, is_signed_across = _is_well_inside(0.0, low, high), _is_well_inside(0.0, left, right)
     (left, right), (low, high) = _with_margin(left, right), _with_margin(low, high)
     shape = None
     powers = _power(left, right, curves.across), _power(low, high, curves.up)
@@ -306,7 +309,13 @@ def path_panel(plot: Plot, own: Sequence[Curve], curves: Curves, notation: Notat
         is_path=True,
         shape=shape,
         outlines=_lines_of(surfaces, (left, low, right, high)),
+        is_signed=is_signed,
+        is_signed_across=is_signed_across,
     )
+
+
+def _is_well_inside(at: float, low: float, high: float) -> bool:
+    return low + BARELY * (high - low) < at < high - BARELY * (high - low)
 
 
 def _lines_of(surfaces: Sequence[Outline], box: Extent) -> tuple[tuple[Spot, ...], ...]:

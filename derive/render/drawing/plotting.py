@@ -456,6 +456,9 @@ def _dots_of_thin_lines(panel: Panel, frame: Frame) -> list[Spot]:
     if panel.is_signed:
         zero = frame.spot((0.0, 0.0))[1]
         lines.append(((frame.paper[0], zero), (frame.paper[2], zero)))
+    if panel.is_signed_across:
+        zero = frame.spot((0.0, 0.0))[0]
+        lines.append(((zero, frame.paper[1]), (zero, frame.paper[3])))
     return [dot for line in lines for dot in dots_of(line)]
 
 
@@ -523,6 +526,9 @@ def _pieces(panel: Panel, frame: Frame, gaps: Sequence[tuple[int, Extent]]) -> I
     if panel.is_signed:
         zero = frame.spot((0.0, 0.0))[1]
         yield Stroke(((left, zero), (right, zero)), "thin")
+    if panel.is_signed_across:
+        zero = frame.spot((0.0, 0.0))[0]
+        yield Stroke(((zero, below), (zero, above)), "thin")
     for turn in panel.turns:
         yield Stroke(frame.spots(_line_to_axis(turn, frame)), "hidden")
     for line in panel.heights:
