@@ -199,6 +199,15 @@ def test_answers_one_after_the_other_are_in_one_frame_and_have_a_number_each() -
     assert listed(first, replace(second, lines=law)).startswith("\\row{M}{= T+a}{}{}{}\n\\samestep\n\\framedlist{")
 
 
+def test_words_may_be_in_the_first_row_of_an_answer_that_begins_with_its_law() -> None:
+    law, result = ChainLine(T, "equals", M + a), ChainLine(None, "equals", M * a)
+    shown = replace(display("mass"), groups=(Equations("mass", (law, result), 1, framed=1),))
+    said = [Paragraph((Text("The tension is"),)), shown]
+    assert r"\wordstodisplay{The tension is}" in solution(page(*said))
+    assert r"\todisplay{The tension is}" in solution(page(said[0], display("mass", framed=1)))
+    assert r"\todisplay{The tension is}" in solution(page(*said, evidence=EvidenceShown.MARGIN))
+
+
 def test_a_long_result_is_in_one_frame_of_several_lines() -> None:
     terms = sum(symbols("b_:40", positive=True))
     (alone,) = framed(ChainLine(T, "equals", terms))

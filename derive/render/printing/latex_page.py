@@ -177,10 +177,13 @@ class LatexPage:
         pairs = (pair for sentences_of_part in told for pair in pairwise(sentences_of_part))
         return any(first[-1] is block and self.has_answer(second) for first, second in pairs)
 
-    def is_continuation(self, block: Paragraph) -> bool:
-        """Return whether words continue the sentence of the display before them. With notes in the margin, return
+    def is_in_first_row(self, block: Paragraph, display: Display) -> bool:
+        """Return whether words may be in the first row of their display, if they are short: words that continue the
+        sentence of the display before them, and words before the law of an answer. With notes in the margin, return
         false, because a note needs a line of text."""
-        return continues_sentence(block.nodes) and not self.has_margin()
+        first, *others = printed_lines(display.groups[0], self.notation)
+        is_law = not first.framed and first.left is not None and any(line.framed for line in others)
+        return (continues_sentence(block.nodes) or is_law) and not self.has_margin()
 
     def kind(self, block: Any) -> str:
         return type(block).__name__.lower()
