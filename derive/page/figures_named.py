@@ -85,7 +85,7 @@ def _sentence_before(blocks: Sequence[Block]) -> int | None:
 def _after_figures(blocks: list[Block], figures: Sequence[Illustration], words: Phrases) -> list[Block]:
     """Mention the figures in the first paragraph after them, if there is one."""
     at = next((i for i, block in enumerate(blocks) if isinstance(block, Paragraph)), None)
-    return blocks if at is None or not figures else _with_mention(blocks, at, figures, words)
+    return blocks if at is None or not figures else _with_mention(blocks, at, figures, words, equation=0)
 
 
 def _with_forces(blocks: list[Block], figures: Sequence[Illustration], words: Phrases) -> list[Block]:
@@ -101,15 +101,24 @@ def _with_forces(blocks: list[Block], figures: Sequence[Illustration], words: Ph
     return [Paragraph((*said, rest, *nodes[1:])), *blocks[1:]]
 
 
-def _with_mention(blocks: list[Block], at: int, figures: Sequence[Illustration], words: Phrases) -> list[Block]:
+def _with_mention(
+    blocks: list[Block], at: int, figures: Sequence[Illustration], words: Phrases, equation: int = -1
+) -> list[Block]:
     """Put the figures in parentheses at the end of a paragraph. If the paragraph ends within a clause, put them next to
-    the formula after it, unless a reason is there."""
+    an equation of the display after it, unless a reason is there.
+
+    equation    the position of this equation in the display: the last one, or the first one for figures above it
+    """
     paragraph, following = blocks[at], blocks[at + 1] if at + 1 < len(blocks) else None
     if not isinstance(paragraph, Paragraph):
         return blocks
     *before, last = paragraph.nodes
     said, end = (last.text.rstrip(), "") if type(last) is Text else ("", "")
-    if not said.endswith(STOPS) and isinstance(following, Display) and (noted := _noted(following, figures, words)):
+    if (
+        not said.endswith(STOPS)
+        and isinstance(following, Display)
+        and (noted := _noted(following, equation, _named(figures, words)["figures"]))
+    ):
         return [*blocks[: at + 1], noted, *blocks[at + 2 :]]
     space = last.text[len(said) :] if type(last) is Text else ""
     if type(last) is not Text:
@@ -124,11 +133,11 @@ def _with_mention(blocks: list[Block], at: int, figures: Sequence[Illustration],
     return [*blocks[:at], mentioned, *blocks[at + 1 :]]
 
 
-def _noted(display: Display, figures: Sequence[Illustration], words: Phrases) -> Display | None:
-    """Return the display with the figures next to its last line; None if this line has a reason."""
-    if not display.groups or display.groups[-1].lines[-1].reason:
+def _noted(display: Display, at: int, note: tuple[Inline, ...]) -> Display | None:
+    """Return the display with a note next to the last line of an equation; None if this line has a reason."""
+    groups = list(display.groups)
+    if not groups or groups[at].lines[-1].reason:
         return None
-    *groups, group = display.groups
-    *lines, line = group.lines
-    noted = replace(group, lines=(*lines, replace(line, reason=_named(figures, words)["figures"])))
-    return replace(display, groups=(*groups, noted))
+    *lines, line = groups[at].lines
+    groups[at] = replace(groups[at], lines=(*lines, replace(line, reason=note)))
+    return replace(display, groups=tuple(groups))

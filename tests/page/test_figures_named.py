@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from sympy import Symbol
 
-from derive.figures.marks import Drawing, Plot
+from derive.figures.marks import Drawing, Plot, Recorded
 from derive.page.chain_lines import ChainLine, Equations
 from derive.page.figures_named import figures_mentioned
 from derive.page.numbering import Number
@@ -18,7 +18,7 @@ from tests.courses import ROOT
 WORDS = phrases(templates_of(ROOT))
 FORCES = {key: Drawing(key, (), forces_on=Symbol("m")) for key in ("left", "right")}
 CURVE = Plot("curve", Symbol("U"), Symbol("x") ** 2, Symbol("x"), 0, 1, "energy", "length")
-KNOWN = {**FORCES, "curve": CURVE}
+KNOWN: dict[str, Recorded] = {**FORCES, "curve": CURVE}
 
 
 def figure(key: str, number: int | None) -> Illustration:
@@ -59,3 +59,11 @@ def test_a_plot_after_a_formula_is_mentioned_next_to_the_formula() -> None:
         assert told(*blocks) == [words, "*", "*", "It is least"]
         (noted,) = [each for each in figures_mentioned(blocks, KNOWN, (), WORDS) if isinstance(each, Display)]
         assert inline_text(noted.groups[-1].lines[-1].reason, Notation()).replace("\u00a0", " ") == note
+
+
+def test_figures_above_equations_are_mentioned_next_to_the_first_one() -> None:
+    x = Symbol("x")
+    equations = Display(tuple(Equations(key, (ChainLine(x, "equals", x),), Number(1)) for key in "abc"))
+    blocks = (figure("left", 2), Paragraph((Text("It turns. Newton's laws are"),)), equations)
+    (noted,) = [each for each in figures_mentioned(blocks, KNOWN, (), WORDS) if isinstance(each, Display)]
+    assert [bool(group.lines[-1].reason) for group in noted.groups] == [True, False, False]
