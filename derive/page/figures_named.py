@@ -1,8 +1,8 @@
 """Mentions of the numbered figures of a part, in the sentences near them: "It is unstable (Figure 2)."
 
-A figure that no text of the author mentions is mentioned in parentheses at the end of a paragraph. A plot or a normal
-mode after a formula has a sentence of its own: "Figure 2 shows x as a function of t." A figure of forces is mentioned
-before the equations: "With the forces in Figure 2, the upward component is".
+A figure that no text of the author mentions is mentioned in parentheses at the end of a paragraph, or next to the
+formula before the figure. A figure of forces is mentioned before the equations: "With the forces in Figure 2, the
+upward component is".
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from typing import Any
 
 from derive.figures import marks as m
 from derive.page.tree import Block, Display, Illustration, Paragraph
-from derive.page.wording import FigureRef, Inline, Math, Phrases, Text, ToldOnce, filled, joined
+from derive.page.wording import FigureRef, Inline, Phrases, Text, ToldOnce, filled, joined
 
 STOPS = (".", ",", ":")
 
@@ -29,27 +29,18 @@ def figures_mentioned(
     """
     found: list[Block] = []
     waiting: list[Illustration] = []  # figures that the blocks after them will mention
-    told: tuple[Inline, ...] = ()  # a sentence about the figures before, which begins the next paragraph
     groups = [list(group) for _, group in groupby(blocks, lambda block: isinstance(block, Illustration))]
     for together, following in zip(groups, [*groups[1:], []], strict=True):
         if not isinstance(together[0], Illustration):
-            forces = [each for each in waiting if _shows_forces(drawings[each.key])]
-            others = [each for each in waiting if each not in forces]
-            together = _after_figures(together, others, words) if others else together
-            found += _with_forces(together, forces, words) if forces else _after(told, together)
-            waiting, told = [], ()
+            can_begin = bool(waiting) and all(_shows_forces(drawings[each.key]) for each in waiting)
+            found += (can_begin and _with_forces(together, waiting, words)) or _after_figures(together, waiting, words)
+            waiting = []
             continue
         shown = [each for each in together if isinstance(each, Illustration)]
         new = [each for each in shown if each.number is not None and each.key not in mentioned]
-        show_forces = all(_shows_forces(drawings[each.key]) for each in new)
-        is_before_equations = show_forces and _begins_a_sentence(following)
-        ends_with_formula = bool(found) and isinstance(found[-1], Display)
-        can_tell = ends_with_formula and (not following or _begins_a_sentence(following))
-        if new and can_tell and (said := _shown([drawings[each.key] for each in new], new, words)):
-            told = said if following else ()
-            found += [] if following else [Paragraph(said)]
-        elif new and not is_before_equations and (at := _sentence_before(found)) is not None:
-            found[at] = _with_mention(found[at], new, words)
+        is_before_equations = all(_shows_forces(drawings[each.key]) for each in new) and _begins_a_sentence(following)
+        if new and not is_before_equations and (at := _sentence_before(found)) is not None:
+            found = _with_mention(found, at, new, words)
         else:
             waiting = new
         found += shown
@@ -58,29 +49,6 @@ def figures_mentioned(
 
 def _shows_forces(drawing: m.Recorded) -> bool:
     return isinstance(drawing, m.Drawing) and drawing.forces_on is not None
-
-
-def _after(said: tuple[Inline, ...], blocks: list[Block]) -> list[Block]:
-    """Insert a sentence at the beginning of the first block if this block is a paragraph."""
-    first = blocks[0]
-    return (
-        [Paragraph((*said, Text(" "), *first.nodes)), *blocks[1:]] if said and isinstance(first, Paragraph) else blocks
-    )
-
-
-def _shown(drawn: Sequence[m.Recorded], figures: Sequence[Illustration], words: Phrases) -> tuple[Inline, ...]:
-    """Return a sentence about the content of a plot or of normal modes; empty for other figures."""
-    first, named = drawn[0], _named(figures, words)
-    if all(isinstance(each, m.Drawing) and each.mode is not None for each in drawn):
-        return filled(words.drawings["shows_modes"], named)
-    if len(drawn) > 1 or not isinstance(first, m.Plot):
-        return ()
-    if first.across is not None or first.levels is not None or first.diagram is not None:
-        sort = "path" if first.across is not None else "portrait" if first.levels is not None else "diagram"
-        return filled(words.drawings[f"shows_{sort}"], named)
-    quantity = joined([(Math(label),) for label in first.labels], words.labels["and"])
-    curves = {"quantity": quantity, "several": len(first.labels) > 1, "variable": (Math(first.variable),)}
-    return filled(words.drawings["shows_curve"], {**named, **curves})
 
 
 def _begins_a_sentence(blocks: Sequence[Block]) -> bool:
@@ -117,39 +85,59 @@ def _sentence_before(blocks: Sequence[Block]) -> int | None:
 def _after_figures(blocks: list[Block], figures: Sequence[Illustration], words: Phrases) -> list[Block]:
     """Mention the figures in the first paragraph after them, if there is one."""
     at = next((i for i, block in enumerate(blocks) if isinstance(block, Paragraph)), None)
-    return blocks if at is None else [*blocks[:at], _with_mention(blocks[at], figures, words), *blocks[at + 1 :]]
+    return blocks if at is None or not figures else _with_mention(blocks, at, figures, words, equation=0)
 
 
 def _with_forces(blocks: list[Block], figures: Sequence[Illustration], words: Phrases) -> list[Block]:
-    """Mention the figures of forces at the beginning of the first sentence, or in a sentence before it."""
-    first, named = blocks[0], _named(figures, words)
-    article = words.drawings["article"]
+    """Mention the figures of forces at the beginning of the first sentence; empty if it does not allow this."""
+    first, article = blocks[0], words.drawings["article"]
     nodes = first.nodes if isinstance(first, Paragraph) else ()
     opening = nodes[0] if nodes else None
     is_one_sentence = not any(". " in node.text for node in nodes if isinstance(node, Text))
-    if is_one_sentence and type(opening) is Text and opening.text.startswith(f"{article} "):
-        said = filled(words.drawings["with_forces"], named)
-        rest = Text(f" {opening.text[0].lower()}{opening.text[1:]}")
-        return [Paragraph((*said, rest, *nodes[1:])), *blocks[1:]]
-    shown = filled(words.drawings["shows_forces"], named)
-    if nodes:
-        return [Paragraph((*shown, Text(" "), *nodes)), *blocks[1:]]
-    return [Paragraph(shown), *blocks]
+    if not (is_one_sentence and type(opening) is Text and opening.text.startswith(f"{article} ")):
+        return []
+    said = filled(words.drawings["with_forces"], _named(figures, words))
+    rest = Text(f" {opening.text[0].lower()}{opening.text[1:]}")
+    return [Paragraph((*said, rest, *nodes[1:])), *blocks[1:]]
 
 
-def _with_mention(paragraph: Block, figures: Sequence[Illustration], words: Phrases) -> Block:
-    """Put the figures in parentheses at the end of a paragraph."""
+def _with_mention(
+    blocks: list[Block], at: int, figures: Sequence[Illustration], words: Phrases, equation: int = -1
+) -> list[Block]:
+    """Put the figures in parentheses at the end of a paragraph. If the paragraph ends within a clause, put them next to
+    an equation of the display after it, unless a reason is there.
+
+    equation    the position of this equation in the display: the last one, or the first one for figures above it
+    """
+    paragraph, following = blocks[at], blocks[at + 1] if at + 1 < len(blocks) else None
     if not isinstance(paragraph, Paragraph):
-        return paragraph
+        return blocks
     *before, last = paragraph.nodes
     said, end = (last.text.rstrip(), "") if type(last) is Text else ("", "")
+    if (
+        not said.endswith(STOPS)
+        and isinstance(following, Display)
+        and (noted := _noted(following, equation, _named(figures, words)["figures"]))
+    ):
+        return [*blocks[: at + 1], noted, *blocks[at + 2 :]]
     space = last.text[len(said) :] if type(last) is Text else ""
     if type(last) is not Text:
         before.append(last)
     if said.endswith(STOPS):
         said, end = said[:-1], said[-1]
     mention: tuple[Inline, ...] = filled(words.drawings["mentioned"], _named(figures, words))
-    if said.endswith(")"):  # the paragraph already ends with parentheses
-        mention = (*_named(figures, words)["figures"], Text(")"))
-        return replace(paragraph, nodes=(*before, Text(said[:-1]), words.semicolon, *mention, Text(f"{end}{space}")))
-    return replace(paragraph, nodes=(*before, Text(f"{said} "), *mention, Text(f"{end}{space}")))
+    said = f"{said} "
+    if said.endswith(") "):  # the paragraph already ends with parentheses
+        said, mention = said[:-2], (words.semicolon, *_named(figures, words)["figures"], Text(")"))
+    mentioned = replace(paragraph, nodes=(*before, Text(said), *mention, Text(f"{end}{space}")))
+    return [*blocks[:at], mentioned, *blocks[at + 1 :]]
+
+
+def _noted(display: Display, at: int, note: tuple[Inline, ...]) -> Display | None:
+    """Return the display with a note next to the last line of an equation; None if this line has a reason."""
+    groups = list(display.groups)
+    if not groups or groups[at].lines[-1].reason:
+        return None
+    *lines, line = groups[at].lines
+    groups[at] = replace(groups[at], lines=(*lines, replace(line, reason=note)))
+    return replace(display, groups=tuple(groups))

@@ -80,3 +80,15 @@ def test_a_row_that_does_not_fit_is_made_smaller(formula: str, smaller: bool, tm
     log, _ = typeset_with_log(tmp_path, tex.replace(r"\end{document}", rows + framed + r"\end{document}"))
     assert outside(log) == []
     assert len(scales(log)) == (2 if smaller else 0)
+
+
+def test_the_words_of_a_row_beside_a_drawing_are_printed_once(tmp_path: Path) -> None:
+    """The passage after the drawing does not fit beside it, so TeX tries its lines before it prints them."""
+    tex = set_document(course_in(tmp_path), problem_set(tmp_path, "hw9"), [])
+    row = r"\chain{\row{T}{= \frac{1}{2}mv^{2}+\rule{11cm}{1pt}}{.}{}{\eqnumber{1}}}"
+    passage = rf"\passage{{%s\wordstodisplay{{thus}}{row}}}"
+    before = passage % r"\todisplay{Some words}\chain{\row{U}{= 0}{,}{}{}}"
+    after = passage % r"\todisplay{Other words}\chain{\row{U}{= \rule{1pt}{4cm}}{,}{}{}}"
+    beside = rf"\drawingbeside{{none.pdf}}{{A drawing.}}{{Figure 1.}}{{A caption.}}{{{before}}}{{{after}}}"
+    _, pdf = typeset_with_log(tmp_path, tex.replace(r"\end{document}", rf"{beside}\end{{document}}"))
+    assert PdfReader(pdf).pages[0].extract_text().count("thus") == 2

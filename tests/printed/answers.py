@@ -35,7 +35,7 @@ def boxed(tex: str) -> list[str]:
 def framed(tex: str) -> list[str]:
     rows = [(end, next(braced(tex[end:], ""))[0]) for _, end in braced(tex, r"\framedrow")]
     rows += [(end, f"{left} {next(braced(tex[end:], ''))[0]}") for left, end in braced(tex, r"\listrow")]
-    return [inside for _, inside in sorted([*rows, *((end, inside) for inside, end in braced(tex, r"\inframe"))])]
+    return [inside for _, inside in sorted(rows)]
 
 
 def of_html(page: str) -> list[str]:

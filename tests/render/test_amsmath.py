@@ -34,7 +34,9 @@ def test_several_rows_are_aligned_at_their_relations() -> None:
 
 def test_an_answer_is_boxed_and_its_number_is_told_if_it_is_wanted() -> None:
     answer = display(ChainLine(a, "equals", b), ChainLine(None, "equals", c), framed=1)
-    assert display_latex(answer, Notation(), numbered=True) == r"\boxed{a = b = c}\qquad(4)"
+    assert display_latex(answer, Notation(), numbered=True) == (
+        "\\begin{aligned}\na &= b \\\\\n&\\boxed{a = c}\\qquad(4)\n\\end{aligned}"
+    )
 
 
 def test_an_answer_that_is_all_of_its_row_is_boxed_with_its_left_side() -> None:
@@ -50,4 +52,4 @@ def test_one_box_is_around_all_lines_of_an_answer() -> None:
     assert r" \\" + "\n&" in shown
     chain = display(ChainLine(a, "equals", b), ChainLine(None, "equals", Add(*terms)), framed=1)
     assert "a &= b" in (found := display_latex(chain, Notation()))
-    assert r"&= \boxed{\begin{aligned}" + "\n&" in found
+    assert r"&\boxed{\begin{aligned}" + "\na &= " in found

@@ -12,7 +12,7 @@ from derive.algebra.expressions import Relation
 from derive.page.chain_lines import ChainLine, Equations
 from derive.page.wording import Text
 from derive.render.notation.notation import Notation
-from derive.render.printing.lines import answers_together, printed_lines
+from derive.render.printing.lines import Printed, answers_together, before_answers, printed_lines
 
 LETTERS = symbols("a b c d e f g h k l m n p q r s", positive=True)
 theta = Symbol("theta", real=True)
@@ -37,49 +37,42 @@ def test_a_long_left_side_ends_with_its_relation() -> None:
     assert lines[-1].sides[-1] == ("equals", NOTATION.layout(relation.right))
 
 
-def test_the_frame_holds_a_result_and_with_a_law_in_letters_the_whole_equation() -> None:
-    T, (a, b, c) = Symbol("T"), LETTERS[:3]
-    chain = (
-        ChainLine(T, "equals", a * b),
-        ChainLine(None, "equals", c),
-        ChainLine(None, "approx", 2 * a, numeric=True),
-    )
-    for framed, in_frame in ((0, 0), (1, 1), (2, 3), (3, 3)):
-        (line,) = printed_lines(Equations("T", chain, 7, framed), NOTATION)
-        assert line.left == NOTATION.layout(T) and (len(line.sides), line.framed) == (3, in_frame)
-
-
 @pytest.mark.parametrize("result", [Integer(0), LETTERS[2], 2 * LETTERS[1], ImmutableDenseMatrix([0, 0, 0])])
-def test_only_a_law_in_letters_shares_the_frame_of_its_result(result: Any) -> None:
-    """T = a = 0 is framed as a whole. After a long line only the result is framed, but T = 0 is framed with its left
-    side."""
+@pytest.mark.parametrize("law", [LETTERS[0], LONG])
+def test_an_answer_is_an_equation_of_its_own_after_its_derivation(law: Any, result: Any) -> None:
     T = Symbol("T")
-    chain = (ChainLine(T, "equals", LETTERS[0]), ChainLine(None, "equals", result, (Text("why"),)))
+    chain = (ChainLine(T, "equals", law), ChainLine(None, "equals", result, (Text("why"),)))
     (line,) = printed_lines(Equations("T", (replace(chain[1], left=T),), 7, 1), NOTATION)
-    assert line.frames_all and len(line.sides) == 1
-    (line,) = printed_lines(Equations("T", chain, 7, 1), NOTATION)
-    assert len(line.sides) == 2 and line.frames_all
+    assert line.framed and len(line.sides) == 1
     for limit in (40, 999):
-        long = replace(chain[0], right=LONG)
-        lines = printed_lines(Equations("T", (long, chain[1]), 7, 1), NOTATION, limit)
-        assert [line.framed for line in lines] == [0] * (len(lines) - 1) + [1]
-        is_zero = result in (Integer(0), ImmutableDenseMatrix([0, 0, 0]))
-        assert lines[-1].frames_all is is_zero and lines[-1].sides[-1] == ("equals", NOTATION.layout(result))
-        assert lines[-1].reason and not any(line.reason for line in lines[:-1])
+        *before, last = printed_lines(Equations("T", chain, 7, 1), NOTATION, limit)
+        assert before and not any(line.framed or line.reason for line in before)
+        assert last.framed and last.reason
+        assert (last.left, last.sides) == (NOTATION.layout(T), (("equals", NOTATION.layout(result)),))
+
+
+def test_the_frame_of_an_exact_answer_holds_its_decimals() -> None:
+    T, (a, b, c) = Symbol("T"), LETTERS[:3]
+    numeric = ChainLine(None, "approx", 2 * a, numeric=True)
+    chain = (ChainLine(T, "equals", a * b), ChainLine(None, "equals", c), numeric)
+    for framed, sides in ((0, [3]), (1, [2, 1]), (2, [1, 2]), (3, [3])):
+        lines = printed_lines(Equations("T", chain, 7, framed), NOTATION)
+        assert [len(line.sides) for line in lines] == sides
+        assert [line.framed for line in lines] == [False] * (len(lines) - 1) + [framed > 0]
 
 
 def test_a_framed_line_that_is_broken_is_framed_as_a_whole() -> None:
     lines = printed_lines(Equations("T", (ChainLine(Symbol("T"), "equals", LONG),), 7, 1), NOTATION, 40)
-    assert len(lines) > 2 and all(line.frames_all for line in lines)
+    assert len(lines) > 2 and all(line.framed for line in lines)
     relation = ChainLine(LONG, "equals", Symbol("T"))
-    assert all(line.frames_all for line in printed_lines(Equations("T", (relation,), 7, 1), NOTATION, 40))
+    assert all(line.framed for line in printed_lines(Equations("T", (relation,), 7, 1), NOTATION, 40))
 
 
 def test_what_looks_alike_keeps_its_frame() -> None:
     a, b = LETTERS[:2]
     alike = (ChainLine(Symbol("T"), "equals", a * b), ChainLine(None, "equals", b * a))
     (line,) = printed_lines(Equations("T", alike, 1, 1), NOTATION)
-    assert line.frames_all
+    assert line.framed
 
 
 def test_short_forms_share_a_line_until_one_has_a_reason() -> None:
@@ -121,19 +114,25 @@ def test_of_an_inequality_the_frame_holds_its_left_side_and_its_sign() -> None:
     for relation, sign in (("greater", "greater"), ("at_most", "at_most")):
         formula = ChainLine(S, relation, LONG)
         (line,) = printed_lines(Equations("S", (formula,), 7, 1), NOTATION, 999)
-        assert line.frames_all
+        assert line.framed
         chain = (formula, ChainLine(None, "approx", 2 * c, numeric=True))
         before, line = printed_lines(Equations("S", chain, 7, 1), NOTATION, 999)
-        assert (line.framed, line.frames_all, line.sides[0][0]) == (1, True, sign) and not before.framed
+        assert (line.framed, line.framed, line.sides[0][0]) == (1, True, sign) and not before.framed
         (plain,) = printed_lines(Equations("S", chain, 7), NOTATION, 999)
         assert plain.framed == 0
 
 
-def test_answers_of_one_row_that_follow_each_other_share_a_frame() -> None:
+def test_answers_that_follow_each_other_share_a_frame_after_their_laws() -> None:
     T, (a, b, c) = Symbol("T"), LETTERS[:3]
-    answer = printed_lines(Equations("one", (ChainLine(T, "equals", a),), 1, 1), NOTATION)
-    plain = printed_lines(Equations("two", (ChainLine(T, "equals", b),), 2), NOTATION)
-    long = printed_lines(
-        Equations("three", (ChainLine(T, "equals", LONG), ChainLine(None, "equals", c)), 3, 1), NOTATION
-    )
-    assert answers_together([answer, answer, plain, answer, long, answer, answer]) == [[0, 1], [2], [3], [4], [5, 6]]
+
+    def step(*rights: Any, framed: int = 1) -> tuple[Printed, ...]:
+        first, *others = rights
+        lines = (ChainLine(T, "equals", first), *(ChainLine(None, "equals", each) for each in others))
+        return printed_lines(Equations("T", lines, 1, framed), NOTATION)
+
+    answer, plain, law, long = step(a), step(b, framed=0), step(a * b, c), step(LONG, LONG - a, LONG - b, c)
+    assert answers_together([answer, answer, plain, answer, long, law, law]) == [[0, 1], [2], [3], [4], [5, 6]]
+    assert before_answers([answer, answer]) == []
+    (line,) = before_answers([law, law])
+    assert [relation for relation, _ in line.sides] == ["equals", "next", "equals"], "the laws share a line"
+    assert len(before_answers([law, law], limit=10)) == 2

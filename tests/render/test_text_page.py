@@ -57,7 +57,7 @@ def test_a_reason_that_does_not_fit_beside_its_line_stands_below_it() -> None:
 def test_a_star_stands_before_the_line_that_has_the_answer_in_it() -> None:
     plain, starred = shown(page(display("energy"))), shown(page(display("energy", framed=1)))
     (at,) = [i for i, line in enumerate(starred) if line.startswith("  * ")]
-    assert starred[at].split()[1:4] == ["=", "2M", "a²"] and not any("  * " in line for line in plain)
+    assert starred[at].split()[1:5] == ["T", "=", "2M", "a²"] and not any("  * " in line for line in plain)
 
 
 @pytest.mark.parametrize("points", [None, Fraction(1), Fraction(5, 2)])

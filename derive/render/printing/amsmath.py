@@ -62,28 +62,14 @@ def _row(lines: Sequence[Printed], stop: str, ending: str) -> Row:
     first, *others = lines
     stop = "" if lines[-1].framed else stop  # a frame ends a sentence without punctuation
     left = latex(first.left) if first.left else ""
-    if first.frames_all:
+    if first.framed:
         rows = [Row(left, _sides(first.sides)), *_going_on(others)]
         return Row("", _boxed(aligned(rows)) + ending)
-    if not others:
-        body = _with_box(first)
-    else:
-        ((relation, begun),) = first.sides
-        body = f"{_sign(relation)} " + _boxed(aligned([Row("", latex(begun)), *_going_on(others)]))
-    return Row(left, f"{body}{stop}{ending}")
+    return Row(left, f"{_sides(first.sides)}{stop}{ending}")
 
 
 def _going_on(lines: Sequence[Printed]) -> list[Row]:
     return [Row("", _sides(line.sides)) for line in lines]
-
-
-def _with_box(line: Printed) -> str:
-    """Return the relations and right sides of a line; the result is in a box, and its relation is before the box."""
-    at = len(line.sides) - line.framed
-    if not line.framed:
-        return _sides(line.sides)
-    (relation, first), *others = line.sides[at:]
-    return _spaced(_sides(line.sides[:at]), _sign(relation), _boxed(_spaced(latex(first), _sides(others))))
 
 
 def _sides(sides: Sequence[tuple[str, Layout]]) -> str:

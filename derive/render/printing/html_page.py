@@ -42,7 +42,7 @@ from derive.render.notation.mathml import in_pieces, mathml, of_latex
 from derive.render.notation.notation import Notation
 from derive.render.printing.amsmath import display_latex
 from derive.render.printing.figure_numbers import OF_PROBLEM, figure_number
-from derive.render.printing.lines import PAGE_WIDTH, Printed, answers_together, printed_lines
+from derive.render.printing.lines import PAGE_WIDTH, Printed, answers_together, before_answers, printed_lines
 from derive.render.printing.templates import filled_html
 from derive.render.printing.text_page import inline_text
 from derive.render.printing.told_once import theorem, told_in
@@ -217,15 +217,18 @@ class HtmlPage:
     # --- equations ---------------------------------------------------------------------------------------------------
 
     def steps(self, display: Display) -> Sequence[Html]:
-        """Return the rows of each step of a display."""
+        """Return the rows of each step of a display, or of several steps with answers in a common frame."""
         printed = [printed_lines(group, self.notation, PAGE_WIDTH) for group in display.groups]
         found = []
         for together in answers_together(printed):
-            for i in together:
-                stop = display.stops[i] if i == together[-1] else ""
-                follows, leads = i != together[0], i != together[-1]
-                rows = (self._row(l, stop if l is printed[i][-1] else "", follows, leads) for l in printed[i])
-                found.append(Html("\n".join(rows)))
+            stop, lines = display.stops[together[-1]], [printed[i] for i in together]
+            if len(lines) == 1:
+                rows = [self._row(line, stop if line is lines[0][-1] else "") for line in lines[0]]
+            else:
+                rows = [self._row(line, "") for line in before_answers(lines, PAGE_WIDTH)]
+                answers = [answer for *_, answer in lines]
+                rows += [self._row(each, "", each is not answers[0], each is not answers[-1]) for each in answers]
+            found.append(Html("\n".join(rows)))
         return found
 
     def numbers(self, folded: Folded) -> Html:
@@ -247,7 +250,7 @@ class HtmlPage:
             f'<span class="left">{left}</span>',
             f'<span class="sides">{_sides(line, "" if line.framed else stop)}</span>',
         ]
-        if line.frames_all:
+        if line.framed:
             cells = ['<span class="answer">', *cells, "</span>"]
         is_new = line.number is not None and self._is_first(line.number)
         why = f'<span class="why">{self.inline(line.reason)}</span>' if line.reason else ""
@@ -291,19 +294,12 @@ class HtmlPage:
 
 def _sides(line: Printed, stop: str) -> str:
     """Return the relations and right sides of a line as HTML. The browser may start a new row before each side."""
-    at = len(line.sides) - (0 if line.frames_all else line.framed)
     shown: list[str] = []
-    for relation, side in line.sides[:at]:
+    for relation, side in line.sides:
         if relation == "next":
             shown = [_ending(shown, ","), '<span class="next"></span>']
         shown.append(_side("start" if relation == "next" else relation, side))
-    if at == len(line.sides):
-        return _ending(shown, stop)
-    (relation, first), *others = line.sides[at:]
-    sign = TEX_OPERATORS[relation].strip()
-    framed = "".join([_side("start", first), *(_side(*other) for other in others)])
-    begun = of_latex(sign) if sign else ""
-    return "".join([*shown, f'<span class="framed">{begun}<span class="answer">{framed}</span></span>'])
+    return _ending(shown, stop)
 
 
 def _ending(sides: Sequence[str], stop: str) -> str:

@@ -42,7 +42,7 @@ from derive.render.notation.notation import Notation
 from derive.render.printing.amsmath import equation_latex
 from derive.render.printing.figure_numbers import equation_number
 from derive.render.printing.hyphenation import divided_words
-from derive.render.printing.lines import Printed, answers_together, framed_together, printed_lines
+from derive.render.printing.lines import Printed, answers_together, before_answers, framed_together, printed_lines
 from derive.render.printing.report_page import ReportPage
 from derive.render.printing.templates import filled_template
 from derive.render.printing.text_page import inline_text, second_ways
@@ -177,10 +177,13 @@ class LatexPage:
         pairs = (pair for sentences_of_part in told for pair in pairwise(sentences_of_part))
         return any(first[-1] is block and self.has_answer(second) for first, second in pairs)
 
-    def is_continuation(self, block: Paragraph) -> bool:
-        """Return whether words continue the sentence of the display before them. With notes in the margin, return
+    def is_in_first_row(self, block: Paragraph, display: Display) -> bool:
+        """Return whether words may be in the first row of their display, if they are short: words that continue the
+        sentence of the display before them, and words before the law of an answer. With notes in the margin, return
         false, because a note needs a line of text."""
-        return continues_sentence(block.nodes) and not self.has_margin()
+        first, *others = printed_lines(display.groups[0], self.notation)
+        is_law = not first.framed and first.left is not None and any(line.framed for line in others)
+        return (continues_sentence(block.nodes) or is_law) and not self.has_margin()
 
     def kind(self, block: Any) -> str:
         return type(block).__name__.lower()
@@ -247,21 +250,22 @@ class LatexPage:
         between = r"\samestep" if all(map(_is_low, printed)) and len(printed) <= FEW_ROWS else r"\nextstep"
         steps: list[str] = []
         for steps_together in answers_together(printed):
-            stop = display.stops[steps_together[-1]]
             lines = [printed[i] for i in steps_together]
-            steps.append(self._list(lines) if len(lines) > 1 else self._step(lines[0], stop))
+            is_list = len(lines) > 1
+            steps.append(self._list(lines) if is_list else self._step(lines[0], display.stops[steps_together[0]]))
         return Tex(f"\n{between}\n".join(steps))
 
     def _list(self, steps: Sequence[Sequence[Printed]]) -> str:
-        """Return answers in one frame, without punctuation. Each step has a row with its number and, if it has one, its
-        reason."""
+        """Return answers in one frame, without punctuation, after the lines from which they follow. Each answer has a
+        row with its number and, if it has one, its reason."""
+        before = [self._row([line], "") for line in before_answers(steps)]
         rows = [
             rf"\listrow{{{latex(line.left) if line.left else ''}}}{{{_sides(line)}}}{{{self._reason(line)}}}"
             rf"{{{self._number_of(line)}}}"
-            for (line,) in steps
+            for *_, line in steps
         ]
         listed = "\n\\nextlistrow\n".join(rows)
-        return f"\\framedlist{{\n{listed}\n}}{{}}"
+        return "\n\\samestep\n".join([*before, f"\\framedlist{{\n{listed}\n}}{{}}"])
 
     def _step(self, printed: Sequence[Printed], stop: str) -> str:
         rows = framed_together(printed)
@@ -275,14 +279,10 @@ class LatexPage:
         first, last = lines[0], lines[-1]
         stop = "" if last.framed else stop
         left = latex(first.left) if first.left else ""
-        if first.sides[0][0] == "start" and len(lines) == 1 and not first.frames_all:
-            command, left, body = "brokenrow", _sides(first), ""
-        elif first.frames_all:
+        if first.framed:
             command, body = "framedrow", f"{left} {_sides(first)}" if len(lines) == 1 else _stacked(left, lines)
-        elif len(lines) > 1:
-            ((relation, begun),) = first.sides
-            stacked = _stacked("", [replace(first, sides=(("start", begun),)), *lines[1:]])
-            command, body = "row", f"{TEX_OPERATORS[relation]} {_framed(stacked)}"
+        elif first.sides[0][0] == "start":
+            command, left, body = "brokenrow", _sides(first), ""
         else:
             command, body = "row", _sides(first)
         return rf"\{command}{{{left}}}{{{body}}}{{{stop}}}{{{self._reason(last)}}}{{{self._number_of(last)}}}"
@@ -367,23 +367,13 @@ def _is_low(lines: Sequence[Printed]) -> bool:
 
 
 def _sides(line: Printed) -> str:
-    """Return relations and right sides. The last ones are framed if they are an answer."""
-    shown = [(TEX_OPERATORS[relation].strip(), latex(side)) for relation, side in line.sides]
-    at = len(shown) - (0 if line.frames_all else line.framed)
-    plain = [f"{sign} {side}" for sign, side in shown[:at]]
-    if at == len(shown):
-        return " ".join(plain)
-    (sign, first), *others = shown[at:]
-    return " ".join([*plain, sign, _framed(" ".join([first, *(f"{sign} {side}" for sign, side in others)]))])
+    """Return relations and right sides."""
+    return " ".join(f"{TEX_OPERATORS[relation].strip()} {latex(side)}" for relation, side in line.sides)
 
 
 def _stacked(left: str, lines: Sequence[Printed]) -> str:
     rows = [f"&{_sides(line).strip()}" for line in lines]
     return rf"\begin{{aligned}}{left} " + r" \\ ".join(rows) + r"\end{aligned}"
-
-
-def _framed(formula: str) -> str:
-    return rf"\inframe{{{formula}}}"
 
 
 def dotted(problem_id: str) -> str:
