@@ -212,7 +212,8 @@ _LINE_BREAK = re.compile(r"\n[ \t]*\n")
 
 def read_document(source: Source) -> Document:
     """Return the formulas, headings and macros of a document."""
-    text, macros, definitions = source.text, *macros_of(source.text)
+    text, (own, definitions) = source.text, macros_of(source.text)
+    macros = macros_of(source.included)[0] | own
     hidden = list(_skipped(text)) + definitions
     begins = text.find(r"\begin{document}")
     if begins >= 0:

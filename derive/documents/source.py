@@ -6,7 +6,7 @@ import json
 import re
 from array import array
 from bisect import bisect_right
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from enum import StrEnum
 from functools import cached_property
@@ -65,6 +65,7 @@ class Source:
     text: str = ""
     origins: array[int] = field(default_factory=lambda: array("L"))
     edits: list[Edit] = field(default_factory=list)
+    included: str = ""  # the text of the files that the document includes; only its macros are read
 
     def __post_init__(self) -> None:
         if not self.text:
@@ -130,7 +131,38 @@ def read_source(path: Path, shown: str | None = None) -> Source:
     except UnicodeDecodeError as error:
         message = f"`{name}` is not in UTF-8; the first other byte is at position {error.start}"
         raise Rejected(Complaint("encoding", message)) from error
-    return source_of(text, kind, name)
+    source = source_of(text, kind, name)
+    if kind is Format.TEX:
+        source.included = "\n".join(_included(text, path.parent.resolve(), {path.resolve()}))
+    return source
+
+
+_INCLUSION = re.compile(
+    r"(?<![\\%])\\(?P<command>input|include|subfile|usepackage|RequirePackage|documentclass)\s*(?:\[[^\]]*\])?"
+    r"\s*\{(?P<names>[^{}]*)\}"
+)
+_ENDINGS = {"usepackage": ".sty", "RequirePackage": ".sty", "documentclass": ".cls"}
+MOST_INCLUDED = 50  # files
+
+
+def _included(text: str, folder: Path, done: set[Path]) -> Iterator[str]:
+    """Yield the texts of the included files that are inside the folder of the document."""
+    for found in _INCLUSION.finditer(re.sub(r"(?<!\\)%.*", "", text)):
+        for name in found["names"].split(","):
+            ending = _ENDINGS.get(found["command"], ".tex")
+            try:
+                for file in (folder / name.strip(), folder / (name.strip() + ending)):
+                    file = file.resolve()
+                    if file in done or not file.is_relative_to(folder) or not file.is_file():
+                        continue
+                    if len(done) > MOST_INCLUDED or file.stat().st_size > LARGEST:
+                        return
+                    done.add(file)
+                    inner = file.read_bytes().decode("utf-8-sig", errors="replace")
+                    yield from _included(inner, folder, done)
+                    yield inner
+            except (OSError, ValueError):  # a name that is not a path
+                continue
 
 
 def source_of(text: str, kind: Format, path: str = "") -> Source:
