@@ -63,3 +63,14 @@ def test_macros_of_included_files_in_the_folder_are_read(tmp_path: Path) -> None
     main = "\\usepackage{amsmath, letters}\n\\input{parts/more}\\input{../outside}\\input{/dev/zero}\n% \\input{x}\n"
     (paper / "main.tex").write_text(main)
     assert set(read_document(read_source(paper / "main.tex")).macros) == {"mass", "radius"}
+
+
+def test_a_chapter_has_the_macros_of_its_main_document(tmp_path: Path) -> None:
+    from derive.documents.layout import read_document
+
+    (tmp_path / "parts").mkdir()
+    (tmp_path / "other.tex").write_text("\\documentclass{book}\\newcommand{\\other}{O}")
+    (tmp_path / "book.tex").write_text("\\documentclass{book}\\newcommand{\\mass}{M}\\include{parts/one}")
+    chapter = tmp_path / "parts" / "one.tex"
+    chapter.write_text("The momentum is $p = \\mass v$.")
+    assert set(read_document(read_source(chapter)).macros) == {"mass"}
