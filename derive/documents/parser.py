@@ -1080,7 +1080,7 @@ class _Reader:
             token = self.peek()
             assert token is not None
             if token.kind is Kind.COMMAND:
-                if token.text in (",", ";", ":", "quad", "!") and run:
+                if token.text in (",", ";", ":", "quad", "qquad", "!") and run:
                     break
                 if token.text in FUNCTIONS or token.text in INTEGRALS or token.text in ("sum", "cdot", "times", "left"):
                     break
