@@ -257,7 +257,8 @@ class _Reader:
         return _product(factors)
 
     def ends(self) -> bool:
-        token = self.peek()
+        while (token := self.peek()) is not None and token.is_command("notag", "nonumber"):
+            self.at += 1
         if token is None:
             return True
         if token.kind in (Kind.CLOSE, Kind.CELL):
