@@ -257,10 +257,9 @@ class _Reader:
         return _product(factors)
 
     def ends(self) -> bool:
-        while (token := self.peek()) is not None and token.is_command("notag", "nonumber"):
-            self.at += 1
-        if token is None:
-            return True
+        token, rest = self.peek(), self.tokens[self.at : self.at + 4]
+        if token is None or (len(rest) < 4 and all(each.is_command(*IGNORED) for each in rest)):
+            return True  # only sizes of brackets and marks of rows follow
         if token.kind in (Kind.CLOSE, Kind.CELL):
             return True
         if token.kind is Kind.MARK:

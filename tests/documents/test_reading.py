@@ -128,7 +128,7 @@ def test_every_row_of_cases_is_read() -> None:
         ("v = -30 b \\text{ in/s}", ("v", "-381*b/500")),
         ("a = g/l \\sin\\theta", ("a", "g*sin(theta)/l")),
         ("\\sum F_x = m a", ("sum F_x", "a*m")),
-        ("b = a(\\sin\\theta\\notag \\qquad + c)\\notag", ("b", "a*(c + sin(theta))")),
+        ("b = a\\Bigl(c + \\sin\\theta\\Bigr)\\notag", ("b", "a*(c + sin(theta))")),
         ("\\left\\{\\begin{align} F - N &= m a & (1) \\\\ N &= 0 \\end{align}\\right.", ("F - N", "a*m")),
     ],
 )
