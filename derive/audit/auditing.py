@@ -29,7 +29,7 @@ from derive.documents.layout import Cue, Document, Row, Statement
 from derive.documents.meaning import Meaning, Meaningless, Value
 from derive.documents.parser import Unreadable, parsed
 from derive.documents.source import Span
-from derive.documents.syntax import Add, Cases, Int, Letter, Mat, Node, Text
+from derive.documents.syntax import Add, Cases, Int, Letter, Mat, Node, Open, Text
 
 SECONDS = 3.0  # seconds of processor time for one claim
 LEAST_SECONDS = 0.4  # the limit for a claim once a document has used much time
@@ -46,6 +46,7 @@ GOOD = (Outcome.HOLDS, Outcome.APPROXIMATES, Outcome.DEFINES)
 _BRACKETS = re.compile(
     r"\bPoisson|\bcommutator|\bcommut(?:e|es)\b|\binner product|\bHilbert|\bHermitian|\badjoint", re.IGNORECASE
 )
+_CONSTANT = re.compile(r"[ck]onst|c(?:st|te)\b", re.IGNORECASE)
 _NEW_SCOPE = re.compile(r"\b(problem|exercise|question|aufgabe|example)\b", re.IGNORECASE)
 
 
@@ -217,27 +218,69 @@ class _Auditor:
                 Outcome.DEFINES, f"{what} is stated"
             )  # fmt: skip
             return
+        if _CONSTANT.match(word_of(claim.right)):
+            claim.verdict = self.of_constant(claim)
+            return
         seconds, begun = max(LEAST_SECONDS, SECONDS - self.late * SECONDS / MOST_LATE), process_time()
+        too_long = False
         try:
             with time_limited(seconds):
                 claim.verdict = self.best(claim)
         except LimitReached:
-            claim.verdict = Verdict(Outcome.UNDECIDED, f"this takes more than {seconds:.1g} seconds")
+            claim.verdict, too_long = Verdict(Outcome.UNDECIDED, f"this takes more than {seconds:.1g} seconds"), True
         except RecursionError:
             claim.verdict = Verdict(Outcome.UNDECIDED, "this formula is nested too deeply")
         search = min(seconds, SECONDS_OF_SEARCH)
-        display, undecided = claim.row.block.display, claim.verdict.outcome is Outcome.UNDECIDED
+        display, undecided = claim.row.block.display, claim.verdict.outcome is Outcome.UNDECIDED and not too_long
         if claim.verdict.outcome is Outcome.DEFINES or (undecided and display):
             with suppress(LimitReached, RecursionError), time_limited(search):
                 self.accuse_if_near(claim, claim.verdict)
         failed = claim.verdict.outcome is Outcome.DIFFERS and claim.verdict.inherits is None
-        if failed or (claim.verdict.outcome is Outcome.UNDECIDED and display and not self.may_be_special(claim)):
+        if failed or (undecided and display and not self.may_be_special(claim)):
             with suppress(LimitReached, RecursionError), time_limited(search):
                 self.fixes += self.fixes_before(claim)
         with suppress(LimitReached, RecursionError), time_limited(seconds):
             self.remark(claim, claim.verdict)
             self.remember(claim)
         self.late += max(0.0, process_time() - begun - USUAL_SECONDS)
+
+    def of_constant(self, claim: Claim) -> Verdict:
+        """Return the verdict on `v = const`; it is wrong for a vector of which only the length is constant."""
+        said = Verdict(Outcome.DEFINES, "a quantity is constant")
+        side = self.last_good_side(claim)
+        if side is None:
+            return said
+        with suppress(Meaningless, LimitReached, RecursionError, *FAULTS), time_limited(LEAST_SECONDS):
+            value = self.expanded(self.meaning.of(readings(side, self.facts)[0][0]))
+            if isinstance(value, MatrixBase):
+                time = next((each for each in value.free_symbols if each.name == "t"), Symbol("t", real=True))
+                rates = self.meaning.differentiated(value, time, False)
+                if not same(rates, 0 * rates) and same(rates.dot(value), sympy.Integer(0)):
+                    return Verdict(Outcome.DIFFERS, "only the length of this vector is constant; its direction changes")
+        return said
+
+    def unstated(self, claim: Claim) -> str:
+        """Return why a step may use something that no row states, or an empty text."""
+        if not claim.is_step or claim.values is None:
+            return ""
+        left, right = claim.values
+        old, new = left.free_symbols - right.free_symbols, right.free_symbols - left.free_symbols
+        if claim.relation == "~" and new:
+            return "only the right side has some letters"
+        first = claim
+        while first.before is not None:
+            first = first.before
+        if first.values is not None and first.values[0] in self.meaning.evaluations and new:
+            return "the first side is a value at one place or instant"
+        letters = [self.meaning.symbols.get(each) for each in (*old, *new)]
+        bases = {each.base.lower() for each in letters if each is not None}
+        if (
+            len(old) == len(new) == 1
+            and len(bases) == 2
+            and same(left.xreplace(dict(zip(old, new, strict=True))), right)
+        ):
+            return "another letter is written, and no row states that both are equal"
+        return ""
 
     def remark(self, claim: Claim, verdict: Verdict) -> None:
         """Report a probable slip, such as an entry that breaks the symmetry of a matrix."""
@@ -319,6 +362,8 @@ class _Auditor:
             )
         if first.repeated is not None:
             self.compare_repeated(claim, left_side, first)
+        if first.outcome is Outcome.DIFFERS and (reason := self.unstated(claim)):
+            return Verdict(Outcome.UNDECIDED, reason)
         if first.outcome is Outcome.DIFFERS and not first.suggestion:
             self.suggest(claim, left_side, first)
             if not first.suggestion and first.counterexample and self.loses_letters(claim):
@@ -765,6 +810,15 @@ def same_letters(side: Node | None) -> Node | None:
             if len(set(letters)) < len(letters):
                 return each
     return None
+
+
+def word_of(node: Node) -> str:
+    """Return the word that a side consists of, or an empty text."""
+    if isinstance(node, Open) and node.kind == "word":
+        node = node.alternatives[0]
+    if isinstance(node, Letter):
+        return node.base
+    return node.text.replace(" ", "") if isinstance(node, Text) else ""
 
 
 def suggestion_of(edit: Edit) -> str:

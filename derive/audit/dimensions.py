@@ -17,6 +17,7 @@ from sympy import Expr, MatrixBase, Symbol
 from derive.audit.claims import Claim, Outcome
 from derive.documents.facts import ANGLES
 from derive.documents.meaning import Meaning
+from derive.units import UNIT_NAMES
 
 USUAL = {  # the powers of mass, length and time
     "t": (0, 0, 1), "m": (1, 0, 0), "M": (1, 0, 0), "l": (0, 1, 0), "R": (0, 1, 0), "g": (0, 1, -2),
@@ -125,6 +126,8 @@ def equations_of(claim: Claim, meaning: Meaning) -> Iterator[Equation]:
         return
     if (left.is_number and left != 0) or (right.is_number and right != 0) or left.atoms(sympy.Float):
         return
+    if any(_is_number_with_unit(each) for each in (left, right)):
+        return
     found: list[Form] = []
     try:
         first = form_of(left, meaning, found)
@@ -137,6 +140,13 @@ def equations_of(claim: Claim, meaning: Meaning) -> Iterator[Equation]:
         rest = {name: exponent for name, exponent in form.items() if exponent}
         if rest:
             yield Equation(claim.number, rest)
+
+
+def _is_number_with_unit(side: Expr) -> bool:
+    """Whether a side may be a number with a unit whose letters are italic: `435g`, `4.2 m/s`."""
+    names = [each.name for each in side.free_symbols if each.name != "±"]
+    have_numbers = all(each.as_coeff_Mul()[0] != 1 for each in sympy.Add.make_args(side))
+    return bool(names) and have_numbers and all(each in UNIT_NAMES for each in names)
 
 
 def form_of(value: Expr, meaning: Meaning, found: list[Form]) -> Form | None:

@@ -53,7 +53,23 @@ class Known:
         letter = self.meaning.symbols.get(symbol)
         component = letter is not None and letter.sub[-1:] in ("1", "2", "3")
         where = self.definitions if value.free_symbols or component else self.numbers
+        if (earlier := where.get(symbol)) and earlier[-1].part != part and earlier[-1].value != value:
+            self.forget_derivatives(symbol)
         where.setdefault(symbol, []).append(Definition(symbol, value, claim, implied, part, chain))
+
+    def forget_derivatives(self, symbol: Symbol) -> None:
+        """Forget what earlier parts state about the derivatives of a letter that gets another value."""
+        letter = self.meaning.symbols.get(symbol)
+        changed = {
+            each
+            for each, (of, _, _) in self.meaning.derivatives.items()
+            if letter is not None and of.identity == letter.identity
+        }
+        for each in changed:
+            self.definitions.pop(each, None)
+        self.equations = [
+            (equation, claim) for equation, claim in self.equations if not equation.free_symbols & changed
+        ]
 
     def assume(self, symbol: Symbol, value: Expr) -> None:
         """Remember the assumed value of a letter."""

@@ -18,6 +18,7 @@ from itertools import islice
 from derive.documents.macros import Macro, argument_at, end_of_group, expanded, macros_of
 from derive.documents.source import Format, Source, Span
 from derive.documents.tokens import Kind, Token, TooLarge, tokens_of, without_spaces
+from derive.units import UNIT_NAMES
 
 ALIGNED = frozenset(
     [
@@ -212,7 +213,8 @@ _LINE_BREAK = re.compile(r"\n[ \t]*\n")
 
 def read_document(source: Source) -> Document:
     """Return the formulas, headings and macros of a document."""
-    text, macros, definitions = source.text, *macros_of(source.text)
+    text, (own, definitions) = source.text, macros_of(source.text)
+    macros = macros_of(source.included)[0] | own
     hidden = list(_skipped(text)) + definitions
     begins = text.find(r"\begin{document}")
     if begins >= 0:
@@ -480,13 +482,14 @@ def _system_at(tokens: list[Token], at: int) -> tuple[list[Token], int] | None:
     begin = next(i for i in range(at, len(tokens)) if tokens[i] is head[2])
     name, after = _environment(tokens, begin + 1)
     end = next((i for i in range(after, len(tokens)) if tokens[i].is_command("end")), None)
-    if name != "array" or end is None:
+    if name not in ("array", "align", "align*", "aligned", "gathered", "split") or end is None:
         return None
     last, close = _environment(tokens, end + 1)
     rest = without_spaces(tokens[close : close + 4])
-    if last != "array" or len(rest) < 2 or not rest[0].is_command("right") or not rest[1].is_mark("."):
+    if last != name or len(rest) < 2 or not rest[0].is_command("right") or not rest[1].is_mark("."):
         return None
-    _, after = argument_at(tokens, after)
+    if name == "array":
+        _, after = argument_at(tokens, after)
     stop = next(i for i in range(close, len(tokens)) if tokens[i] is rest[1])
     return tokens[after:end], stop + 1
 
@@ -700,7 +703,8 @@ def _pieces(tokens: list[Token]) -> Iterator[tuple[list[Token], str, str]]:
         if depth == 0 and token.is_command(*WORDS):
             value, after = argument_at(tokens, at + 1)
             said = "".join(" " if each.kind is Kind.SPACE else each.text for each in value).strip()
-            if _is_unit_or_label(said, piece) or (piece and _is_relation(piece[-1])):
+            solid = without_spaces(piece)
+            if _is_unit_or_label(said, piece) or (solid and _is_relation(solid[-1])):
                 piece += tokens[at:after]
                 at = after
                 continue
@@ -747,7 +751,9 @@ def _is_unit_or_label(said: str, piece: list[Token]) -> bool:
         return True
     solid = [each for each in piece if not each.is_command(",", ";", " ", "!", ":")]
     piece = solid or piece
-    return bool(re.fullmatch(r"[A-Za-zµΩ°/.^\d\s²³⁻·-]{1,12}", said)) and piece[-1].kind is Kind.NUMBER
+    if piece[-1].kind is Kind.NUMBER:
+        return bool(re.fullmatch(r"[A-Za-zµΩ°/.^\d\s²³⁻·-]{1,12}", said))
+    return "/" in said and all(each in UNIT_NAMES for each in re.split(r"[/\s.·]+", said) if each)
 
 
 def _link(said: str) -> str:

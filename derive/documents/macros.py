@@ -10,6 +10,15 @@ from derive.documents.source import Span
 from derive.documents.tokens import DEEPEST_CALLS, MOST_TOKENS, Kind, Token, TooLarge, tokens_of
 
 MOST_MACROS = 2000
+ACCENTS = (
+    "vec",
+    "hat",
+    "bar",
+    "tilde",
+    "dot",
+    "ddot",
+    "mathbf",
+)  # a document may change their looks, not their meaning
 MOST_UNCLOSED = 100  # after more definitions with unclosed braces than this, the search for definitions ends
 
 
@@ -104,7 +113,10 @@ class _Expansion:
             at += 1
             self.count(1, token)
             macro = self.macros.get(token.text) if token.kind is Kind.COMMAND else None
-            if macro is None or macro.name in token.origin:  # `\vec` within its own definition is the original one
+            if macro is None or macro.name in (
+                *token.origin,
+                *ACCENTS,
+            ):  # `\vec` within its own definition is the original one
                 yield token
                 continue
             if depth > DEEPEST_CALLS:

@@ -702,6 +702,8 @@ class Meaning:
 
     def of_sum(self, node: Sum) -> Any:
         indices = _indices(node)
+        if not indices and node.name == "sum" and node.lower is None and isinstance(node.body, Letter):
+            return self._of(_replaced(node.body, base=f"sum {node.body.base}"))  # `\sum F_x` is the total force
         if not indices:
             raise Meaningless("this sum has no index", node.span)
         if len(indices) == 1 and node.lower is not None and node.upper is not None:

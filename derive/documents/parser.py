@@ -57,6 +57,7 @@ from derive.documents.vocabulary import (
     UNIT_COMMANDS,
     UNIT_WORDS,
 )
+from derive.units import UNIT_NAMES
 
 DEEPEST = 60
 
@@ -256,9 +257,9 @@ class _Reader:
         return _product(factors)
 
     def ends(self) -> bool:
-        token = self.peek()
-        if token is None:
-            return True
+        token, rest = self.peek(), self.tokens[self.at : self.at + 4]
+        if token is None or (len(rest) < 4 and all(each.is_command(*IGNORED) for each in rest)):
+            return True  # only sizes of brackets and marks of rows follow
         if token.kind in (Kind.CLOSE, Kind.CELL):
             return True
         if token.kind is Kind.MARK:
@@ -331,6 +332,12 @@ class _Reader:
         near = Frac(top.span.to(first.span), top, first)
         if len(run) == 1:
             factors[:] = [("", near)]
+            return
+        functions = [at for at, each in enumerate(run) if isinstance(each, Fun)]
+        if functions and functions[0]:  # `g/l \sin x` is g/l times the sine
+            bottom = _product([("", each) for each in run[: functions[0]]])
+            product = [("", Frac(top.span.to(bottom.span), top, bottom)), *(("", each) for each in run[functions[0] :])]
+            factors[:] = product
             return
         rest: list[tuple[str, Node]] = [("", each) for each in run]
         span = top.span.to(run[-1].span)
@@ -988,10 +995,10 @@ class _Reader:
         plain = without_spaces(value)
         word = "".join(each.text for each in plain)
         span = self.since(token)
-        if word in UNIT_WORDS:
-            return Text(span, f"unit {word}")
+        if word in UNIT_WORDS or ("/" in word and all(each in UNIT_NAMES for each in word.split("/"))):
+            return Text(span, f"unit {word}{self.power_of_unit()}")
         if self.follows_number(token) and (unit := _unit(plain)):
-            return Text(span, unit)
+            return Text(span, unit if unit == "degrees" else unit + self.power_of_unit())
         if word in FUNCTIONS or word.lower() in ("arcsin", "arccos", "arctan", "sinh", "cosh", "tanh", "atan2", "sgn"):
             return self.function(token, word)
         if len(plain) == 1 and plain[0].kind is Kind.LETTER:
@@ -1004,6 +1011,14 @@ class _Reader:
         if plain and plain[0].kind is Kind.NUMBER:
             return self.inside(plain, span)
         return Text(span, " ".join(each.text for each in value if each.kind is not Kind.SPACE))
+
+    def power_of_unit(self) -> str:
+        r"""Read the power after a unit in words: `\text{rad/s}^2`."""
+        token = self.peek()
+        if token is None or token.kind is not Kind.SCRIPT or token.text != "^":
+            return ""
+        self.at += 1
+        return "^" + "".join(each.text for each in without_spaces(self.argument()))
 
     def function(self, token: Token, name: str) -> Node:
         name = {"cosec": "csc", "Tr": "tr", "asin": "arcsin", "acos": "arccos", "atan": "arctan", "arsinh": "arcsinh",
@@ -1065,7 +1080,7 @@ class _Reader:
             token = self.peek()
             assert token is not None
             if token.kind is Kind.COMMAND:
-                if token.text in (",", ";", ":", "quad", "!") and run:
+                if token.text in (",", ";", ":", "quad", "qquad", "!") and run:
                     break
                 if token.text in FUNCTIONS or token.text in INTEGRALS or token.text in ("sum", "cdot", "times", "left"):
                     break

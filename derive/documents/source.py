@@ -6,10 +6,12 @@ import json
 import re
 from array import array
 from bisect import bisect_right
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass, field
 from enum import StrEnum
 from functools import cached_property
+from itertools import islice
 from pathlib import Path
 
 from derive.errors import Complaint, Misused, Place, Rejected
@@ -65,6 +67,7 @@ class Source:
     text: str = ""
     origins: array[int] = field(default_factory=lambda: array("L"))
     edits: list[Edit] = field(default_factory=list)
+    included: str = ""  # the text of the files that the document or its main document includes; defines macros
 
     def __post_init__(self) -> None:
         if not self.text:
@@ -130,7 +133,57 @@ def read_source(path: Path, shown: str | None = None) -> Source:
     except UnicodeDecodeError as error:
         message = f"`{name}` is not in UTF-8; the first other byte is at position {error.start}"
         raise Rejected(Complaint("encoding", message)) from error
-    return source_of(text, kind, name)
+    source = source_of(text, kind, name)
+    if kind is Format.TEX:
+        source.included = "\n".join(_included(text, *_main_document(text, path.resolve()), {path.resolve()}))
+    return source
+
+
+_INCLUSION = re.compile(
+    r"(?<![\\%])\\(?P<command>input|include|subfile|usepackage|RequirePackage|documentclass)\s*(?:\[[^\]]*\])?"
+    r"\s*\{(?P<names>[^{}]*)\}"
+)
+_ENDINGS = {"usepackage": ".sty", "RequirePackage": ".sty", "documentclass": ".cls"}
+MOST_INCLUDED = 50  # files
+
+
+def _main_document(text: str, path: Path) -> tuple[str, Path]:
+    """Return the document that includes a chapter and its folder; a document with a class is a main document."""
+    if r"\documentclass" not in text:
+        for folder in (path.parent, path.parent.parent):
+            for file in islice(sorted(folder.glob("*.tex")), MOST_INCLUDED):
+                main = _read(file)
+                if r"\documentclass" in main and path in _files_in(main, folder):
+                    return main, folder
+    return text, path.parent
+
+
+def _files_in(text: str, folder: Path) -> Iterator[Path]:
+    """Yield the files inside a folder that a document includes."""
+    for found in _INCLUSION.finditer(re.sub(r"(?<!\\)%.*", "", text)):
+        ending = _ENDINGS.get(found["command"], ".tex")
+        for name in found["names"].split(","):
+            for file in (folder / name.strip(), folder / (name.strip() + ending)):
+                with suppress(OSError, ValueError):  # a name that is not a path
+                    if file.resolve().is_relative_to(folder) and file.is_file():
+                        yield file.resolve()
+
+
+def _included(text: str, main: str, folder: Path, done: set[Path]) -> Iterator[str]:
+    """Yield the texts of the main document and of the files that it includes, each before the files that use it."""
+    for file in _files_in(main, folder):
+        if file not in done and len(done) < MOST_INCLUDED:
+            done.add(file)
+            yield from _included(text, _read(file), folder, done)
+    if main != text:
+        yield main
+
+
+def _read(file: Path) -> str:
+    try:
+        return file.read_bytes()[: 4 * LARGEST].decode("utf-8-sig", errors="replace")
+    except OSError:
+        return ""
 
 
 def source_of(text: str, kind: Format, path: str = "") -> Source:

@@ -41,7 +41,8 @@ IGNORED = _words(
     ", ; : ! > thinspace medspace thickspace negthinspace quad qquad hfill displaystyle textstyle scriptstyle "
     "scriptscriptstyle limits nolimits nonumber notag big Big bigg Bigg bigl Bigl biggl Biggl bigr Bigr biggr Biggr "
     "bigm Bigm middle mathstrut strut allowbreak nobreak break relax vphantom kern unboldmath protect noindent "
-    "boldmath mathord mathbin mathrel mathopen mathclose mathpunct mathinner mathop normalsize small large it up"
+    "boldmath mathord mathbin mathrel mathopen mathclose mathpunct mathinner mathop normalsize small large it up "
+    "mathnormal"
 )
 IGNORED_WITH_ARGUMENT = _words(
     "vphantom hspace vspace phantom hphantom label tag color textcolor hskip ref eqref cite footnote"

@@ -157,13 +157,47 @@ class _Grading:
                 if next(with_units(texts[-1]), None) is None:
                     raise
                 found.append(_Statement(None, texts, each.relations, error, self.head_of(each)))
-        vectors = [self.entries_of(each) for each in found]
         count = len(self.part.targets)
+        if len(found) > count:
+            found = self.with_own_letters(found)
+        vectors = [self.entries_of(each) for each in found]
         if len(found) < count and not any(_has_two_signs(each.value) for each in self.part.targets):
             found = [one for each in found for one in self.of_each_sign(each)]
         if len(found) == 1 and vectors[0] and count > 1 and not any(t.scaled or _is_list(t) for t in self.part.targets):
             return vectors[0]
         return found
+
+    def with_own_letters(self, statements: list[_Statement]) -> list[_Statement]:
+        """Return the statements without those that only define a letter of another one: `2 pi/w, w = sqrt(g/l)`."""
+        asked = [target.symbol for target in self.part.targets]
+        found = statements
+        for own in statements:
+            name = own.name
+            others = [each for each in found if each is not own]
+            if own.read is None or own.relations != ("=",) or name is None or name in asked:
+                continue
+            if not any(name in read.value.free_symbols for each in others for read in each.last):
+                continue
+            value = own.last[0]
+            if not isinstance(value.value, Expr) or name in value.value.free_symbols:
+                continue
+            found = [self.put_in(each, name, value) for each in others]
+        return found
+
+    @staticmethod
+    def put_in(statement: _Statement, name: Symbol, value: Read) -> _Statement:
+        """Return a statement in which a letter is replaced by its value."""
+        if statement.read is None:
+            return statement
+
+        def new(read: Read) -> Read:
+            if name not in read.value.free_symbols:
+                return read
+            unknown = tuple(each for each in (*read.unknown, *value.unknown) if each != name)
+            return replace(read, value=read.value.xreplace({name: value.value}), unknown=unknown)
+
+        sides = tuple(tuple(map(new, side)) for side in statement.read.sides)
+        return replace(statement, read=replace(statement.read, sides=sides))
 
     def without_left_side(self, written: TypedStatement, texts: tuple[str, ...]) -> _Statement | None:
         """Return the right side alone, if a name such as `d²U/dy²|(y = y_0)` before the equals sign is not read."""

@@ -31,6 +31,8 @@ TYPED_FUNCTIONS = {name: name for name in FUNCTIONS if name not in ("arg", "det"
 GREEK_WORDS = {*GREEK, "infty"} - {"ell", "Re", "Im", "wp", "imath", "jmath"}
 _COMMENT = re.compile(r"\b(?:where|with|because|since|for|when|if)\b(?!\s*\})")
 
+_DEFINED = re.compile(r"[\s$]*\\?([^\W\d_]+)\s*=")  # the letter that an answer itself defines: `where I = ...`
+
 
 class Unread(Exception):
     """The reason why an answer is not read, and the place in the tidied text."""
@@ -136,8 +138,12 @@ def _tidy(source: Source, names: Names, notes: list[str]) -> None:
         source.replace(pattern, reads)
     if (comment := _COMMENT.search(source.text)) and comment.start() and "\\text" not in source.text:
         cut = comment.start()
-        notes.append(f"the words from `{comment[0]}` on are not read")
-        source.replace(r"(?s)" + re.escape(source.text[cut:]) + r"\Z", "")
+        defined = _DEFINED.match(source.text, comment.end())
+        if defined and not names.has_base(GREEK_LETTERS.get(defined[1], defined[1])):
+            source.replace(r"(?s)" + comment[0] + "(?=" + re.escape(source.text[comment.end() :]) + r"\Z)", ";")
+        else:
+            notes.append(f"the words from `{comment[0]}` on are not read")
+            source.replace(r"(?s)" + re.escape(source.text[cut:]) + r"\Z", "")
     source.replace(r"(?<=\d)[eE]([+-]?\d{1,9})(?![\w.])", r"\\cdot 10^{\1}")
     source.replace(r"(?<=\d)\s*[x×]\s*(?=10\s*\^)", r"\\cdot ")
     _read_commas(source, notes)
@@ -146,7 +152,8 @@ def _tidy(source: Source, names: Names, notes: list[str]) -> None:
         lambda found: _numbered(found[1], found[2], names) or found[0],
     )
     source.replace(
-        r"(?<![A-Za-z\\])d(\^?\{?2\}?|²)?\s*([A-Za-z\\]\w*)\s*/\s*\(?d\s*t\s*(?:\^?\{?2\}?|²)?\)?", _derivative
+        r"(?<![A-Za-z\\])d(\^?\{?2\}?|²)?\s*([^\W\d_]\w*|\\[A-Za-z]+\w*)\s*/\s*\(?d\s*t\s*(?:\^?\{?2\}?|²)?\)?",
+        _derivative,
     )
     source.replace(
         r"\\(?:text|mathrm|operatorname|rm|textrm|mbox|SI|si|qty|unit|num|mathit)\s*\*?\s*\{[^{}]*\}|\\[A-Za-z]+"

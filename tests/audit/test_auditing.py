@@ -272,3 +272,42 @@ def test_a_wrong_row_lists_the_rows_that_repeat_it_and_the_summary_the_rows_that
     told = as_text(audit(text), every=False)
     assert "repeated in line 3" in told
     assert "  line 5 is not read: " in told
+
+
+def test_a_letter_with_another_value_in_another_part_has_other_derivatives() -> None:
+    text = """(a) The bead is free.
+$$L = \\frac12 m \\dot x^2 - \\frac12 k x^2$$
+$$\\frac{\\partial L}{\\partial x} = -k x$$
+$$\\frac{d}{dt}\\frac{\\partial L}{\\partial \\dot x} = m \\ddot x$$
+
+(b) The wire turns.
+$$L = \\frac12 m \\dot x^2 + \\frac12 m \\omega^2 x^2 + m b \\dot x \\dot y - \\frac12 k x^2$$
+$$\\frac{\\partial L}{\\partial x} = m \\omega^2 x - k x$$
+$$\\frac{d}{dt}\\frac{\\partial L}{\\partial \\dot x} = m \\ddot x + m b \\ddot y$$
+"""
+    assert outcomes(text) == ["defines", "holds", "holds", "defines", "holds", "holds"]
+
+
+@pytest.mark.parametrize(
+    ("vector", "outcome"),
+    [
+        ("(-\\sin\\phi, \\cos\\phi, 0)", "differs"),
+        ("(b, c, 0)", "defines"),
+        ("(\\dot\\phi, 0, 0)", "defines"),
+    ],
+)
+def test_a_vector_that_is_constant_only_in_length_is_not_constant(vector: str, outcome: str) -> None:
+    text = f"Let $\\phi(t)$ be the angle, with the rate $\\dot\\phi$. $$\\vec u = {vector} = \\text{{const.}}$$"
+    assert outcomes(text)[-1] == outcome
+
+
+def test_a_step_with_another_letter_for_a_speed_is_not_a_slip() -> None:
+    assert outcomes("$$F = -2 m \\Omega u = -2 m \\Omega \\dot x$$")[-1] == "undecided"
+    assert outcomes("$$F = -2 m g u = -3 m g u$$")[-1] == "differs"
+    assert outcomes("$$F = c - T \\sin\\theta \\approx c - m g \\theta$$")[-1] == "undecided"
+    assert outcomes("Let $E(t)$ be the energy. $$E(0) = m g z = m g H$$")[-1] == "undecided"
+
+
+def test_a_mass_in_italic_grams_has_the_dimension_of_a_mass() -> None:
+    rows = "The weight is $F = m g$, and $F = m a$, so $a = g$. $F t = m v$. $v = g t$. "
+    assert "differs" not in outcomes(rows + "$$m = 435g \\pm 25g$$")

@@ -119,3 +119,23 @@ def test_different_sums_are_not_equal() -> None:
 def test_every_row_of_cases_is_read() -> None:
     (claim,) = audit("$$ F = \\begin{cases} k x & x > 0 \\\\ 0 & \\text{otherwise} \\end{cases} $$").claims
     assert claim.verdict is not None and str(claim.verdict.outcome) == "defines"
+
+
+@pytest.mark.parametrize(
+    ("written", "read"),
+    [
+        ("a = 15 \\text{ rad/s}^2", ("a", "15")),
+        ("v = -30 b \\text{ in/s}", ("v", "-381*b/500")),
+        ("a = g/l \\sin\\theta", ("a", "g*sin(theta)/l")),
+        ("\\sum F_x = m a", ("sum F_x", "a*m")),
+        ("b = a\\Bigl(c + \\sin\\theta\\Bigr)\\notag", ("b", "a*(c + sin(theta))")),
+        ("\\left\\{\\begin{align} F - N &= m a & (1) \\\\ N &= 0 \\end{align}\\right.", ("F - N", "a*m")),
+    ],
+)
+def test_notations_of_worked_solutions_are_read(written: str, read: tuple[str, str]) -> None:
+    assert values(f"$${written}$$")[0] == read
+
+
+def test_a_document_that_prints_vectors_in_another_way_still_has_vectors() -> None:
+    text = "\\renewcommand{\\vec}[1]{\\mbox{\\boldmath$#1$}} Let $\\vec F = m \\vec a$."
+    assert values(text)[0][1] == "Matrix([[a_1*m], [a_2*m], [a_3*m]])"

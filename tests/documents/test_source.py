@@ -50,3 +50,27 @@ def test_a_file_that_cannot_be_read_is_refused_with_a_reason(tmp_path: Path, nam
     (tmp_path / name).write_bytes(content)
     with pytest.raises(DeriveError, match=r"is not a document|is not in UTF-8|is not a notebook"):
         read_source(tmp_path / name)
+
+
+def test_macros_of_included_files_in_the_folder_are_read(tmp_path: Path) -> None:
+    from derive.documents.layout import read_document
+
+    paper = tmp_path / "paper"
+    (paper / "parts").mkdir(parents=True)
+    (paper / "letters.sty").write_text("\\newcommand{\\mass}{M}")
+    (paper / "parts" / "more.tex").write_text("\\input{parts/more}\\newcommand{\\radius}{R}")  # includes itself
+    (tmp_path / "outside.tex").write_text("\\newcommand{\\secret}{S}")
+    main = "\\usepackage{amsmath, letters}\n\\input{parts/more}\\input{../outside}\\input{/dev/zero}\n% \\input{x}\n"
+    (paper / "main.tex").write_text(main)
+    assert set(read_document(read_source(paper / "main.tex")).macros) == {"mass", "radius"}
+
+
+def test_a_chapter_has_the_macros_of_its_main_document(tmp_path: Path) -> None:
+    from derive.documents.layout import read_document
+
+    (tmp_path / "parts").mkdir()
+    (tmp_path / "other.tex").write_text("\\documentclass{book}\\newcommand{\\other}{O}")
+    (tmp_path / "book.tex").write_text("\\documentclass{book}\\newcommand{\\mass}{M}\\include{parts/one}")
+    chapter = tmp_path / "parts" / "one.tex"
+    chapter.write_text("The momentum is $p = \\mass v$.")
+    assert set(read_document(read_source(chapter)).macros) == {"mass"}
