@@ -197,6 +197,11 @@ def test_the_command_writes_the_file(tmp_path: Path, capfd: pytest.CaptureFixtur
     (folder / "set.yaml").write_text("course: A\ntitle: B\nproblems: [bead]\n")
     assert main(["--root", str(tmp_path), "export", "week1", "--format", "qti"]) == 0
     assert zipfile.is_zipfile(tmp_path / "build" / "week1" / "week1-qti.zip")
+    why = ["--root", str(tmp_path), "why", str(tmp_path / "build" / "week1" / "week1-qti.zip")]
+    capfd.readouterr()
+    assert main(why) == 0 and capfd.readouterr().out.endswith("week1-qti.zip is up to date\n")
+    (folder / "bead.yaml").write_text(PROBLEM.replace("Find the frequency and", "Find both the frequency and"))
+    assert main(why) == 0 and "`problems/week1/bead.yaml` has changed" in capfd.readouterr().out
     assert main(["--root", str(tmp_path), "export", "week1/bead", "-o", "-"]) == 0
     assert "<quiz>" in capfd.readouterr().out
     assert main(["--root", str(tmp_path), "export", "week2"]) == 2

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import time
 from functools import partial
 
 from derive.cli.asked import problem_id_of, root_of
@@ -10,12 +11,12 @@ from derive.cli.output import check_output, deliver
 from derive.cli.running import waiting
 from derive.cli.terminal import complain
 
-SUFFIX = {"moodle": "xml", "stack": "xml", "qti": "zip", "canvas": "zip", "docx": "docx", "prairielearn": "zip"}
-
 
 def export(arguments: argparse.Namespace) -> int:
     from derive.building.files import shown_path
+    from derive.building.manifest import EXPORT_SUFFIX
     from derive.building.papers import list_again
+    from derive.building.recipe import input_digest, recipe_of, stated_by
     from derive.building.set_names import set_folder
     from derive.building.solution import rendered
     from derive.building.workers import done, job_of
@@ -23,9 +24,10 @@ def export(arguments: argparse.Namespace) -> int:
     from derive.course.problem_set import path_of, problem_set
     from derive.exporting.questions import questions_of
 
+    started = time.time_ns()
     root, asked = root_of(arguments), problem_id_of(arguments.id)
     set_id, _, name = asked.partition("/")
-    file = f"{name or set_id}-{arguments.format}.{SUFFIX[arguments.format]}"
+    file = f"{name or set_id}-{arguments.format}.{EXPORT_SUFFIX[arguments.format]}"
     output = arguments.output or str(set_folder(root, set_id) / file)
     check_output(output, root)
     heading = problem_set(root, set_id)
@@ -59,7 +61,10 @@ def export(arguments: argparse.Namespace) -> int:
 
         content = qti_package(set_id, heading.title, questions)
     deliver(content, output)
-    list_again(root, set_id)
+    recipe = recipe_of(root, of_set=stated_by(heading))
+    read = {*heading.inputs, *(path for page in pages for path in page.inputs)}
+    inputs = {path: input_digest(root / path, started) for path in sorted(read)}
+    list_again(root, set_id, None if arguments.output else lambda record: record.was_exported(file, recipe, inputs))
     if output != "-":
         parts = [part for each in questions for part in each.parts]
         separate = arguments.format == "canvas"  # there each number is a question
