@@ -108,8 +108,9 @@ class Manifest:
         for problem in [name] if name in self.pages else self.problems:
             self.typeset_from[name] |= self.inputs[problem]
 
-    def was_exported(self, file: str, recipe: Recipe, inputs: dict[str, str]) -> None:
+    def was_exported(self, file: str, recipe: Recipe, inputs: dict[str, str], of_set: dict[str, str]) -> None:
         """Record the recipe and the input files of an export, which is recorded under the name of its file."""
+        self.of_set = of_set
         self.typeset_by[file] = recipe_digest(recipe)
         self.recipes[self.typeset_by[file]] = {**recipe}
         self.typeset_from[file] = inputs

@@ -44,7 +44,7 @@ def test_an_export_is_older_after_an_edit(course: Course) -> None:
     (course.outputs / "one-qti.zip").write_text("an export")
     manifest = Manifest.read(course.outputs)
     inputs = dict(manifest.inputs["one"])
-    manifest.was_exported("one-qti.zip", recipe_of(course.root, of_set=manifest.of_set), inputs)
+    manifest.was_exported("one-qti.zip", recipe_of(course.root, of_set=manifest.of_set), inputs, manifest.of_set)
     manifest.save()
     assert told(course, "build/hw1/one-qti.zip").shown() == "build/hw1/one-qti.zip is up to date"
     course.problem("one", "edited")

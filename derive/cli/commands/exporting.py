@@ -14,7 +14,7 @@ from derive.cli.terminal import complain
 
 def export(arguments: argparse.Namespace) -> int:
     from derive.building.files import shown_path
-    from derive.building.manifest import EXPORT_SUFFIX
+    from derive.building.manifest import EXPORT_SUFFIX, Manifest
     from derive.building.papers import list_again
     from derive.building.recipe import input_digest, recipe_of, stated_by
     from derive.building.set_names import set_folder
@@ -61,10 +61,12 @@ def export(arguments: argparse.Namespace) -> int:
 
         content = qti_package(set_id, heading.title, questions)
     deliver(content, output)
-    recipe = recipe_of(root, of_set=stated_by(heading))
+    of_set = stated_by(heading)
+    recipe = recipe_of(root, of_set=of_set)
     read = {*heading.inputs, *(path for page in pages for path in page.inputs)}
     inputs = {path: input_digest(root / path, started) for path in sorted(read)}
-    list_again(root, set_id, None if arguments.output else lambda record: record.was_exported(file, recipe, inputs))
+    record = partial(Manifest.was_exported, file=file, recipe=recipe, inputs=inputs, of_set=of_set)
+    list_again(root, set_id, None if arguments.output else record)
     if output != "-":
         parts = [part for each in questions for part in each.parts]
         separate = arguments.format == "canvas"  # there each number is a question
