@@ -71,7 +71,7 @@ def export(arguments: argparse.Namespace) -> int:
         parts = [part for each in questions for part in each.parts]
         separate = arguments.format == "canvas"  # there each number is a question
         count = sum(len(part.answers) if separate and part.is_numerical else 1 for part in parts)
-        print(f"wrote {shown_path(root / output)}: {count} questions")
+        print(f"wrote {shown_path(root / output)}: {count} question{'s' if count != 1 else ''}")
         if any(load_problem(root, page.id).variations for page in pages):
             print("the questions have the values of the problems themselves, not those under `variants:`")
     return 0
