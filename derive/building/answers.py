@@ -25,7 +25,7 @@ Rows = list[tuple[str, ...]]
 def answers_of(root: Path, problem_id: str) -> Rows:
     """Return the table of these names: a row of headings, then a row for each name.
 
-    The answers come first, then the other steps.
+    The answers come first, then the other steps, and last the answers that this problem does not have.
     """
     problem = load_problem(root, problem_id)
     record = Run()
@@ -35,13 +35,14 @@ def answers_of(root: Path, problem_id: str) -> Rows:
     steps = with_ancestors_of_each(found)
     dimensions, _ = dimension_table(problem.dimensions, [quantity.step for quantity, _ in steps.values()])
     notation = Notation(dimensions)
-    rows = [(name, _meaning(name, problem), _values(each, notation)) for name, each in offered.items()]
+    of_name = {name: (name, _meaning(name, problem), _values(each, notation)) for name, each in offered.items()}
+    rows = [of_name[name] for name in found]
     rows += [
         (key, _on_the_way(quantity.step, leading), _value(quantity.step, notation))
         for key, (quantity, leading) in steps.items()
         if key not in offered
     ]
-    return [("answer", "is", "value"), *rows]
+    return [("answer", "is", "value"), *rows, *(row for name, row in of_name.items() if name not in found)]
 
 
 def _offered(problem: Problem) -> dict[str, tuple[Quantity, ...] | DeriveError]:

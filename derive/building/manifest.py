@@ -22,6 +22,7 @@ from derive.render.formats import built_formats
 Documents = Sequence[Sequence[str]]  # pairs: the kind of a document, and the name of its files
 
 _PLAIN_NAME = re.compile(rf"(?:{STUDENTS}/)?[A-Za-z0-9][A-Za-z0-9_-]*\.([a-z]+)")
+EXPORT_SUFFIX = {"moodle": "xml", "stack": "xml", "qti": "zip", "canvas": "zip", "docx": "docx", "prairielearn": "zip"}
 INDEX_PAGES = (f"{INDEX}.html", f"{STUDENTS}/{INDEX}.html")
 
 
@@ -107,6 +108,19 @@ class Manifest:
         for problem in [name] if name in self.pages else self.problems:
             self.typeset_from[name] |= self.inputs[problem]
 
+    def was_exported(self, file: str, recipe: Recipe, inputs: dict[str, str], of_set: dict[str, str]) -> None:
+        """Record the recipe and the input files of an export, which is recorded under the name of its file."""
+        self.of_set = of_set
+        self.typeset_by[file] = recipe_digest(recipe)
+        self.recipes[self.typeset_by[file]] = {**recipe}
+        self.typeset_from[file] = inputs
+        self.wrote(file)
+
+    @property
+    def exports(self) -> list[str]:
+        """The file names of the exports."""
+        return [name for name in self.typeset_by if Path(name).suffix]
+
     def is_current(self, recipe: Recipe, engine: str, read: Callable[[str], str], documents: Documents) -> bool:
         """Return whether the outputs of all problems, of these documents and of the index are up to date."""
         page, document = recipe_digest(recipe), recipe_digest(of_documents(recipe, engine))
@@ -124,10 +138,11 @@ class Manifest:
         return all(read(path) == content for path, content in self.typeset_from.get(document, {}).items())
 
     def is_older(self, document: str, recipe: Recipe, read: Callable[[str], str]) -> bool:
-        """Return whether the PDF of a document exists but is older than its inputs."""
+        """Return whether the PDF of a document, or an export, exists but is older than its inputs."""
         before = self.recipes.get(self.typeset_by.get(document, ""), {})
         was, is_now = ({k: v for k, v in each.items() if k not in OPTIONS} for each in (before, recipe))
-        return (self.folder / f"{document}.pdf").is_file() and not (was == is_now and self._reads_so(document, read))
+        file = document if document in self.exports else f"{document}.pdf"
+        return (self.folder / file).is_file() and not (was == is_now and self._reads_so(document, read))
 
     @property
     def document_files(self) -> list[str]:
@@ -187,6 +202,7 @@ def _is_plain(output: str) -> bool:
         "pdf",
         "svg",
         "tex",
+        *EXPORT_SUFFIX.values(),
         *(form.suffix for form in built_formats().values()),
     }
 

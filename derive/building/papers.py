@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from derive.building.files import write
 from derive.building.lock import locked
-from derive.building.manifest import Documents, Manifest
+from derive.building.manifest import EXPORT_SUFFIX, Documents, Manifest
 from derive.building.set_names import set_folder
 from derive.course.names import CLASS, INDEX, ON_A_PAGE, STUDENTS
 from derive.page.template import templates_of
@@ -17,7 +17,7 @@ from derive.page.wording import phrases
 from derive.render.printing.templates import filled_html
 
 _LIST = re.compile(r'<ul class="documents">.*?</ul>', re.DOTALL)
-_EXPORTED = re.compile(r"[\w-]+-(?:moodle|stack|qti|canvas|prairielearn|docx)\.(?:xml|zip|docx)")
+_EXPORTED = re.compile(rf"[\w-]+-(?:{'|'.join(EXPORT_SUFFIX)})\.(?:{'|'.join({*EXPORT_SUFFIX.values()})})")
 
 
 @dataclass(frozen=True)
@@ -58,21 +58,24 @@ def listed(root: Path, found: Sequence[Paper]) -> str:
     return filled_html(templates_of(root), "papers.html.j2", {"papers": found}).strip()
 
 
-def list_again(root: Path, set_id: str) -> None:
+def list_again(root: Path, set_id: str, record: Callable[[Manifest], None] | None = None) -> None:
     """Update the list of documents on the page of a set. Commands other than a build call this after they wrote or
     removed files.
 
     The page is not changed if a user has edited it.
+
+    record   records the written file, if there is one
     """
     outputs = set_folder(root, set_id)
     page = outputs / f"{INDEX}.html"
-    if not page.is_file():
+    if record is None and not page.is_file():
         return
     with locked(outputs, lambda: None):
         manifest = Manifest.read(outputs)
-        if not manifest.holds(page.name):
-            return
-        there = listed(root, papers(root, set_id, there_of(outputs, manifest.documents)))
-        if write(page, _LIST.sub(lambda _: there, page.read_text(encoding="utf-8"), count=1)):
+        if record is not None:
+            record(manifest)
+        if manifest.holds(page.name):
+            there = listed(root, papers(root, set_id, there_of(outputs, manifest.documents)))
+            write(page, _LIST.sub(lambda _: there, page.read_text(encoding="utf-8"), count=1))
             manifest.wrote(page.name)
-            manifest.save()
+        manifest.save()

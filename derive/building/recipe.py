@@ -61,6 +61,13 @@ def of_documents(recipe: Recipe, engine: str) -> dict[str, str]:
     return {**recipe, ONLY: "", ENGINE: engine}
 
 
+def input_digest(file: Path, started: int) -> str:
+    """Return the digest of an input file. If the file was edited after `started`, return `EDITED`, so that the output
+    counts as older than the file."""
+    is_edited = file.exists() and file.stat().st_ctime_ns > started  # a moved file may have an old mtime
+    return EDITED if is_edited else file_digest(file)
+
+
 def recipe_digest(recipe: Recipe) -> str:
     return digest(*(part for name in sorted(recipe) for part in (name, recipe[name])))
 

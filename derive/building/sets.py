@@ -31,6 +31,7 @@ from derive.building.recipe import (
     ONLY,
     Recipe,
     edited_since,
+    input_digest,
     recipe_digest,
     recipe_of,
     stated_by,
@@ -368,11 +369,7 @@ class _Build:
         return file_digest(self.root / path)
 
     def _input_digest(self, path: str) -> str:
-        """Return the digest of a file. If the file was edited since the build began, return `EDITED`, so that the next
-        build reads the file again."""
-        file = self.root / path
-        is_edited = file.exists() and file.stat().st_ctime_ns > self.started  # a moved file may have an old mtime
-        return EDITED if is_edited else self._digest(path)
+        return input_digest(self.root / path, self.started)
 
     def _document(self, name: str) -> None:
         from derive.building.set_document import problem_document, problem_page

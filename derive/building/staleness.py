@@ -55,13 +55,24 @@ class Staleness:
 def left_older(
     record: Manifest, set_id: str, documents: Sequence[str], recipe: Recipe, read: Callable[[str], str]
 ) -> list[Complaint]:
-    """Warn of PDFs that are older than their inputs because the last build was not asked to make them."""
-    older = [f"`{name}.pdf`" for name in documents if record.is_older(name, recipe, read)]
-    if not older:
-        return []
-    told = [*older[:MOST], *([f"and {len(older) - MOST} more"] if older[MOST:] else [])]
-    message = f"older than the problems, but not made again: {', '.join(told)} in `{shown_path(record.folder)}`"
-    return [Complaint("older", message, help=f"`derive build {set_id}` makes them again", severity="warning")]
+    """Warn of PDFs and exports that are older than their inputs because the last build was not asked to make them."""
+    built = [f"`{name}.pdf`" for name in documents if record.is_older(name, recipe, read)]
+    exported = [name for name in record.exports if record.is_older(name, recipe, read)]
+    found = {f"`derive build {set_id}` makes them again": built} if built else {}
+    found |= {f"`{_export(set_id, name)}` makes it again": [f"`{name}`"] for name in exported}
+    return [_older(files, record.folder, help_line) for help_line, files in found.items()]
+
+
+def _older(files: Sequence[str], folder: Path, help_line: str) -> Complaint:
+    told = [*files[:MOST], *([f"and {len(files) - MOST} more"] if files[MOST:] else [])]
+    message = f"older than the problems, but not made again: {', '.join(told)} in `{shown_path(folder)}`"
+    return Complaint("older", message, help=help_line, severity="warning")
+
+
+def _export(set_id: str, file: str) -> str:
+    """Return the command that makes an export again."""
+    name, _, form = Path(file).stem.rpartition("-")
+    return f"derive export {set_id if name == set_id else f'{set_id}/{name}'} --format {form}"
 
 
 def asked_about(root: Path, what: str) -> tuple[str, tuple[str, ...]]:
@@ -74,8 +85,8 @@ def asked_about(root: Path, what: str) -> tuple[str, tuple[str, ...]]:
         check_asked(root, set_id)
         return set_id, ()
     manifest = Manifest.read(set_folder(root, set_id))
-    known = {*manifest.outputs, *(file for part in [*manifest.problems, *manifest.document_files] for file in
-                                  manifest.outputs_of(part))}  # fmt: skip
+    parts = [*manifest.problems, *manifest.document_files]
+    known = {*manifest.outputs, *manifest.exports, *(file for part in parts for file in manifest.outputs_of(part))}
     if built and name in known:
         return set_id, (name,)
     stem = Path(name).stem if built else name
@@ -107,7 +118,7 @@ def staleness(asked: Asked) -> Staleness:
     parts = [*manifest.problems, *manifest.document_files]
     outputs = asked.outputs or tuple(file for part in parts for file in manifest.outputs_of(part))
     of = shown_path(folder / outputs[0]) if len(outputs) == 1 else _named(asked, manifest)
-    if not manifest.pages:
+    if not manifest.pages and not {*outputs} & {*manifest.exports}:
         why = f"`{asked.set_id}` has not been built here yet"
         return Staleness(of, (why,), (_built_by(asked, manifest, outputs),))
     found = tuple(dict.fromkeys(_reasons(asked, manifest, outputs)))
@@ -157,6 +168,8 @@ def _documents(manifest: Manifest, outputs: Sequence[str]) -> list[str]:
 
 
 def _document_of(manifest: Manifest, output: str) -> str:
+    if output in manifest.exports:
+        return output
     of_drawings = (problem for problem, files in manifest.drawings.items() if output in files)
     return next(of_drawings, Path(output).stem)
 
@@ -229,6 +242,8 @@ def _fixes(asked: Asked, manifest: Manifest, outputs: Sequence[str]) -> Iterator
 
 def _built_by(asked: Asked, manifest: Manifest, outputs: Sequence[str]) -> str:
     documents = _documents(manifest, outputs)
+    if exported := next((name for name in documents if name in manifest.exports), None):
+        return f"to bring it up to date: `{_export(asked.set_id, exported)}`"
     kinds = [name for name in documents if name in DOCUMENTS and name not in manifest.document_files]
     only = ",".join(kinds) if kinds and manifest.pages else ""
     options = {DETAIL: asked.detail, EVIDENCE: asked.evidence, ENGINE: asked.engine, ONLY: only}

@@ -225,7 +225,10 @@ def known_set(root: Path, set_id: str) -> str:
     """Return the name of the set; raise `Misused` if the set does not exist."""
     known = set_ids(root)
     if set_id not in known:
-        help_line = did_you_mean(set_id, known) or "`derive list` shows the sets"
+        folder = root / "problems" / set_id
+        problems = sorted(file.stem for file in folder.glob("*.yaml")) if NAME.fullmatch(set_id) else []
+        of_folder = f"write `problems/{set_id}/set.yaml` with `problems: [{', '.join(problems)}]`" if problems else None
+        help_line = of_folder or did_you_mean(set_id, known) or "`derive list` shows the sets"
         raise Misused(Complaint("no-such-set", f"no set is called `{set_id}`", help=help_line))
     return set_id
 
@@ -350,7 +353,8 @@ def _listed(written: tuple[Word, ...], set_id: str, known: List[str], faults: Fa
             message = f"a problem cannot be called `{item}`, because a document of the set has that name"
             faults.error("reserved-name", message, item.place, help="rename its files")
         elif item not in names:
-            help_line = did_you_mean(item, names)
+            begun = f"`derive new {set_id}/{item}` begins it" if NAME.fullmatch(item) else None
+            help_line = did_you_mean(item, names) or begun
             message = f"no problem of this set is called `{item}`"
             if item in known and not item.startswith(f"{set_id}/"):
                 message = f"`{item}` is a problem of another set"

@@ -59,7 +59,7 @@ def _ident(*names: str) -> str:
 
 def _items(question: Question, part: Part) -> list[tuple[str, float, list[str]]]:
     body, used = with_files(f"{question.statement}\n{part.question}", _address, question.files)
-    solution, also = with_files(part.solution, _address, question.files)
+    solution, also = with_files(part.feedback, _address, question.files)
     files = [*dict.fromkeys([*used, *also])]
     answers: Sequence[Answer | None] = part.answers if part.is_numerical else [None]
     points = (part.points or len(answers)) / len(answers)

@@ -51,7 +51,7 @@ _ESSAY = (
 
 
 def _typed(sort: str, question: Question, part: Part, more: str, gaps: str = "") -> str:
-    feedback = part.solution if part is not question.parts[-1] else f"{part.solution}\n{question.remarks}"
+    feedback = part.feedback if part is not question.parts[-1] else f"{part.feedback}\n{question.remarks}"
     pieces = [
         _element("name", _text(question.heading(part))),
         _html("questiontext", "\n".join(filter(None, [question.statement, part.question, gaps])), question),

@@ -31,7 +31,7 @@ def prairielearn_package(set_id: str, title: str, questions: Sequence[Question])
 def _folder(set_id: str, title: str, question: Question, part: Part) -> dict[str, bytes]:
     name = f"questions/{set_id}/{question.name}{f'-{part.label}' if part.label else ''}"
     address = "{{ options.client_files_question_url }}/"
-    texts = _without_tags(f"{question.statement}\n{part.question}"), _without_tags(part.solution)
+    texts = _without_tags(f"{question.statement}\n{part.question}"), _without_tags(part.feedback)
     (asked, used), (solution, also) = (with_files(each, lambda file: address + file, question.files) for each in texts)
     fields = [_field(number, answer) for number, answer in enumerate(part.answers, 1)]
     graded = all(fields) and bool(fields)

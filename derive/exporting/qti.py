@@ -45,7 +45,7 @@ def _identifier(text: str) -> str:
 
 def _item(name: str, question: Question, part: Part) -> tuple[str, list[str]]:
     body, used = with_files(f"{question.statement}\n{part.question}", lambda file: f"files/{file}", question.files)
-    solution, also = with_files(part.solution, lambda file: f"files/{file}", question.files)
+    solution, also = with_files(part.feedback, lambda file: f"files/{file}", question.files)
     asked = part.answers if part.is_numerical else ()
     declared = "".join(_declared(number, answer) for number, answer in enumerate(asked, 1)) or (
         '<responseDeclaration identifier="RESPONSE" cardinality="single" baseType="string"/>\n'

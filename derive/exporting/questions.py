@@ -55,13 +55,20 @@ class Answer:
 
 @dataclass(frozen=True)
 class Part:
-    """A question with its answers; the texts are HTML with formulas in TeX."""
+    """A question with its answers; the texts are HTML with formulas in TeX. `cited` has the equations of other parts
+    that the solution cites."""
 
     label: str
     points: float | None
     question: str
+    cited: str
     solution: str
     answers: tuple[Answer, ...]
+
+    @property
+    def feedback(self) -> str:
+        """The solution for a platform that shows each part separately."""
+        return "\n".join(filter(None, [self.cited, self.solution]))
 
     @property
     def is_numerical(self) -> bool:
@@ -101,6 +108,7 @@ def _question(number: int, problem: Rendered) -> Question:
             part["label"],
             part["points"],
             part["question"],
+            part["cited"],
             part["solution"],
             tuple(_answer(each) for each in part["answers"]),
         )

@@ -54,9 +54,11 @@ def read_table(content: bytes, path: str, problem: str = "") -> Table:
         heading = tuple(cell.strip() for cell in next(reader, []))
         columns = _columns(heading, path, first, not problem)
         table = Table(heading, delimiter=delimiter)
+        first_line = reader.line_num + 1  # a cell in quotes may contain line breaks
         for cells in reader:
             if any(cell.strip() for cell in cells):
-                table.rows.append(_row(reader.line_num, cells, columns, len(heading), problem))
+                table.rows.append(_row(first_line, cells, columns, len(heading), problem))
+            first_line = reader.line_num + 1
             if len(table.rows) > MOST_ROWS:
                 raise Rejected(Complaint("too-large", f"`{path}` has more than {MOST_ROWS} rows"))
     except csv.Error as error:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -93,9 +93,12 @@ def read_phrases(folders: Sequence[Path]) -> PhraseTable:
     for file in sorted(own.glob("*.yaml")):
         if file.name != OF_EVERY_PAGE:
             _add(page, _phrases_of(file))
+    forms = _forms_of([*page["terms"].values(), page["labels"]["own_name"]])
     for folder in reversed(replacing):
         for file in sorted(folder.glob("*.yaml")):
-            _replace(page, _phrases_of(file), ())
+            replaced = _phrases_of(file)
+            _check_forms(replaced.get("terms", {}), forms)
+            _replace(page, replaced, ())
     for name in _SHAPE:
         page[name]  # raises an error if the table is missing
     page["reasons"]["general"]
@@ -147,6 +150,21 @@ def _replace(known: PhraseTable, own: PhraseTable, keys: tuple[str, ...]) -> Non
             _replace(known[name], phrases, (*keys, name))
         else:
             known[name] = phrases
+
+
+def _forms_of(words: Iterable[Any]) -> dict[str, None]:
+    """Return the names of the forms that words have in a language, such as the cases of a noun."""
+    return {form: None for forms in words if isinstance(forms, PhraseTable) for form in forms}
+
+
+def _check_forms(terms: Mapping[str, Any], known: Mapping[str, None]) -> None:
+    """Reject a form that no word of the language has."""
+    for name, forms in terms.items():
+        for form in _forms_of([forms]):
+            if form not in known:
+                message = f"`terms.{name}` has the form `{form}`, which no word of derive has in this language"
+                help_line = did_you_mean(form, known) or f"the forms are {', '.join(f'`{each}`' for each in known)}"
+                raise Rejected(Complaint("phrases", message, forms[form].place, help=help_line))
 
 
 class _Checked:

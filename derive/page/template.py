@@ -5,12 +5,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from jinja2 import StrictUndefined
 from jinja2.sandbox import ImmutableSandboxedEnvironment
+from jinja2.utils import missing
 
 from derive import FOLDER
 from derive.errors import Complaint, Rejected, did_you_mean, nearest
@@ -82,6 +84,21 @@ def unused_templates(root: Path) -> list[Complaint]:
     ]
 
 
+class Unknown(StrictUndefined):
+    """A name without a value. The message about it suggests a similar name, and does not name classes of derive."""
+
+    @property
+    def _undefined_message(self) -> str:
+        if self._undefined_hint or not isinstance(self._undefined_name, str):
+            return super()._undefined_message
+        name, of = self._undefined_name, self._undefined_obj
+        if of is missing:
+            return f"no value is called `{name}`"
+        known = of if isinstance(of, Mapping) else dir(of)
+        help_line = did_you_mean(name, [each for each in known if not str(each).startswith("_")])
+        return f"no attribute is called `{name}`{f'; {help_line}' if help_line else ''}"
+
+
 def environment(**own: Any) -> ImmutableSandboxedEnvironment:
     """Return an environment of Jinja.
 
@@ -94,7 +111,7 @@ def environment(**own: Any) -> ImmutableSandboxedEnvironment:
         block_end_string="%>",
         comment_start_string="<#",
         comment_end_string="#>",
-        undefined=StrictUndefined,
+        undefined=Unknown,
         autoescape=False,  # Jinja escapes HTML only
         **own,
     )

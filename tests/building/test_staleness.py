@@ -10,6 +10,7 @@ import pytest
 from fake_course import Course, stand_in_course
 
 from derive.building.manifest import Manifest
+from derive.building.recipe import recipe_of
 from derive.building.sets import Options, built_set
 from derive.building.staleness import MOST, Asked, Staleness, asked_about, staleness
 from derive.errors import DeriveError, Misused
@@ -36,6 +37,23 @@ def told(course: Course, what: str, **options: str) -> Staleness:
 @pytest.mark.parametrize("what", ["build/hw1/one.pdf", "build/hw1/one.txt", "hw1/one", "hw1", "build/hw1/index.html"])
 def test_what_was_just_built_is_up_to_date(course: Course, what: str) -> None:
     assert told(course, what).shown() == f"{what} is up to date"
+
+
+def test_an_export_is_older_after_an_edit(course: Course) -> None:
+    """A build does not make the export again, so it warns, and names the command."""
+    (course.outputs / "one-qti.zip").write_text("an export")
+    manifest = Manifest.read(course.outputs)
+    inputs = dict(manifest.inputs["one"])
+    manifest.was_exported("one-qti.zip", recipe_of(course.root, of_set=manifest.of_set), inputs, manifest.of_set)
+    manifest.save()
+    assert told(course, "build/hw1/one-qti.zip").shown() == "build/hw1/one-qti.zip is up to date"
+    course.problem("one", "edited")
+    (warning,) = built_set(course.root, "hw1", Options(), lambda _: None).warnings
+    assert (warning.code, warning.help) == ("older", "`derive export hw1/one --format qti` makes it again")
+    assert "`one-qti.zip`" in warning.message
+    assert (
+        "to bring it up to date: `derive export hw1/one --format qti`" in told(course, "build/hw1/one-qti.zip").shown()
+    )
 
 
 def edited(course: Course) -> None:

@@ -80,6 +80,17 @@ def test_a_set_that_does_not_exist_is_met_with_the_nearest(tmp_path: Path) -> No
     assert caught.value.exit_code == 2
 
 
+def test_a_folder_without_its_file_and_a_listed_problem_without_its_file_are_begun(tmp_path: Path) -> None:
+    root = at(tmp_path, heading="course: P\ntitle: T\nproblems: [wheel, 'a b']\n")
+    with pytest.raises(Rejected) as caught:
+        problem_set(root, "hw9")
+    assert [each.help for each in caught.value.complaints] == ["`derive new hw9/wheel` begins it", None]
+    (root / "problems" / "hw9" / "set.yaml").unlink()
+    with pytest.raises(Misused) as missing:
+        problem_set(root, "hw9")
+    assert missing.value.complaints[0].help == "write `problems/hw9/set.yaml` with `problems: [block]`"
+
+
 def test_a_set_says_how_much_its_solutions_tell_of_their_checks(tmp_path: Path) -> None:
     root = tmp_path
     file = at(root) / "problems" / "hw9" / "set.yaml"

@@ -61,6 +61,21 @@ def questions(tmp_path_factory: pytest.TempPathFactory) -> list[Question]:
     return questions_of([rendered(root, "week1/bead", draws=True, only=("questions",))])
 
 
+def test_the_solution_of_a_part_shows_the_equations_that_it_cites(questions: list[Question]) -> None:
+    """A platform shows each part separately."""
+    (question,) = questions
+    for part in question.parts:
+        cited = set(re.findall(r"(?<!text\{)\((\d+)\)", part.solution))
+        assert cited <= set(re.findall(r"\\text\{\((\d+[a-z]?)\)\}", part.feedback))
+    first, second, _ = question.parts
+    assert first.cited == ""
+    assert second.cited.startswith("<p>Part (a) has already given equation (5).</p>")
+    assert r"\boxed" not in second.cited
+    assert second.cited in ElementTree.fromstring(moodle_xml("A", "B", questions)).findall("question")[2].findtext(
+        "generalfeedback/text", ""
+    )
+
+
 def test_moodle_has_a_question_of_the_right_type_for_each_part(questions: list[Question]) -> None:
     quiz = ElementTree.fromstring(moodle_xml("Physics/A", "Week <1>", questions).encode())
     category, *asked = quiz
@@ -182,6 +197,11 @@ def test_the_command_writes_the_file(tmp_path: Path, capfd: pytest.CaptureFixtur
     (folder / "set.yaml").write_text("course: A\ntitle: B\nproblems: [bead]\n")
     assert main(["--root", str(tmp_path), "export", "week1", "--format", "qti"]) == 0
     assert zipfile.is_zipfile(tmp_path / "build" / "week1" / "week1-qti.zip")
+    why = ["--root", str(tmp_path), "why", str(tmp_path / "build" / "week1" / "week1-qti.zip")]
+    capfd.readouterr()
+    assert main(why) == 0 and capfd.readouterr().out.endswith("week1-qti.zip is up to date\n")
+    (folder / "bead.yaml").write_text(PROBLEM.replace("Find the frequency and", "Find both the frequency and"))
+    assert main(why) == 0 and "`problems/week1/bead.yaml` has changed" in capfd.readouterr().out
     assert main(["--root", str(tmp_path), "export", "week1/bead", "-o", "-"]) == 0
     assert "<quiz>" in capfd.readouterr().out
     assert main(["--root", str(tmp_path), "export", "week2"]) == 2

@@ -147,6 +147,11 @@ def test_other_separators_and_missing_cells_are_read() -> None:
     assert [(row.student, row.answer) for row in table.rows] == [("Ada", "7/24 M, or so"), ("Bob", "")]
 
 
+def test_a_row_is_named_by_the_line_where_it_begins() -> None:
+    table = read_table(b'student,part,answer\n\nAda,b,"1\nm"\nBob,b,"2\n\nm"\nEve,b,3\n', "x.csv", "hw9/block")
+    assert [(row.student, row.line) for row in table.rows] == [("Ada", 3), ("Bob", 5), ("Eve", 8)]
+
+
 def test_one_bad_row_stops_no_other(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
     answers = tmp_path / "answers.csv"
     answers.write_text(

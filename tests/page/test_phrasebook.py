@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from derive.course.names import Language
 from derive.errors import Rejected
 from derive.page.phrasebook import read_phrases
 from derive.page.template import Templates, templates_of
@@ -96,3 +97,20 @@ def test_a_phrase_that_replaces_nothing_is_an_error(tmp_path: Path) -> None:
     complaint = caught.value.complaints[0]
     assert complaint.help == "did you mean `problem`?"
     assert complaint.place and (complaint.place.path, complaint.place.line) == ("templates/phrases/en/own.yaml", 2)
+
+
+def test_a_word_of_a_course_has_the_forms_of_its_language(tmp_path: Path) -> None:
+    own = tmp_path / "templates" / "phrases" / "de"
+    own.mkdir(parents=True)
+    (own / "own.yaml").write_text("terms:\n  kolben: {nom: der Kolben, akk: den Kolben}\n")
+    with pytest.raises(Rejected) as caught:
+        phrases(templates_of(tmp_path), Language("de"))
+    (complaint,) = caught.value.complaints
+    assert "`terms.kolben` has the form `akk`" in complaint.message
+    assert (complaint.help or "").startswith("the forms are `nom`, `acc`, ")
+    assert complaint.place and complaint.place.line == 2
+    (own / "own.yaml").write_text("terms:\n  kolben: {nom: der Kolben, acc: den Kolben}\n")
+    assert phrases(templates_of(tmp_path), Language("de")).terms["kolben"] == {
+        "nom": "der Kolben",
+        "acc": "den Kolben",
+    }

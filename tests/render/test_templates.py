@@ -46,14 +46,17 @@ def test_what_a_template_prints_is_escaped_unless_it_is_tex_of_ours(tmp_path: Pa
 @pytest.mark.parametrize(
     ("text", "message", "line"),
     [
-        ("a\n<< heading.nothing >>\n", "has no attribute 'nothing'", 2),
+        ("a\n<< heading.nothing >>\n", "no attribute is called `nothing`", 2),
+        ("a\n<< heading.titel >>\n", "no attribute is called `titel`; did you mean `title`?", 2),
+        ("a\n<< heading.title >\\par\n", "unexpected character `\\`", 2),
+        ("<< headin >>\n", "no value is called `headin`", 1),
         ("a\n\n<< 1/0 >>\n", "division by zero", 3),
         ("a\n<% endfor %>\n", "unknown tag 'endfor'", 2),
         ("<% include 'other.j2' %>", "the template `other.j2` does not exist", 0),
     ],
 )
 def test_a_broken_template_is_told_at_its_line(tmp_path: Path, text: str, message: str, line: int) -> None:
-    complaint = refusal(tmp_path, text, heading=SimpleNamespace())
+    complaint = refusal(tmp_path, text, heading=SimpleNamespace(title=1))
     assert (complaint.code, message in complaint.message.lower()) == ("template", True)
     place = complaint.place
     assert (place.path, place.line) == ("templates/latex/set.tex.j2", line) if place else line == 0

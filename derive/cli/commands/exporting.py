@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import time
 from functools import partial
 
 from derive.cli.asked import problem_id_of, root_of
@@ -10,12 +11,12 @@ from derive.cli.output import check_output, deliver
 from derive.cli.running import waiting
 from derive.cli.terminal import complain
 
-SUFFIX = {"moodle": "xml", "stack": "xml", "qti": "zip", "canvas": "zip", "docx": "docx", "prairielearn": "zip"}
-
 
 def export(arguments: argparse.Namespace) -> int:
     from derive.building.files import shown_path
+    from derive.building.manifest import EXPORT_SUFFIX, Manifest
     from derive.building.papers import list_again
+    from derive.building.recipe import input_digest, recipe_of, stated_by
     from derive.building.set_names import set_folder
     from derive.building.solution import rendered
     from derive.building.workers import done, job_of
@@ -23,9 +24,10 @@ def export(arguments: argparse.Namespace) -> int:
     from derive.course.problem_set import path_of, problem_set
     from derive.exporting.questions import questions_of
 
+    started = time.time_ns()
     root, asked = root_of(arguments), problem_id_of(arguments.id)
     set_id, _, name = asked.partition("/")
-    file = f"{name or set_id}-{arguments.format}.{SUFFIX[arguments.format]}"
+    file = f"{name or set_id}-{arguments.format}.{EXPORT_SUFFIX[arguments.format]}"
     output = arguments.output or str(set_folder(root, set_id) / file)
     check_output(output, root)
     heading = problem_set(root, set_id)
@@ -59,12 +61,17 @@ def export(arguments: argparse.Namespace) -> int:
 
         content = qti_package(set_id, heading.title, questions)
     deliver(content, output)
-    list_again(root, set_id)
+    of_set = stated_by(heading)
+    recipe = recipe_of(root, of_set=of_set)
+    read = {*heading.inputs, *(path for page in pages for path in page.inputs)}
+    inputs = {path: input_digest(root / path, started) for path in sorted(read)}
+    record = partial(Manifest.was_exported, file=file, recipe=recipe, inputs=inputs, of_set=of_set)
+    list_again(root, set_id, None if arguments.output else record)
     if output != "-":
         parts = [part for each in questions for part in each.parts]
         separate = arguments.format == "canvas"  # there each number is a question
         count = sum(len(part.answers) if separate and part.is_numerical else 1 for part in parts)
-        print(f"wrote {shown_path(root / output)}: {count} questions")
+        print(f"wrote {shown_path(root / output)}: {count} question{'s' if count != 1 else ''}")
         if any(load_problem(root, page.id).variations for page in pages):
             print("the questions have the values of the problems themselves, not those under `variants:`")
     return 0

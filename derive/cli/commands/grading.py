@@ -117,7 +117,10 @@ def _grade_table(arguments: argparse.Namespace) -> int:
         from derive.grading.report import NOT_GRADED, counted
 
         told = counted(NOT_GRADED if isinstance(each, NotGraded) else each.verdict.outcome.value for each in results)
-        print(f"{len(results)} answers: {told}" if results else "no answers", file=sys.stderr)
+        print(
+            f"{len(results)} answer{'s' if len(results) != 1 else ''}: {told}" if results else "no answers",
+            file=sys.stderr,
+        )
     return 1 if lost else 0
 
 

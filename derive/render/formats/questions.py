@@ -18,6 +18,7 @@ def _rendered(solution: Solution) -> str:
             "label": part.label,
             "points": told["points"],
             "question": page.question(part),
+            "cited": page.cited(part, solution.derivation.steps),
             "solution": page.solution(part),
             "answers": [
                 {"key": key, "positive": _is_of_positive_letters(solution, key), **known["answers"][key]}

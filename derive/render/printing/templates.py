@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import traceback
 from collections.abc import Callable, Mapping
 from contextlib import suppress
@@ -40,9 +41,12 @@ def _filled(templates: Templates, kind: str, template: str, facts: Mapping[str, 
         help_line = f"it belongs in `{_shown(templates.folders[0] / kind)}`"
         raise Rejected(Complaint("template", message, help=help_line)) from error
     except TemplateSyntaxError as error:
-        file = templates.file(f"{kind}/{error.name or template}")
-        complaint = Complaint("template", f"the template cannot be read: {_said(error)}", _line(file, error.lineno))
-        raise Rejected(complaint) from error
+        at = _line(templates.file(f"{kind}/{error.name or template}"), error.lineno)
+        message, help_line = f"the template cannot be read: {_said(error)}", None
+        if unexpected := re.fullmatch(r"(.*unexpected char) '(.*)' at \d+", message):  # the offset in the file
+            message = f"{unexpected[1]}acter `{unexpected[2][-1]}`"
+            help_line = "`<<` needs `>>`, and `<%` needs `%>`"
+        raise Rejected(Complaint("template", message, at, help=help_line)) from error
     except (OSError, UnicodeError) as error:
         raise Rejected(Complaint("template", f"the template `{template}` cannot be read: {_said(error)}")) from error
     except DeriveError:

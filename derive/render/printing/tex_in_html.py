@@ -5,17 +5,22 @@ These platforms keep only simple tags, and show formulas with MathJax, which rea
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 from html import escape
 
 from derive.course.placement import STATEMENT
-from derive.page.tree import Display, Illustration, PartPage
+from derive.page.chain_lines import Equations
+from derive.page.cross_references import found_before
+from derive.page.introduced import references_in
+from derive.page.tree import Block, Display, Folded, Illustration, PartPage
 from derive.page.wording import DimensionMark, Inline, Math, NewParagraph, ProblemRef, Ref, Text, UnitMark
 from derive.render.notation.latex import dimension_latex, latex, unit_latex
 from derive.render.printing.amsmath import aligned, display_rows
 from derive.render.printing.lines import TEXT_WIDTH
 from derive.render.printing.markdown_page import MarkdownPage
 from derive.render.printing.text_page import inline_text
+from derive.steps.step import Step
 
 IMAGE = "@@FILE@@/"  # stands for the address of a file, which the platform inserts
 
@@ -35,6 +40,23 @@ class TexInHtml(MarkdownPage):
     def solution(self, part: PartPage) -> str:
         """Return the solution of a part."""
         return self._joined(self._blocks(part.blocks))
+
+    def cited(self, part: PartPage, steps: Iterable[Step]) -> str:
+        """Return the equations of other parts that the solution of a part cites, with the names of their steps. A
+        platform shows the solution of each part separately."""
+        numbers = self.document.numbers
+        missing = {numbers[key] for key in references_in(part.blocks)} - {
+            each.number for each in _equations(part.blocks)
+        }
+        shown = [
+            Display((replace(each, framed=0),))
+            for other in self.document.parts
+            for each in _equations(other.blocks)
+            if each.number in missing
+        ]
+        keys = {each.groups[0].key for each in shown}
+        told = found_before((step for step in steps if step.key in keys), self.document.shown_in, self.words)
+        return "\n".join([*map(self.paragraph, told), *map(self._display, shown)])
 
     def remarks(self) -> str:
         """Return the strategy and the note, if the problem has them."""
@@ -79,6 +101,15 @@ class TexInHtml(MarkdownPage):
     def _display(self, display: Display) -> str:
         rows = display_rows(display, self.notation, TEXT_WIDTH, self._ending)
         return rf"<p>\[{_for_mathjax(aligned(rows))}\]</p>"
+
+
+def _equations(blocks: Iterable[Block]) -> Iterator[Equations]:
+    """Yield the equations of these blocks that have numbers."""
+    for block in blocks:
+        if isinstance(block, Display):
+            yield from block.groups
+        elif isinstance(block, Folded):
+            yield from _equations(block.blocks)
 
 
 def formula_html(tex: str) -> str:

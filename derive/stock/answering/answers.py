@@ -156,5 +156,5 @@ class StockAnswers(Answers[W]):
         return ImmutableDenseMatrix(each([partial(letters.of_kind, item, name, "length") for item in node.items]))
 
     def every(self) -> dict[str, tuple[Quantity, ...] | DeriveError]:
-        """Return the steps of every name that can be derived, and the errors of results."""
+        """Return the steps of every name, or the error if the answer cannot be derived."""
         return self.by_name.every()

@@ -101,14 +101,13 @@ class ByName:
         return next((form for form in (name, *_in_other_number(name)) if form in self.asks), None)
 
     def every(self) -> dict[str, tuple[Quantity, ...] | DeriveError]:
-        """Return the steps of every offered name that can be derived, and the errors of results."""
+        """Return the steps of every offered name, or the error if the answer cannot be derived."""
         found: dict[str, tuple[Quantity, ...] | DeriveError] = {}
         for name in self.asks:
             try:
                 found[name] = self._derived_alone(name)
             except DeriveError as error:
-                if name in self.results:
-                    found[name] = error
+                found[name] = error
         return found
 
     def _derived_alone(self, name: str) -> tuple[Quantity, ...]:
