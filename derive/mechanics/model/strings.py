@@ -291,7 +291,7 @@ def _of_length(verb: str, ends: Sequence[Any], length: Any, letter: str) -> tupl
     is_rod = verb == "massless_rod"
     pieces = _pieces(ends)
     through = tuple(each if isinstance(each, Pulley) else end_of(each)[0] for each in ends)
-    kept = _kept_length(pieces)
+    kept = _kept_length(pieces, whole)
     if not letter:
         _require_kept(verb, kept, whole)
         return (Line((), through, is_rod),)
@@ -359,23 +359,30 @@ def _touched(each: Any, k: int) -> list[Location]:
     return found
 
 
-def _kept_length(pieces: Sequence[Piece]) -> Expr | None:
-    lengths = _kept_lengths([(piece.start, piece.end) for piece in pieces])
+def _kept_length(pieces: Sequence[Piece], whole: Expr | None = None) -> Expr | None:
+    lengths = _kept_lengths([(piece.start, piece.end) for piece in pieces], whole)
     return tidied(Add(*lengths)) if lengths is not None else None
 
 
-def _kept_lengths(pieces: Sequence[tuple[Location, Location]]) -> list[Expr] | None:
+def _kept_lengths(pieces: Sequence[tuple[Location, Location]], whole: Expr | None = None) -> list[Expr] | None:
     """Return the lengths of the pieces if their sum contains no coordinates; otherwise None.
 
-    The length of a piece on a fixed line is u or -u. The signs are chosen so that the coordinates cancel.
+    The length of a piece on a fixed line is u or -u. If the sign of u is unknown, it is chosen so that the coordinates
+    cancel; if several choices remain, the sum is the given length, or else it has no minus sign in front.
     """
-    lengths = [raw_distance(*piece).replace(Abs, lambda size: size) for piece in pieces]
-    for signs in product((1, -1), repeat=len(lengths)):
-        signed = [sign * length for sign, length in zip(signs, lengths, strict=True)]
-        whole = tidied(Add(*signed))
-        if whole != 0 and not coordinates_in(ImmutableDenseMatrix([whole])):
-            return [-each for each in signed] if whole.could_extract_minus_sign() else signed
-    return None
+    kept = []
+    for lengths in product(*(_possible_lengths(*piece) for piece in pieces)):
+        found = tidied(Add(*lengths))
+        if found != 0 and not coordinates_in(ImmutableDenseMatrix([found])):
+            kept.append((whole is None or not is_zero(found - whole), found.could_extract_minus_sign(), list(lengths)))
+    return min(kept, key=lambda each: each[:2])[2] if kept else None
+
+
+def _possible_lengths(start: Location, end: Location) -> tuple[Expr, ...]:
+    """Return u and -u for the length |u| of a straight piece, or only the one that is positive, if its sign is known."""
+    length = raw_distance(start, end).replace(Abs, lambda size: size)
+    positive = [each for each in (length, -length) if sign_for_all(each) == 1]
+    return tuple(positive) or (length, -length)
 
 
 def _require_kept(verb: str, kept: Expr | None, whole: Expr | None) -> None:
