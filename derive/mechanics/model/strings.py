@@ -23,6 +23,7 @@ from derive.mechanics.model.part import Part, moved
 from derive.mechanics.model.surfaces import Circle, column_of, direction_between, distance_between, dot, raw_distance
 from derive.mechanics.model.touching import has_radius, radius_of
 from derive.steps.record import coordinates_in, require_constant, require_no_coordinate
+from derive.steps.signs import sign_for_all
 from derive.steps.step import is_zero
 
 __all__ = ["massless_rod", "pulley", "string", "wire", "wound_string"]
