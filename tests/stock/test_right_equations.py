@@ -200,16 +200,3 @@ lagrangian: m*R**2*(a_dot**2 + b_dot**2 + c_dot**2)/2 - k*R**2*((a-b)**2 + (b-c)
     steps = solved(tmp_path, problem("m: mass, k: spring constant, R: length", given, "frequency"))
     assert steps["frequency_1"].value == 0
     assert equal(steps["frequency_2"].value, sqrt(3 * k / m))
-
-
-def test_a_rate_that_frees_one_of_two_coordinates_is_not_an_equilibrium_everywhere(tmp_path: Path) -> None:
-    """On a rotating saddle with Omega^2 = g/R, x is arbitrary but y must vanish."""
-    given = """\
-coordinates: {x: length, y: length}
-axes: {saddle: [{z: Omega*t}]}
-particles: {ball: {mass: m, at: {in: saddle, by: [x, y, (x**2 - y**2)/(2*R)]}}}
-gravity: g
-"""
-    letters = "m: mass, g: acceleration, Omega: angular speed, R: length"
-    steps = solved(tmp_path, problem(letters, given, "equilibria"))
-    assert not [key for key in steps if key.endswith("_anywhere")]
