@@ -38,7 +38,7 @@ given:
   gravity: g
 statement: A ball.
 parts:
-  - {ask: Where can it rest?, answer: equilibria}
+  - {ask: Find where it can rest., answer: equilibria}
 """
 
 
