@@ -19,7 +19,7 @@ from derive.errors import Complaint, Rejected
 
 class Mixed(Enum):
     """The value of a property in which united subjects differ. It counts as different from every value, including
-    itself."""
+    itself; only within one system, two quantities of the whole system agree in it."""
 
     SEVERAL = "several"
 
@@ -82,17 +82,19 @@ def united(
     """
     found: dict[str, Any] = {}
     for field in (each.name for each in fields(Subject)):
-        first: tuple[str, Any] | None = None
+        first: tuple[str, Any, Any] | None = None
         for name, subject in named:
             value = getattr(subject, field)
             if value is None:
                 continue
             if first is None:
-                first = name, value
+                first = name, value, subject.body
+            elif value is first[1] is Mixed.SEVERAL and first[2] is subject.body is not None:
+                continue  # both belong to the whole of one system
             elif not _agree(first[1], value, same):
                 if field not in differ and field != "axis":  # moments of one body may have different axes
-                    raise _apart(key, field, first, (name, value))
-                first = name, Mixed.SEVERAL
+                    raise _apart(key, field, first[:2], (name, value))
+                first = name, Mixed.SEVERAL, subject.body
         if first is not None:
             found[field] = first[1]
     return Subject(**found)

@@ -596,11 +596,15 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
 
     @property
     def _is_pushed(self) -> bool:
-        """Whether given forces may shift the equilibrium."""
+        """Whether given forces, or terms of a given Lagrangian, may shift the equilibrium."""
         if depends_on_time(self.lagrangian.value):
             return False
-        pushes = [c for force in self.system.given_forces for c in force.components] if not self.described.given else []
-        return self.described.given is not None or bool(pushes) and not any(map(depends_on_time, pushes))
+        if self.described.given is not None:
+            zero = {s: Integer(0) for q in self.coordinates.values() for s in (q.rate, q.symbol)}
+            slopes = (diff(explicit(self.lagrangian.value), q.symbol) for q in self.coordinates.values())
+            return not all(is_zero(slope.subs(zero)) for slope in slopes)
+        pushes = [c for force in self.system.given_forces for c in force.components]
+        return bool(pushes) and not any(map(depends_on_time, pushes))
 
     def _check_letters(self) -> None:
         """Check that each symbol of the description denotes quantities of one kind."""

@@ -217,6 +217,8 @@ def with_strings() -> Iterator[Trial]:
         yield Trial(f"hanging {noun}", given, ("X_ddot", "x_ddot", "y_ddot", "T"), _hanging)
     yield Trial("yo-yo", YO_YO, ("y_ddot", "phi_ddot", "T"), _yo_yo)
     yield Trial("massive pulley", MASSIVE, ("x_ddot", "y_ddot", "phi_ddot", "T", "S"), _massive)
+    yield Trial("two wound discs", TWO_WOUND, ("y_ddot", "phi_ddot", "psi_ddot", "T"), _two_wound)
+    yield Trial("pulled roller", PULLED, ("x_ddot", "y_ddot", "phi_ddot", "T", "F"), _pulled)
     yield Trial("pinned rods", RODS, ("theta_ddot", "phi_ddot", "x_ddot", "R_x", "R_y"), _rods)
 
 
@@ -231,6 +233,21 @@ MASSIVE = """\
   bodies: {pulley: {shape: hoop, radius: a, mass: m, turned: phi, centre: [0, 0], across: z}}
   gravity: g
   strings: [{from: one, wound_on: pulley, tension: T}, {from: two, wound_on: pulley, tension: S}]"""
+TWO_WOUND = """\
+  coordinates: {y: positive length, phi: angle, psi: angle}
+  bodies:
+    upper: {shape: hoop, radius: R, mass: M, turned: -phi, centre: [0, 0], across: z}
+    lower: {shape: disc, radius: a, mass: m, turned: -psi, centre: [a + R, -y], across: z}
+  gravity: g
+  strings: {wound_on: [upper, lower], tension: T}"""
+PULLED = """\
+  coordinates: {x: length, y: positive length, phi: angle}
+  bodies: {roller: {shape: disc, radius: a, mass: M, centre: [x, a], turned: -phi, across: z}}
+  particles: {weight: {mass: m, at: [9*l, -y]}}
+  gravity: g
+  surfaces: {table: {through: [0, 0], along: [1, 0]}}
+  contacts: {of: roller, on: table, friction: {rolling: F}}
+  strings: {from: weight, over: [[9*l, 2*a]], wound_on: roller, tension: T}"""
 RODS = """\
   coordinates: {theta: angle, phi: angle, x: length, y: length}
   bodies:
@@ -383,6 +400,39 @@ def _massive(random: Random) -> tuple[Numbers, Numbers]:
         {"y_up": 1, "y_ddot": 1},
         {"x_ddot": 1, "phi_ddot": -a},
         {"y_ddot": 1, "phi_ddot": a},
+    ]
+    return v, solved(laws)
+
+
+def _two_wound(random: Random) -> tuple[Numbers, Numbers]:
+    v = _letters(random) | {"y": 1.0, "phi": 0.2, "psi": 0.1, "phi_dot": 0.4, "psi_dot": 0.3}
+    a, b = v["a"], v["R"]
+    v["y_dot"] = b * v["phi_dot"] + a * v["psi_dot"]
+    laws = [
+        *Body(v["M"], moment=v["M"] * b**2, turn="up_turn").equations([Force((0, -1), (b, 0), "T")]),
+        *Body(v["m"], y="up", moment=v["m"] * a**2 / 2, turn="low_turn").equations(
+            [_down(v["m"], v), Force((0, 1), (-a, 0), "T")]
+        ),
+        {"up": 1, "y_ddot": 1},
+        {"up_turn": 1, "phi_ddot": 1},
+        {"low_turn": 1, "psi_ddot": 1},
+        {"y_ddot": 1, "phi_ddot": -b, "psi_ddot": -a},
+    ]
+    return v, solved(laws)
+
+
+def _pulled(random: Random) -> tuple[Numbers, Numbers]:
+    v = _letters(random) | {"x": 0.0, "y": 1.0, "phi": 0.2, "phi_dot": 0.4}
+    a = v["a"]
+    v |= {"x_dot": a * v["phi_dot"], "y_dot": 2 * a * v["phi_dot"]}
+    on_roller = [Force((1, 0), (0, a), "T"), Force((1, 0), (0, -a), "F")]
+    laws = [
+        *Body(v["M"], x="x_ddot", moment=v["M"] * a**2 / 2, turn="turn").equations(on_roller),
+        *Body(v["m"], y="up").equations([_down(v["m"], v), Force((0, 1), unknown="T")]),
+        {"up": 1, "y_ddot": 1},
+        {"turn": 1, "phi_ddot": 1},
+        {"x_ddot": 1, "phi_ddot": -a},
+        {"y_ddot": 1, "phi_ddot": -2 * a},
     ]
     return v, solved(laws)
 

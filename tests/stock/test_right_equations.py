@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from sympy import Expr, Float, cos, sin, sqrt, symbols
+from sympy import Expr, Float, cos, sin, solve, sqrt, symbols
 
 from derive.algebra.equality import equal
 from derive.algebra.expressions import Relation, explicit
@@ -136,3 +136,67 @@ results:
     there = {"M": 0.8, "l": 0.5, "g": 9.0, "A": A, "C": C, "Omega": Omega, "alpha": tilt, "w": w}
     expected = Omega**2 + (weight / (A * Omega)) ** 2 - 2 * weight * float(cos(tilt)) / A
     assert at(nutation, **there, s=w - Omega * float(cos(tilt))) == pytest.approx(expected)
+
+
+def test_a_string_whose_pieces_have_known_and_unknown_signs_has_its_length(tmp_path: Path) -> None:
+    """A swinging Atwood machine: the piece of length d to the left counts with plus."""
+    given = """\
+coordinates: {r: positive length, theta: angle}
+particles: {bob: {mass: m, at: [r*sin(theta), -r*cos(theta)]}, weight: {mass: M, at: [-d, r - l]}}
+strings: {from: bob, over: [[0, 0], [-d, 0]], to: weight, length: l + d}
+gravity: g
+"""
+    letters = "m: mass, M: mass, l: length, d: length, g: acceleration"
+    steps = solved(tmp_path, problem(letters, given, "acceleration_r"))
+    found = at(steps["acceleration_r"].value, m=2, M=3, g=9, r=0.5, theta=0.4, theta_dot=0.7)
+    assert found == pytest.approx((2 * 0.5 * 0.7**2 + 2 * 9 * float(cos(0.4)) - 3 * 9) / 5)
+
+
+def test_two_bodies_and_a_cyclic_coordinate_have_a_routhian(tmp_path: Path) -> None:
+    """A disc rolls in a hoop that turns about its fixed axis. With the angles theta of the centre, phi of the hoop and
+    s = (R - r) theta, Newton's laws are m s'' = -m g theta + F, M R phi'' = -F and m (R phi'' - s'')/2 = F."""
+    given = """\
+coordinates: {theta: angle, phi: angle}
+bodies:
+  drum: {shape: hoop, radius: R, mass: M, centre: [0, 0], turned: phi}
+  disc:
+    {shape: disc, radius: r, mass: m, centre: [(R-r)*sin(theta), -(R-r)*cos(theta)], turned: (R*phi - (R-r)*theta)/r}
+gravity: g
+surfaces: {inner: {centre: [0, 0], radius: R, side: inside, of: drum}}
+contacts: {of: disc, on: inner, friction: rolling}
+assume: r < R
+"""
+    letters = "m: mass, M: mass, r: length, R: length, g: acceleration"
+    steps = solved(tmp_path, problem(letters, given, "frequency"))
+    s, phi, force, theta = symbols("s phi force theta")
+    laws = [m * s + m * g * theta - force, M * phi + force, m * (phi - s) / 2 - force]  # phi stands for R phi''
+    R, r = symbols("R r", positive=True)
+    squared = -solve(laws, [s, phi, force])[s] / (theta * (R - r))
+    assert equal(steps["frequency"].value ** 2, squared)
+
+
+def test_a_gyrocompass_points_north(tmp_path: Path) -> None:
+    """The torque that turns the spin S with the Earth pulls the axis north, A alpha'' = -S Omega cos(lambda) alpha, and
+    the rotation of the body itself reduces S by A Omega cos(lambda)."""
+    given = """\
+coordinates: {alpha: angle, psi: angle}
+axes: {rotor: [{z: Omega*t}, {y: pi/2 - lambda}, {z: alpha}, {y: -pi/2}, {z: psi}]}
+bodies: {rotor: {moments: [A, A, C], mass: M, held: centre_of_mass, turned: rotor}}
+conserved: {psi: positive S}
+"""
+    letters = "A: moment of inertia, C: moment of inertia, M: mass, Omega: angular speed, lambda: 'angle in (0, pi/2)'"
+    steps = solved(tmp_path, problem(letters, given, "frequency"))
+    values = {"A": 2.0, "S": 50.0, "Omega": 0.3, "lambda": 0.8}
+    pull = 0.3 * float(cos(0.8))
+    assert at(steps["frequency"].value, **values) ** 2 == pytest.approx((50 - 2 * pull) * pull / 2)
+
+
+def test_a_given_lagrangian_that_is_stationary_at_zero_has_its_modes_there(tmp_path: Path) -> None:
+    """Three equal masses on a ring: every state a = b = c is an equilibrium, and two modes have the same frequency."""
+    given = """\
+coordinates: {a: angle, b: angle, c: angle}
+lagrangian: m*R**2*(a_dot**2 + b_dot**2 + c_dot**2)/2 - k*R**2*((a-b)**2 + (b-c)**2 + (c-a)**2)/2
+"""
+    steps = solved(tmp_path, problem("m: mass, k: spring constant, R: length", given, "frequency"))
+    assert steps["frequency_1"].value == 0
+    assert equal(steps["frequency_2"].value, sqrt(3 * k / m))

@@ -23,6 +23,7 @@ from derive.mechanics.model.part import Part, moved
 from derive.mechanics.model.surfaces import Circle, column_of, direction_between, distance_between, dot, raw_distance
 from derive.mechanics.model.touching import has_radius, radius_of
 from derive.steps.record import coordinates_in, require_constant, require_no_coordinate
+from derive.steps.signs import sign_for_all
 from derive.steps.step import is_zero
 
 __all__ = ["massless_rod", "pulley", "string", "wire", "wound_string"]
@@ -43,6 +44,16 @@ class Pulley(Connection):
 
     def moved(self, known: Mapping[Symbol, Expr]) -> Self:
         return replace(super().moved(known), at=self.at.with_values(known), radius=self.radius.subs(known))
+
+
+@dataclass(frozen=True)
+class Rim(Pulley):
+    """The rim of a round body, which a string turns.
+
+    of   the body
+    """
+
+    of: PlacedBody
 
 
 @dataclass(frozen=True)
@@ -151,6 +162,13 @@ class Piece:
     def moved(self, known: Mapping[Symbol, Expr]) -> Piece:
         of = tuple(moved(each, known) for each in self.of)
         return Piece(self.start.with_values(known), self.end.with_values(known), (of[0], of[1]))
+
+    @property
+    def growth(self) -> Expr:
+        """The rate at which the distance of the ends would change if the string could stretch, m/s."""
+        ends = zip((self.start, self.end), self.of, strict=True)
+        first, last = (velocity_at(place if of is None else of, place) for place, of in ends)
+        return dot(direction_between(self.start, self.end), last - first)
 
     def pulls(self, tension: Symbol) -> tuple[PointForce, PointForce]:
         """The forces on the two ends: each is the tension, directed towards the other end."""
@@ -291,7 +309,7 @@ def _of_length(verb: str, ends: Sequence[Any], length: Any, letter: str) -> tupl
     is_rod = verb == "massless_rod"
     pieces = _pieces(ends)
     through = tuple(each if isinstance(each, Pulley) else end_of(each)[0] for each in ends)
-    kept = _kept_length(pieces)
+    kept = _kept_length(pieces, whole)
     if not letter:
         _require_kept(verb, kept, whole)
         return (Line((), through, is_rod),)
@@ -315,7 +333,7 @@ def _pieces(ends: Sequence[Any]) -> list[Piece]:
     found = []
     for one, other in pairwise(ends):
         tangent = _tangent(one, other)
-        bodies = [None if isinstance(each, Pulley) else end_of(each)[1] for each in (one, other)]
+        bodies = [_owner(each) for each in (one, other)]
         found.append(Piece(*tangent, (bodies[0], bodies[1])))
     for one, other in pairwise(found):
         if one.end == other.start and _is_on_rim(one.end, ends):
@@ -323,6 +341,13 @@ def _pieces(ends: Sequence[Any]) -> list[Piece]:
             message = f"the string leaves a pulley at ({where}), where it also arrives"
             raise Rejected(Complaint("no-contact", message, help="put its two ends on different sides of the pulley"))
     return found
+
+
+def _owner(each: Any) -> Any:
+    """Return the body or particle that a piece of string pulls at an end, a pulley or a rim."""
+    if isinstance(each, Pulley):
+        return each.of if isinstance(each, Rim) else None
+    return end_of(each)[1]
 
 
 def _is_on_rim(place: Location, ends: Sequence[Any]) -> bool:
@@ -335,16 +360,27 @@ def _tangent(one: Any, other: Any) -> tuple[Location, Location]:
     """Return the ends of the straight piece between two neighbours; a piece at a pulley must be parallel to an axis."""
     if not isinstance(one, Pulley) and not isinstance(other, Pulley):
         return end_of(one)[0], end_of(other)[0]
-    for k in (0, 1):
-        for a in _touched(one, k):
-            for b in _touched(other, k):
-                if is_zero(tidied((b - a).components[k])):
-                    return a, b
-    place = next(each.at for each in (one, other) if isinstance(each, Pulley))
-    where = ", ".join(map(str, place.components))
-    message = f"no horizontal or vertical string is tangent to the pulley at ({where}) on the way to its neighbour"
-    help_line = "put the end of a vertical string beside the centre of the pulley, at a distance equal to the radius"
-    raise Rejected(Complaint("no-contact", message, help=help_line))
+    found = [
+        (a, b)
+        for k in (0, 1)
+        for a, b in product(_touched(one, k), _touched(other, k))
+        if is_zero(tidied((b - a).components[k]))
+    ]
+    round_ = next(each for each in (one, other) if isinstance(each, Pulley))
+    name = (
+        round_.of.body.name
+        if isinstance(round_, Rim)
+        else f"the pulley at ({', '.join(map(str, round_.at.components))})"
+    )
+    if not found:
+        message = f"no horizontal or vertical string is tangent to {name} on the way to its neighbour"
+        help_line = "put the end of a vertical string beside the centre, at a distance equal to the radius"
+        raise Rejected(Complaint("no-contact", message, help=help_line))
+    if len(found) > 1 and any(isinstance(each, Rim) for each in (one, other)):
+        message = f"the string may touch {name} on either side on the way to its neighbour"
+        help_line = "put the two axes at different heights and at different horizontal places"
+        raise Rejected(Complaint("no-contact", message, help=help_line))
+    return found[0]
 
 
 def _touched(each: Any, k: int) -> list[Location]:
@@ -359,23 +395,30 @@ def _touched(each: Any, k: int) -> list[Location]:
     return found
 
 
-def _kept_length(pieces: Sequence[Piece]) -> Expr | None:
-    lengths = _kept_lengths([(piece.start, piece.end) for piece in pieces])
+def _kept_length(pieces: Sequence[Piece], whole: Expr | None = None) -> Expr | None:
+    lengths = _kept_lengths([(piece.start, piece.end) for piece in pieces], whole)
     return tidied(Add(*lengths)) if lengths is not None else None
 
 
-def _kept_lengths(pieces: Sequence[tuple[Location, Location]]) -> list[Expr] | None:
+def _kept_lengths(pieces: Sequence[tuple[Location, Location]], whole: Expr | None = None) -> list[Expr] | None:
     """Return the lengths of the pieces if their sum contains no coordinates; otherwise None.
 
-    The length of a piece on a fixed line is u or -u. The signs are chosen so that the coordinates cancel.
+    The length of a piece on a fixed line is u or -u. If the sign of u is unknown, it is chosen so that the coordinates
+    cancel; if several choices remain, the sum is the given length, or else it has no minus sign in front.
     """
-    lengths = [raw_distance(*piece).replace(Abs, lambda size: size) for piece in pieces]
-    for signs in product((1, -1), repeat=len(lengths)):
-        signed = [sign * length for sign, length in zip(signs, lengths, strict=True)]
-        whole = tidied(Add(*signed))
-        if whole != 0 and not coordinates_in(ImmutableDenseMatrix([whole])):
-            return [-each for each in signed] if whole.could_extract_minus_sign() else signed
-    return None
+    kept = []
+    for lengths in product(*(_possible_lengths(*piece) for piece in pieces)):
+        found = tidied(Add(*lengths))
+        if found != 0 and not coordinates_in(ImmutableDenseMatrix([found])):
+            kept.append((whole is None or not is_zero(found - whole), found.could_extract_minus_sign(), list(lengths)))
+    return min(kept, key=lambda each: each[:2])[2] if kept else None
+
+
+def _possible_lengths(start: Location, end: Location) -> tuple[Expr, ...]:
+    """Return u and -u for the length |u| of a straight piece, or only the positive one, if the sign of u is known."""
+    length = raw_distance(start, end).replace(Abs, lambda size: size)
+    positive = [each for each in (length, -length) if sign_for_all(each) == 1]
+    return tuple(positive) or (length, -length)
 
 
 def _require_kept(verb: str, kept: Expr | None, whole: Expr | None) -> None:
@@ -395,45 +438,35 @@ def _require_kept(verb: str, kept: Expr | None, whole: Expr | None) -> None:
         raise Rejected(Complaint("sizes", message))
 
 
-def wound_string(end: Any, on: Any, tension: str = "T") -> tuple[Line, Constraint]:
-    """A straight piece of string from an end to a round body, on which the string is wound or over which it runs
-    without slipping.
+def wound_string(end: Any, on: Any, tension: str = "T", over: Sequence[Any] = ()) -> tuple[Line, Constraint]:
+    """A string from an end to a round body, on which the string is wound or over which it runs without slipping.
 
-    end      a particle, a point of a body, or a place in space
-    on       a round body in a plane: a yo-yo, or a pulley with a moment of inertia. The string touches the rim at the
-             height of the axis, or straight above or below the axis
-    tension  the symbol of the tension of this piece, N; positive if the string pulls
+    end      a particle, a point of a body, or a place in space; None if the string is wound on two bodies
+    on       a round body in a plane: a yo-yo, or a pulley with a moment of inertia; or two such bodies. The piece of
+             string at a rim is horizontal or vertical
+    tension  the symbol of the tension, N; positive if the string pulls
+    over     the massless pulleys or holes between the end and the body, as for `string`
 
     Along the string, the rim at the point of contact and the string have the same velocity.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 7.
     """
-    if not isinstance(on, PlacedBody) or not on.is_plane or not is_end(end):
+    rims = on if isinstance(on, tuple) else (on,)
+    other = (*over,) if end is None else (end, *over)
+    flat = all(isinstance(each, PlacedBody) and each.is_plane for each in rims)
+    if not flat or len(rims) != 1 + (end is None):
         message = "`wound_string` must go from a particle, a point of a body or a place to a round body in a plane"
         raise Rejected(Complaint("wrong-argument", message))
-    place, body = end_of(end)
-    require_bodies("wound_string", [(place, body)])
-    rim = _rim(place, on)
-    along = direction_between(rim, place)
-    slip = velocity_at(body if body is not None else place, place) - velocity_at(on, rim)
+    if not all(is_end(each) or isinstance(each, Pulley) for each in other):
+        raise Rejected(Complaint("wrong-argument", "a string runs over pulleys or places, from a place or a body"))
+    wound = [Rim((), each.hub, radius_of(each), each) for each in rims]
+    pieces = _pieces([*wound[1:], *other, wound[0]])
+    require_bodies("wound_string", [end_of(each) for each in other if not isinstance(each, Pulley)])
     force = scalar(tension)
-    pulls = (
-        PointForce(force, (-along).components, place, body),
-        PointForce(force, along.components, rim, on),
-    )
-    kept = Constraint(tidied(-dot(along, slip)), ZERO, force, in_rates=True, forces=pulls, enforcer="string")
-    return Line(pulls, (place, rim), False), kept
-
-
-def _rim(place: Location, on: PlacedBody) -> Location:
-    """Return the point at which a string from a place is tangent to the rim; the string must be parallel to an axis."""
-    radius, way = radius_of(on), place - on.hub
-    for k, c in enumerate(way.components):
-        if is_zero(tidied(c**2 - radius**2)):
-            return on.hub + Location(tuple(c if i == k else ZERO for i in (0, 1)))
-    where = ", ".join(map(str, place.components))
-    message = f"the string from ({where}) is not tangent to {on.body.name} beside, above or below its axis"
-    help_line = f"put its end at the distance {radius} from the axis, `[{radius}, 0]` for a string that hangs down"
-    raise Rejected(Complaint("no-contact", message, help=help_line))
+    pulls = tuple(pull for piece in pieces for pull in piece.pulls(force))
+    shrinks = tidied(-Add(*(piece.growth for piece in pieces)))
+    kept = Constraint(shrinks, ZERO, force, in_rates=True, forces=pulls, enforcer="string")
+    corners = (each if isinstance(each, Pulley) else end_of(each)[0] for each in over)
+    return Line(pulls, (pieces[0].start, *corners, pieces[-1].end), False), kept
 
 
 def circles_of(system: Any, at: Location) -> list[Circle]:

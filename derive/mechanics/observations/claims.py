@@ -671,10 +671,18 @@ def is_the_squared_length(facts: Judged, told: Relation) -> bool:
 # --- statements about all positions or all angles ---
 
 
+def is_only_condition(of: Quantity) -> bool:
+    """Whether the energy from which a condition of equilibrium follows depends on one coordinate only."""
+    energy = explicit(of.parents[0].value)
+    return len(of.parents) == 1 and len(energy.free_symbols & set(of.coordinates)) == 1
+
+
 def holds_everywhere(facts: Judged) -> bool:
     """Whether the condition of equilibrium holds at all positions tried for the stated value, but not for twice this
-    value."""
+    value, and whether it is the condition of the only coordinate."""
     place, condition = facts.result, explicit(facts.quantities["of"].value.residual)
+    if not is_only_condition(facts.quantities["of"]):
+        return False
 
     def is_so(point: Point) -> bool:
         there = value_at(explicit(place.right), point)

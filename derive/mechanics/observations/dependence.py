@@ -404,6 +404,8 @@ def anywhere(view: View) -> Observed:
         if of.step.rule != "rest.condition" or not any(of in q.ancestors() for q in view.answers):
             continue
         residual = explicit(of.value.residual)
+        if not claims.is_only_condition(of):
+            continue  # another coordinate may still be restricted
         for letter in [s for s in view.of_kind("angular speed") if s in residual.free_symbols]:
             for base, _ in _factors(residual):
                 found = solved_for_letter(base, letter)

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from mpmath import mp
-from sympy import Expr, ImmutableDenseMatrix, Integer, MatrixBase, Rational, Symbol
+from sympy import Expr, ImmutableDenseMatrix, Integer, MatrixBase, Rational, Symbol, re
 
 from derive.algebra.amplitudes import determinant_of
 from derive.algebra.definite import leading_minors
@@ -60,7 +60,7 @@ def _may_be_singular(matrix: MatrixBase) -> bool:
     letters = sorted(matrix.free_symbols, key=str)
     numbers = {s: rational_in_range(s, Rational(11 + 7 * i, 13 + 3 * i)) for i, s in enumerate(letters)}
     with mp.workdps(DIGITS):
-        entries = [mp.mpf(str(entry.xreplace(numbers).evalf(DIGITS))) for entry in matrix]
+        entries = [mp.mpf(str(re(entry.xreplace(numbers).evalf(DIGITS)))) for entry in matrix]
         size = matrix.shape[0]
         found = mp.matrix([entries[size * i : size * (i + 1)] for i in range(size)])
         scales = [max(abs(found[i, j]) for j in range(size)) for i in range(size)]

@@ -43,7 +43,14 @@ from derive.mechanics import (
 from derive.mechanics.kinematics.places import Location
 from derive.mechanics.model.contacts import point_of_contact
 from derive.stock.keys.deferred import Deferred, Material
-from derive.stock.keys.parts import components_of, direction_of, force_letter, list_of_parts, named_bodies
+from derive.stock.keys.parts import (
+    components_of,
+    direction_of,
+    force_letter,
+    list_of_parts,
+    named_bodies,
+    one_or_list_of,
+)
 from derive.stock.keys.places import COMPONENTS, PLACE, Places, WrittenPlace, check_not_contact, point_called
 
 X = "x"  # the symbol for the horizontal distance in the formula of a curve
@@ -320,12 +327,12 @@ class PulleyKeys(Record):
 class StringKeys(Record):
     """The keys of one entry of `strings:`, a massless inextensible string."""
 
-    start: WrittenPlace = key("one end: a particle, a point of a body, or a place", PLACE, called="from", required=True)
+    start: WrittenPlace | None = key("one end: a particle, a point of a body, or a place", PLACE, called="from")
     end: WrittenPlace | None = key("the other end", PLACE, called="to")
-    wound_on: Word | None = key(
-        "in place of `to`, `over` and `length`: the round body on which the string is wound, or over which it runs "
-        "without slipping",
-        TEXT,
+    wound_on: tuple[Word, ...] = key(
+        "in place of `to` and `length`: the round body on which the string is wound, or over which it runs without "
+        "slipping; or, in place of `from` too, the two round bodies on which it is wound, `[upper, lower]`",
+        one_or_list_of(TEXT, "a body, or a list of two bodies"),
     )
     over: tuple[WrittenPlace, ...] = key(
         "the pulleys, places, particles or points of bodies over which the string runs, in order from `from` to `to`",
@@ -354,10 +361,10 @@ class StringKeys(Record):
         return [self.tension] if self.tension is not None else []
 
     def part(self, known: Connected) -> Deferred[Any]:
-        if self.wound_on is not None:
-            return self._wound(self.wound_on, known)
-        if self.end is None:
-            rejected("missing-key", "a string needs `to`, or `wound_on`", self.places[""])
+        if self.wound_on:
+            return self._wound(known)
+        if self.start is None or self.end is None:
+            rejected("missing-key", "a string needs `from` and `to`, or `wound_on`", self.places[""])
         over = tuple(_over(each, known) for each in self.over)
         ends = (_end(self.start, known, "from"), _end(self.end, known, "to"))
         more: dict[str, Any] = {"mass_of": material(self.mass_of, known)} if self.mass_of else {}
@@ -365,8 +372,8 @@ class StringKeys(Record):
             more["drawn_tension"] = force_letter(self.drawn_tension, known.letters)
         return _line(string, ends, self.length, "tension", self.tension, known, self.places[""], over=over, **more)
 
-    def _wound(self, on: Word, known: Connected) -> Deferred[Any]:
-        for name in ("to", "over", "length", "mass_of", "drawn_tension"):
+    def _wound(self, known: Connected) -> Deferred[Any]:
+        for name in ("to", "length", "mass_of", "drawn_tension"):
             if name in self.values_at:
                 message = f"`{name}` has no effect on a string with `wound_on`"
                 rejected("unused-key", message, self.places[name], "leave one of them out")
@@ -374,9 +381,16 @@ class StringKeys(Record):
             rejected(
                 "missing-key", "a string with `wound_on` needs `tension`, the symbol of its tension", self.places[""]
             )
+        if len(self.wound_on) + (self.start is not None) != 2:
+            message = "a string with `wound_on` goes from one place to one round body, or between two round bodies"
+            help_line = "write `from` and one body, or no `from` and two bodies"
+            rejected("missing-key", message, self.places["wound_on"], help_line)
         tension = force_letter(self.tension, known.letters)
-        of = (_end(self.start, known, "from"), material(on, known))
-        return Deferred(wound_string, of, {"tension": tension}, forces=(tension,), place=self.places[""])
+        start = _end(self.start, known, "from") if self.start is not None else None
+        rims = tuple(material(each, known) for each in self.wound_on)
+        over = tuple(_over(each, known) for each in self.over)
+        of = (start, rims if start is None else rims[0])
+        return Deferred(wound_string, of, {"tension": tension, "over": over}, forces=(tension,), place=self.places[""])
 
 
 @dataclass(frozen=True)

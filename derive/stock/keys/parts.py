@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Collection
 from dataclasses import dataclass
 from functools import partial
-from typing import Any
+from typing import Any, TypeVar
 
 from sympy import Dummy, Expr, Integer
 
@@ -22,7 +22,6 @@ from derive.course.schema import (
     key,
     list_of,
     mapping_of,
-    object_schema,
     record_of,
 )
 from derive.course.stock import InLetters, each
@@ -33,6 +32,8 @@ from derive.mechanics.kinematics.places import Location
 from derive.mechanics.model.material import GROUND, MASSLESS
 from derive.stock.keys.deferred import Deferred
 from derive.stock.keys.places import COMPONENTS, PLACE, Places, WrittenPlace, is_letter
+
+T = TypeVar("T")
 
 ONE_OR_MORE_COMPONENTS = as_written(
     {"anyOf": [SCALAR.schema, COMPONENTS.schema]}, "an expression, or a list of components"
@@ -244,18 +245,22 @@ def named_bodies(
     return tuple(map(str, there))
 
 
-def list_of_parts(record: type[Record], what: str) -> Reader[tuple[Any, ...]]:
-    """Return a reader of a list of mappings; a single mapping is also allowed."""
-    one = record_of(record, what, "a mapping")
-    many = list_of(one, f"a list of mappings, {what} each")
+def one_or_list_of(one: Reader[T], wanted: str) -> Reader[tuple[T, ...]]:
+    """Return a reader of a list; a single item is also allowed."""
+    many = list_of(one, wanted)
 
-    def read(node: Tree, name: str, faults: Faults) -> tuple[Any, ...] | None:
+    def read(node: Tree, name: str, faults: Faults) -> tuple[T, ...] | None:
         if isinstance(node, Sequence):
             return many.read(node, name, faults)
         found = one.read(node, name, faults)
         return () if found is None else (found,)
 
-    return Reader({"anyOf": [object_schema(record), many.schema]}, read, tuple)
+    return Reader({"anyOf": [one.schema, many.schema]}, read, tuple)
+
+
+def list_of_parts(record: type[Record], what: str) -> Reader[tuple[Any, ...]]:
+    """Return a reader of a list of mappings; a single mapping is also allowed."""
+    return one_or_list_of(record_of(record, what, "a mapping"), f"a list of mappings, {what} each")
 
 
 PARTICLES = mapping_of(record_of(ParticleKeys, "a particle", "a mapping with `mass` and `at`", "the particle `{}`"))
