@@ -38,7 +38,7 @@ def ordered_terms(expr: Add, moving: Mapping[str, int]) -> list[Expr]:
 
 
 def powers_descending(terms: list[Any]) -> list[Any]:
-    """Sort the terms of a polynomial of three or more terms by descending powers of its unknown: m omega^2 - b omega - k.
+    """Sort the terms of a polynomial of three or more terms by descending powers of its unknown: m w^2 - b w - k.
 
     The unknown is the symbol that has the highest power, if each term has another power of this symbol. The terms of a
     series in the time have ascending powers.
@@ -97,9 +97,10 @@ def _has_root(term: Expr) -> bool:
 def motion_first(terms: list[Any], moving: Mapping[str, int]) -> list[Any]:
     """Sort terms: first those with accelerations, then those with rates, by the order of the coordinates and by powers.
 
-    Among the other terms, those with a coordinate come before constants: m y_ddot + k y - m g. Without accelerations,
-    quadratic terms come before linear ones: x_dot^2 + y_dot^2 + 2 Omega x y_dot. Squares with constant coefficients come
-    before other squares: theta_dot^2 + phi_dot^2 sin^2 theta.
+    Among the other terms, those with a coordinate come before constants, m y_ddot + k y - m g, and first those with a
+    coordinate whose acceleration the sum contains. Without accelerations, quadratic terms come before linear ones:
+    x_dot^2 + y_dot^2 + 2 Omega x y_dot. Squares with constant coefficients come before other squares:
+    theta_dot^2 + phi_dot^2 sin^2 theta.
     """
     rates = sorted(
         {s for term in terms for s in term.free_symbols if _coordinate(s, moving)},
@@ -178,8 +179,8 @@ def _rates_in_order(
 def _coordinates_last(
     factors: list[Expr], dimension_of: Callable[[Any], Dimension | None], moving: Collection[str]
 ) -> list[Expr]:
-    """Write a coordinate, or a sum with coordinates, after a force, a constant sum or a constant frequency: omega_0^2 x,
-    not x omega_0^2."""
+    """Write a coordinate, or a sum with coordinates, after a force, a constant sum or a constant frequency:
+    omega_0^2 x, not x omega_0^2."""
     constant = [not _moves(factor, moving) for factor in factors]
     places = [rank_of_factor(factor, dimension_of)[:2] for factor in factors]
     is_late = [place in LATE and fixed for place, fixed in zip(places, constant, strict=True)]
