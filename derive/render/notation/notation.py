@@ -31,6 +31,7 @@ from sympy import (
     exp,
     fraction,
     oo,
+    pi,
 )
 from sympy.core.function import AppliedUndef
 from sympy.core.numbers import Exp1, ImaginaryUnit, Pi
@@ -205,7 +206,7 @@ class Notation:
             return Fraction(self._factors([*number_above, *letters]), self._factors(number_below))
         if letters and not number_above and self._is_letter_before_functions(letters):
             return self._factors_behind(Fraction(self.layout(letters[0]), self._factors(number_below)), letters[1:])
-        if letters and len(number_above) > 1:  # 4/3 pi a^3, but pi/4 a^2
+        if letters and number_above[1:] == [pi]:  # 4/3 pi a^3, but pi/4 a^2
             number_above, letters = number_above[:1], [*number_above[1:], *letters]
         number = Fraction(self._factors(number_above), self._factors(number_below))
         behind = [self._as_factor(each) for each in letters] if len(letters) == 1 else [self._factors(letters)]

@@ -99,7 +99,7 @@ def motion_first(terms: list[Any], moving: Mapping[str, int]) -> list[Any]:
 
     Among the other terms, those with a coordinate come before constants, m y_ddot + k y - m g, and first those with a
     coordinate whose acceleration the sum contains. Without accelerations, quadratic terms come before linear ones:
-    x_dot^2 + y_dot^2 + 2 Omega x y_dot. Squares with constant coefficients come before other squares:
+    x_dot^2 + y_dot^2 + 2 Omega x y_dot. Squares without functions come before other squares:
     theta_dot^2 + phi_dot^2 sin^2 theta.
     """
     rates = sorted(
@@ -120,7 +120,7 @@ def motion_first(terms: list[Any], moving: Mapping[str, int]) -> list[Any]:
         own = min((accelerated.index(q) for q in here if q in accelerated), default=len(accelerated))
         return (
             not accelerated and sum(powers),
-            only_squares and bool(here),
+            only_squares and term.has(Function),
             *powers,
             not any(term.has(s) for s in rates),
             own,
@@ -181,8 +181,8 @@ def _coordinates_last(
 ) -> list[Expr]:
     """Write a coordinate, or a sum with coordinates, after a force, a constant sum or a constant frequency:
     omega_0^2 x, not x omega_0^2."""
-    constant = [not _moves(factor, moving) for factor in factors]
     places = [rank_of_factor(factor, dimension_of)[:2] for factor in factors]
+    constant = [p == (0, Place.FORCE) or not _moves(f, moving) for f, p in zip(factors, places, strict=True)]
     is_late = [place in LATE and fixed for place, fixed in zip(places, constant, strict=True)]
     last = max((i for i, late in enumerate(is_late) if late), default=0)
     before = [
@@ -229,14 +229,14 @@ def rank_of_factor(factor: Expr, dimension_of: Callable[[Any], Dimension | None]
         is_bare = str(base) == ANGULAR_RATE  # 2 omega_0 omega, because omega is the rate that varies
         return 0, _place_of_letter(base, dimension_of), 0 if is_bare else -1, str(base)
     if isinstance(base, exp):
-        return 0, Place.SWINGING, 1, str(factor)
+        return 0, Place.EXPONENTIAL, 1, str(factor)
     if isinstance(base, Add | ex.Terms):
         place = rank_of_sum(_place_of_term(term, dimension_of) for term in base.args)
         if place is Place.ACCELERATION and not all(term.as_coeff_Mul()[1].is_Symbol for term in base.args):
             place = Place.SUM  # m (g + a) l, but l (l omega^2 + g)
         if place is Place.SUM and base.has(Function):
-            place = Place.SWINGING
-        if all(term.is_number or _is_coefficient(term.as_base_exp()[0]) for term in base.args):
+            place = Place.EXPONENTIAL if base.has(ex.TIME) else Place.SWINGING
+        if all(f.is_number or _is_coefficient(f.as_base_exp()[0]) for term in base.args for f in Mul.make_args(term)):
             place = Place.COEFFICIENT  # (1 + e) m v
         return 0, place, 2 if base.has(Function, ex.TIME) else 0, str(factor)  # e^(-t/T) (cos w t + ...)
     if isinstance(base, Function) and isinstance(base.args[0], Symbol):

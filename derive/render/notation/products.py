@@ -296,9 +296,10 @@ class Place(IntEnum):
     SPEED = auto()  # b v_0^2
     SUM = auto()
     OTHER = auto()  # numbers, momenta
-    FORCE = auto()  # after a coefficient of friction: mu N
     RATE = auto()
-    SWINGING = auto()  # exponential functions, and sums with functions: m l^2 omega^2 (1 - cos a)
+    SWINGING = auto()  # sums with functions: m l^2 omega^2 (1 - cos a)
+    FORCE = auto()  # after a coefficient of friction, and after a sum with functions: mu N, (a - b cos a) F
+    EXPONENTIAL = auto()  # also a sum with functions of the time
     ROOT = auto()
     CHANGING = auto()  # rates of coordinates, and the time: r r_dot, not r_dot r
 
