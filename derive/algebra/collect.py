@@ -18,7 +18,41 @@ LONGEST_PRODUCT = 60  # longest sum (`length`) for which the factored form is tr
 
 
 def by_accelerations(value: Expr, moving: Sequence[Symbol]) -> Expr:
-    return by_rates(value, moving, 2)
+    return with_constants_in_front(by_rates(value, moving, 2), moving)
+
+
+def with_constants_in_front(value: Expr, moving: Sequence[Symbol]) -> Expr:
+    """Write the number, the constants and the functions that all terms have in common in front of a sum, if the number
+    and the constants are the whole coefficient of one term: (2/5) m a^2 (phi_ddot + psi_ddot cos(theta)), but
+    m l^2 theta_ddot + m g l sin(theta)."""
+    terms = Add.make_args(value)
+    if len(terms) < 2:
+        return value
+    letters = {*(rate(q, n) for q in moving for n in range(3)), TIME}
+    numbers = [term.as_coeff_Mul()[0] for term in terms]
+    powers = [_powers(term) for term in terms]
+    constants = [{b: n for b, n in each.items() if not b.free_symbols & letters} for each in powers]
+    shared = {b: min(each[b] for each in constants) for b in constants[0] if all(b in each for each in constants)}
+    number = Rational(igcd(*(n.p for n in numbers)), ilcm(*(n.q for n in numbers)))
+    if not any(abs(n) == number and each == shared for n, each in zip(numbers, constants, strict=True)):
+        return value
+    if not shared and all(n.q == 1 for n in numbers):
+        return value
+    functions = {b: n for b, n in powers[0].items() if isinstance(b, sin | cos) and all(b in each for each in powers)}
+    shared |= {b: min(each[b] for each in powers) for b in functions}
+    number = -number if all(n < 0 for n in numbers) else number
+    common = Mul(number, *(b**n for b, n in shared.items()))
+    return Mul(*Mul.make_args(common), Add(*(term / common for term in terms)), evaluate=False)
+
+
+def _powers(product: Expr) -> dict[Expr, Expr]:
+    """The bases of a product and their powers, without the number; a product may contain products."""
+    found: dict[Expr, Expr] = {}
+    for factor in Mul.make_args(product):
+        inner = _powers(factor) if factor.is_Mul else {} if factor.is_Rational else dict([factor.as_base_exp()])
+        for base, power in inner.items():
+            found[base] = found.get(base, Integer(0)) + power
+    return found
 
 
 def by_rates(value: Expr, moving: Sequence[Symbol], highest: int = 1, halves: bool = False) -> Expr:

@@ -33,6 +33,14 @@ def test_accelerations_stand_first_each_with_one_factor() -> None:
     assert len(Add.make_args(written)) == 3
 
 
+def test_the_coefficient_of_one_term_stands_before_all_terms() -> None:
+    value = -M * a**2 * p_ddot * cos(q) / 2 - M * a**2 * p_dot**2 * sin(q)
+    written = by_accelerations(value, [q])
+    assert written.args[-1] == p_ddot * cos(q) + 2 * p_dot**2 * sin(q)
+    assert equal(written, value)
+    assert by_accelerations(M * a**2 * p_ddot + I * a * sin(q), [q]).is_Add
+
+
 def test_half_of_a_mass_stands_before_its_squared_rate() -> None:
     value = I * p_dot**2 / 2 + M * a**2 * p_dot**2 / 8
     written = by_rates(value, [q], halves=True)

@@ -16,6 +16,7 @@ from derive.render.notation.text import plain
 m, M, k, b = symbols("m M k b", positive=True)
 l, R, a, g = symbols("l R a g", positive=True)
 theta, phi = symbols("theta phi", real=True)
+omega, omega_0 = symbols("omega omega_0", positive=True)
 KINDS = {
     **dict.fromkeys((m, M), "mass"),
     k: "spring constant",
@@ -23,7 +24,7 @@ KINDS = {
     **dict.fromkeys((l, R, a), "length"),
     g: "acceleration",
     **dict.fromkeys((theta, phi), "angle"),
-    **dict.fromkeys((rate(theta), rate(phi)), "angular speed"),
+    **dict.fromkeys((rate(theta), rate(phi), omega, omega_0), "angular speed"),
     rate(l): "speed",
     Symbol("mu"): "number",
     Symbol("e"): "number",
@@ -56,7 +57,23 @@ READS = [
     (k * sqrt(l / g) / m, "k/m √(l/g)"),
     (m * g * cos(sqrt(k / m) * TIME) / k, "m g/k cos(√(k/m) t)"),
     (l * exp(-b * TIME / m) * (cos(TIME) + 1), "l e^(-bt/m) (1 + cos t)"),
-    (l * exp(-b * TIME / m) * (a + R), "l (R + a) e^(-bt/m)"),
+    (l * exp(-b * TIME / m) * (a + R), "(R + a) l e^(-bt/m)"),  # l is a coordinate
+    (R * sin(omega * TIME) / omega_0, "R/ω_0 sin(ω t)"),
+    (R * (1 - cos(omega * TIME)) / omega, "R/ω (1 - cos(ω t))"),
+    (m * cos(phi) * sin(theta) * cos(theta), "m sin θ cos θ cos φ"),
+    (-a + b + m, "b + m - a"),
+    (l * (k - m * omega**2), "(k - m ω²) l"),
+    (m * omega**2 * (l**2 + a**2), "m ω² (a² + l²)"),
+    (m * R**2 * omega**2 * (1 - cos(theta)), "m R² ω² (1 - cos θ)"),
+    (k - b * omega + m * omega**2, "m ω² - b ω + k"),
+    (2 * omega * omega_0, "2ω_0 ω"),
+    (sin(theta) ** 2 * rate(phi) ** 2 + rate(theta) ** 2, "(θ̇)² + (φ̇)² sin² θ"),
+    (-m * a * sqrt(1 - rate(l) ** 2) - k * l**2, "-m a √(1 - (l̇)²) - k l²"),
+    (m * rate(phi, 2) - k * theta + (M + k) * phi, "m φ̈ + (M + k) φ - k θ"),
+    (m * (1 + Symbol("e")) * a, "(1 + e) m a"),
+    (m + M * Symbol("e") ** 2, "m + e² M"),
+    (pi * a**2 * 4 / 3, "4/3 π a²"),
+    (4 * a / (3 * pi), "4a/(3π)"),
     (2 * pi / 3 * sqrt(6) * sqrt(l / g), "2π √(2l/(3g))"),
 ]
 

@@ -22,7 +22,7 @@ from sympy import (
     factorial,
 )
 
-from derive.algebra.collect import by_rates
+from derive.algebra.collect import by_rates, with_constants_in_front
 from derive.algebra.expressions import RATES, TIME, Prescribed, TimeRate, explicit, rate, scalar
 from derive.algebra.kinds import KINDS, dimension_of_kind, kind_of_dimension
 from derive.algebra.taylor import NoSeries, taylor
@@ -253,7 +253,11 @@ def rate_of(quantity: Quantity, key: str | None = None) -> Quantity:
         rate(quantity.symbol),
         lambda x: TimeRate(x, *moving),
         {"quantity": quantity},
-        lines=Lines(put_in=Level.FULL, law=Level.FULL, arranged=lambda value: by_rates(value, moving)),
+        lines=Lines(
+            put_in=Level.FULL,
+            law=Level.FULL,
+            arranged=lambda value: with_constants_in_front(by_rates(value, moving), moving),
+        ),
         routes={"functions_of_time": compared_with(by_time)},
         outcome=lambda value: "zero" if value == 0 else "generic",
         key=key or f"{quantity.key}_rate",

@@ -8,7 +8,14 @@ from typing import Any
 
 from sympy import Add, Expr, Integer, Mul, Pow, Symbol, cos, expand, factor, preorder_traversal, sin, sqrt, tan
 
-from derive.algebra.collect import by_rates, by_terms, spread, with_constants_together, with_weights_in_front
+from derive.algebra.collect import (
+    by_rates,
+    by_terms,
+    spread,
+    with_constants_in_front,
+    with_constants_together,
+    with_weights_in_front,
+)
 from derive.algebra.derivatives import derivative
 from derive.algebra.expressions import (
     TIME,
@@ -27,7 +34,7 @@ from derive.algebra.expressions import (
     stand_in,
 )
 from derive.algebra.length import length
-from derive.algebra.tidy import common_factor, tidied
+from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.placed import PlacedBody
 from derive.mechanics.kinematics.coordinates import by_functions_of_time, rate_of
@@ -512,15 +519,8 @@ def magnetic_term_of(system: System, symbol: str = "L_B", key: str = "magnetic_t
         kind="energy",
         routes={"deflection": deflection},
         outcome="several" if len(matter.fields) > 1 else "alone",
-        lines=Lines(put_in=None, arranged=lambda value: _with_common_factor(by_rates(value, moving))),
+        lines=Lines(put_in=None, arranged=lambda value: with_constants_in_front(by_rates(value, moving), moving)),
         phrase_data=PhraseData(outcome_data={"fields": len(matter.fields)}),
         facts=[matter],
         scope=Scope(coordinates=system.coordinates, about=Subject(body=system)),
     )
-
-
-def _with_common_factor(value: Expr) -> Expr:
-    """Write the common factor of all terms in front: (1/2) q B (x y_dot - y x_dot)."""
-    terms = Add.make_args(value)
-    common = common_factor(list(terms)) if len(terms) > 1 else Integer(1)
-    return value if common == 1 else Mul(common, Add(*(tidied(term / common) for term in terms)), evaluate=False)

@@ -11,7 +11,7 @@ from collections.abc import Collection, Sequence
 
 from sympy import Add, Expr, Integer, Mul, Rational, Symbol, igcd, ilcm
 
-from derive.algebra.collect import by_accelerations, by_rates
+from derive.algebra.collect import by_accelerations, by_rates, with_constants_in_front
 from derive.algebra.expressions import Partial, Relation, Terms, TimeRate, explicit, rate, scalar
 from derive.algebra.length import length
 from derive.algebra.taylor import slope
@@ -297,6 +297,10 @@ GENERALIZED_FORCE = Rule(
 )
 
 
+def _by_velocities(value: Expr, of: Quantity) -> Expr:
+    return with_constants_in_front(by_rates(value, list(of.coordinates)), of.coordinates)
+
+
 def generalized_force(of: Quantity, q: Coordinate, key: str | None = None) -> Quantity:
     """Generalized force of the Lagrangian, dL/dq.
 
@@ -315,7 +319,7 @@ def generalized_force(of: Quantity, q: Coordinate, key: str | None = None) -> Qu
         Partial(of.symbol, q.symbol),
         lambda L: Partial(L, q.symbol),
         {"lagrangian": of},
-        lines=Lines(put_in=None, law=Level.FULL, arranged=lambda value: by_rates(value, list(of.coordinates))),
+        lines=Lines(put_in=None, law=Level.FULL, arranged=lambda value: _by_velocities(value, of)),
         routes=matter.named(
             {
                 "virtual_work": compared_with(
@@ -357,7 +361,7 @@ def generalized_momentum(of: Quantity, q: Coordinate, key: str | None = None) ->
         Partial(of.symbol, q.rate),
         lambda L: Partial(L, q.rate),
         {"lagrangian": of},
-        lines=Lines(put_in=None, law=Level.FULL, arranged=lambda value: by_rates(value, list(of.coordinates))),
+        lines=Lines(put_in=None, law=Level.FULL, arranged=lambda value: _by_velocities(value, of)),
         routes=matter.named({"along_the_motion": compared_with(lambda: matter.momentum_along(q.symbol))}),
         key=key or _key_of(of, f"momentum_{q.symbol.name}"),
         facts=[FromLagrangian(of), OfCoordinate(q)],

@@ -72,7 +72,7 @@ def noether(
 
     def law(*p: Expr) -> Expr:
         carried = [_times(each, x) for each, x in zip(p, xi.values(), strict=True) if x != 0]
-        return Terms(*carried, *(term for term in Add.make_args(-gain) if term != 0))
+        return _positive_first([*carried, *(term for term in Add.make_args(-gain) if term != 0)])
 
     def along_the_shift(found: Expr) -> tuple[Expr, Expr]:
         work = [x * (matter.inertia_along(q) - matter.force_along(q)) for q, x in xi.items()]
@@ -154,7 +154,7 @@ def _change(of: Quantity, xi: Mapping[Symbol, Expr], gain: Expr, key: str) -> Qu
     def law(L: Expr, *_: Expr) -> Relation:
         terms = [_times(Partial(L, s), x) for s, x in ways.items()]
         still = [Partial(L, q) for q, x in xi.items() if x != 0]
-        return Relation(Terms(*(terms or still)), "=", TimeRate(gain, *moving) if gain != 0 else ZERO)
+        return Relation(_positive_first(terms or still), "=", TimeRate(gain, *moving) if gain != 0 else ZERO)
 
     def changed_by(gain: Expr) -> Expr:
         return by_functions_of_time(gain, moving)
@@ -188,7 +188,7 @@ def _worked(L: Expr, ways: Mapping[Symbol, Expr], gain: Expr, moving: Sequence[S
     """Return the line with the derivatives substituted, if the shift changes a coordinate or a rate in L."""
     terms = [_times(by_rates(diff(L, s), moving), x) for s, x in ways.items()]
     right = by_rates(explicit(TimeRate(gain, *moving)), moving)
-    return [Form(Relation(Terms(*terms), "=", right), "put_in", Level.STANDARD)] if terms else []
+    return [Form(Relation(_positive_first(terms), "=", right), "put_in", Level.STANDARD)] if terms else []
 
 
 def _ways(matter: Matter, xi: Mapping[Symbol, Expr]) -> list[tuple[Expr, Expr, Expr]]:
@@ -199,6 +199,11 @@ def _ways(matter: Matter, xi: Mapping[Symbol, Expr]) -> list[tuple[Expr, Expr, E
             way = Add(*(diff(c, q) * x for q, x in xi.items()))
             found.append((point.mass, way, by_functions_of_time(c, matter.coordinates)))
     return found
+
+
+def _positive_first(terms: Sequence[Expr]) -> Expr:
+    """Return the sum of the terms, positive ones first: x p_y - y p_x."""
+    return Terms(*sorted(terms, key=lambda term: bool(term.could_extract_minus_sign())))
 
 
 def _times(derivative: Expr, factor: Expr) -> Expr:

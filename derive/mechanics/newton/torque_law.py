@@ -6,11 +6,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from sympy import Expr, Integer, Symbol
+from sympy import Expr, Integer, Mul, Symbol
 
 from derive.algebra.collect import by_accelerations
 from derive.algebra.expressions import Factors, Relation, Terms, explicit
-from derive.algebra.tidy import tidied
+from derive.algebra.tidy import common_factor, tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.kinematics.coordinates import Coordinate
 from derive.mechanics.model.rigid import inertia_of, is_about_the_point
@@ -131,11 +131,15 @@ def torque_law(
 
 
 def _sum_of_torques(terms: Sequence[Expr], at_rest: bool) -> Expr:
-    """The sum of the torques. If the body is at rest and all terms are negative, all signs are reversed, because the
-    sum is zero."""
-    found = sum_of(terms)
-    negative = all(term.could_extract_minus_sign() for term in explicit(found).as_ordered_terms())
-    return sum_of([-term for term in terms]) if at_rest and negative else found
+    """The sum of the torques, with the length in front that all of them contain: R (S_1 - S_2). If the body is at rest
+    and all terms are negative, all signs are reversed, because the sum is zero."""
+    negative = at_rest and all(term.could_extract_minus_sign() for term in explicit(sum_of(terms)).as_ordered_terms())
+    terms = [tidied(-term if negative else term) for term in terms if term != 0]
+    common = Mul(*(f for f in Mul.make_args(common_factor(terms)) if f.is_Symbol)) if len(terms) > 1 else Integer(1)
+    numbers = {abs(term.as_coeff_Mul()[0]) for term in terms}
+    common *= numbers.pop() if len(numbers) == 1 and common != 1 else Integer(1)
+    inside = sum_of([term / common for term in terms])
+    return Factors(*common.as_ordered_factors(), inside) if common != 1 and isinstance(inside, Terms) else sum_of(terms)
 
 
 def _acting_at(body: Alone, point: About) -> dict[str, Symbol]:

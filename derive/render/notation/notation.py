@@ -31,6 +31,7 @@ from sympy import (
     exp,
     fraction,
     oo,
+    pi,
 )
 from sympy.core.function import AppliedUndef
 from sympy.core.numbers import Exp1, ImaginaryUnit, Pi
@@ -88,6 +89,12 @@ from derive.render.notation.products import (
     under_one_root,
     unit_behind_number,
 )
+
+
+def _swings(factor: Expr) -> bool:
+    """Return whether a factor is a function of the time, or a sum of them: v/omega sin(omega t)."""
+    return any(each.has(ex.TIME) for each in factor.atoms(Function))
+
 
 PRINTED_NAMES = {"acos": "arccos", "asin": "arcsin", "atan": "arctan", "log": "ln"}
 
@@ -186,17 +193,21 @@ class Notation:
         if letters_below:
             bottom = self._factors([*number_below, *self._ordered(letters_below)])
             behind = [f for f in self._ordered(letters_above) if holds_fraction(self.layout(f))]
+            if not below.has(ex.TIME):
+                behind += [f for f in self._ordered(letters_above) if _swings(f) and f not in behind]
             top = self._factors([*number_above, *self._ordered([f for f in letters_above if f not in behind])])
-            return row(Fraction(top, bottom), self._factors(behind)) if behind else Fraction(top, bottom)
+            return row(Fraction(top, bottom), *map(self._as_factor, behind)) if behind else Fraction(top, bottom)
         letters = self._ordered(letters_above)
         if number_below and len(letters) == 1 and isinstance(letters[0], ex.Amount):
             letters = [ex.Group(letters[0])]
         if not number_below:
             return self._factors([*number_above, *letters])
-        if any(isinstance(f, Pow) for f in number_below) and not any(isinstance(f, Add) for f in letters):
+        if not all(f.is_Rational for f in number_below) and not any(isinstance(f, Add) for f in letters):
             return Fraction(self._factors([*number_above, *letters]), self._factors(number_below))
         if letters and not number_above and self._is_letter_before_functions(letters):
             return self._factors_behind(Fraction(self.layout(letters[0]), self._factors(number_below)), letters[1:])
+        if letters and number_above[1:] == [pi]:  # 4/3 pi a^3, but pi/4 a^2
+            number_above, letters = number_above[:1], [*number_above[1:], *letters]
         number = Fraction(self._factors(number_above), self._factors(number_below))
         behind = [self._as_factor(each) for each in letters] if len(letters) == 1 else [self._factors(letters)]
         return row(number, *(within(each, Binding.OPEN) for each in behind)) if letters else number

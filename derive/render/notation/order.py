@@ -10,16 +10,19 @@ from collections.abc import Callable, Collection, Mapping
 from fractions import Fraction
 from typing import Any
 
-from sympy import Add, Expr, Function, Mul, Pow, Rational, Symbol, exp, fraction
+from sympy import Add, Expr, Function, Mul, Pow, Rational, Symbol, cos, exp, fraction
 
 from derive.algebra import expressions as ex
 from derive.algebra.dimensions import Dimension, power, product
 from derive.algebra.kinds import dimension_of_kind
+from derive.render.notation.layout import GREEK_LETTERS
 from derive.render.notation.products import Place, positive_first, rank_of_dimension, rank_of_sum, roots_last
 
 DISPLACEMENT = "eta"  # the name of a displacement from an equilibrium
 RATE_ENDS = ("_ddot", "_dot")  # suffixes of the names of accelerations and of rates
 COEFFICIENTS = ("mu", "e", "beta", "gamma", "epsilon")  # the names of coefficients: 1 + beta, beta m g
+LATE = {(0, place) for place in (Place.SUM, Place.FORCE, Place.RATE)}  # the places of constants before coordinates
+ANGULAR_RATE = "omega"
 RATE_OF_TURNING = dimension_of_kind("angular speed")
 
 
@@ -31,7 +34,29 @@ def ordered_terms(expr: Add, moving: Mapping[str, int]) -> list[Expr]:
     terms = roots_last(expr.as_ordered_terms())
     if expr.has(ex.Amount):  # 0.2 m + 1/2 (0.05 m), like R + a/2
         return positive_first(sorted(terms, key=lambda term: not isinstance(term, ex.Amount)))
-    return positive_first(motion_first(plain_first(terms), moving))
+    return positive_first(motion_first(powers_descending(plain_first(terms)), moving))
+
+
+def powers_descending(terms: list[Any]) -> list[Any]:
+    """Sort the terms of a polynomial of three or more terms by descending powers of its unknown: m w^2 - b w - k.
+
+    The unknown is the symbol that has the highest power, if each term has another power of this symbol. The terms of a
+    series in the time have ascending powers.
+    """
+    if len(terms) < 3:
+        return terms
+    powers: list[Any] = [dict(factor.as_base_exp() for factor in Mul.make_args(term)) for term in terms]
+    letters = {base for each in powers for base in each if isinstance(base, Symbol)}
+    degrees = {letter: [each.get(letter, 0) for each in powers] for letter in letters}
+    highest = {
+        letter: max(found) for letter, found in degrees.items() if all(n.is_Integer for n in map(Rational, found))
+    }
+    most = max(highest.values(), default=0)
+    unknowns = [letter for letter, power in highest.items() if power == most and power > 1]
+    if len(unknowns) != 1 or unknowns == [ex.TIME] or len({*degrees[unknowns[0]]}) < len(terms):
+        return terms
+    place = dict(zip(terms, degrees[unknowns[0]], strict=True))
+    return sorted(terms, key=lambda term: -place[term])
 
 
 def plain_first(terms: list[Any]) -> list[Any]:
@@ -43,7 +68,7 @@ def plain_first(terms: list[Any]) -> list[Any]:
     is_timed = any(term.has(ex.TIME) for term in terms)
     number_first = is_timed or any(_is_coefficient(term.as_base_exp()[0]) for term in terms)
 
-    def place(term: Any) -> tuple[bool, bool, int, bool, bool, bool]:
+    def place(term: Any) -> tuple[bool, bool, int, bool, bool, bool, bool]:
         functions = [f for f in term.atoms(Function) if not isinstance(f, exp)]
         changing = any(f.has(ex.TIME) for f in functions)
         is_fraction = bool(fraction(term, exact=True)[1].free_symbols)
@@ -55,6 +80,7 @@ def plain_first(terms: list[Any]) -> list[Any]:
             is_fraction,
             _has_root(term),
             number_first and not term.is_number,
+            any(_is_coefficient(factor.as_base_exp()[0]) for factor in term.args),  # m_1 + e^2 m_2
         )
 
     return sorted(terms, key=place)
@@ -71,19 +97,38 @@ def _has_root(term: Expr) -> bool:
 def motion_first(terms: list[Any], moving: Mapping[str, int]) -> list[Any]:
     """Sort terms: first those with accelerations, then those with rates, by the order of the coordinates and by powers.
 
-    Among the other terms, those with a coordinate come before constants: m y_ddot + k y - m g.
+    Among the other terms, those with a coordinate come before constants, m y_ddot + k y - m g, and first those with a
+    coordinate whose acceleration the sum contains. Without accelerations, quadratic terms come before linear ones:
+    x_dot^2 + y_dot^2 + 2 Omega x y_dot. Squares without functions come before other squares:
+    theta_dot^2 + phi_dot^2 sin^2 theta.
     """
     rates = sorted(
-        {s for term in terms for s in term.free_symbols if s.name.endswith(RATE_ENDS)},
-        key=lambda s: (not s.name.endswith(RATE_ENDS[0]), moving.get(_coordinate(s), len(moving)), s.name),
+        {s for term in terms for s in term.free_symbols if _coordinate(s, moving)},
+        key=lambda s: (not _is_acceleration(s), moving.get(_coordinate(s, moving), len(moving)), s.name),
     )
+    accelerated = [_coordinate(s, moving) for s in rates if _is_acceleration(s)]
+
+    def degrees(term: Any) -> list[Any]:
+        powers = {f.as_base_exp()[0]: f.as_base_exp()[1] for f in Mul.make_args(term)}
+        return [-powers.get(s, Rational(0)) for s in rates if powers.get(s, Rational(0)).is_Integer]
+
+    def coordinates(term: Any) -> list[str]:
+        return [s.name for s in term.free_symbols if f"{s.name}{RATE_ENDS[1]}" in moving]
 
     def place(term: Any) -> tuple[Any, ...]:
-        powers = {f.as_base_exp()[0]: f.as_base_exp()[1] for f in Mul.make_args(term)}
-        degrees = (-powers.get(s, Rational(0)) for s in rates if powers.get(s, Rational(0)).is_Integer)
-        return (*degrees, not any(f"{s.name}{RATE_ENDS[1]}" in moving for s in term.free_symbols))
+        powers, here = degrees(term), coordinates(term)
+        own = min((accelerated.index(q) for q in here if q in accelerated), default=len(accelerated))
+        return (
+            not accelerated and sum(powers),
+            only_squares and term.has(Function),
+            *powers,
+            not any(term.has(s) for s in rates),
+            own,
+            not here,
+        )
 
-    if any(isinstance(term, Symbol) and term.name.endswith(RATE_ENDS[0]) for term in terms):
+    only_squares = not accelerated and all(n in (0, -2) for term in terms for n in degrees(term))
+    if any(isinstance(term, Symbol) and _is_acceleration(term) for term in terms):
         return sorted(terms, key=place)
     # y + 7 x_dot/(2 Omega): a coordinate by itself is first, except in an equation of motion
     alone = [term for term in terms if isinstance(term, Symbol) and f"{term.name}{RATE_ENDS[1]}" in moving]
@@ -94,9 +139,16 @@ def holds_rates(expr: Expr) -> bool:
     return any(s.name.endswith(RATE_ENDS) for s in expr.free_symbols)
 
 
-def _coordinate(letter: Symbol) -> str:
+def _is_acceleration(letter: Symbol) -> bool:
+    return bool(letter.name.endswith(RATE_ENDS[0]))
+
+
+def _coordinate(letter: Symbol, moving: Collection[str] = ()) -> str:
+    """Return the name of the coordinate of a rate or of a momentum; an empty string for any other symbol."""
     name: str = letter.name
-    return next(name.removesuffix(end) for end in RATE_ENDS if name.endswith(end))
+    found = next((name.removesuffix(end) for end in RATE_ENDS if name.endswith(end)), "")
+    momentum = name.removeprefix("p_")
+    return found or (momentum if momentum != name and f"{momentum}{RATE_ENDS[1]}" in moving else "")
 
 
 def ordered_factors(
@@ -127,15 +179,23 @@ def _rates_in_order(
 def _coordinates_last(
     factors: list[Expr], dimension_of: Callable[[Any], Dimension | None], moving: Collection[str]
 ) -> list[Expr]:
-    """Write a coordinate after a force or a constant frequency: omega_0^2 x, not x omega_0^2."""
-    ranks = [rank_of_factor(factor, dimension_of) for factor in factors]
-    last = max((i for i, rank in enumerate(ranks) if rank[1] in (Place.FORCE, Place.RATE)), default=0)
+    """Write a coordinate, or a sum with coordinates, after a force, a constant sum or a constant frequency:
+    omega_0^2 x, not x omega_0^2."""
+    places = [rank_of_factor(factor, dimension_of)[:2] for factor in factors]
+    constant = [p == (0, Place.FORCE) or not _moves(f, moving) for f, p in zip(factors, places, strict=True)]
+    is_late = [place in LATE and fixed for place, fixed in zip(places, constant, strict=True)]
+    last = max((i for i, late in enumerate(is_late) if late), default=0)
     before = [
-        factor
-        for factor, rank in zip(factors[:last], ranks, strict=False)
-        if rank[1] is not Place.RATE and f"{factor.as_base_exp()[0]}{RATE_ENDS[1]}" in moving
+        f for f, place, fixed in zip(factors[:last], places, constant, strict=False) if not fixed and not place[0]
     ]
     return [*(f for f in factors[: last + 1] if f not in before), *before, *factors[last + 1 :]] if before else factors
+
+
+def _moves(factor: Expr, moving: Collection[str]) -> bool:
+    """Return whether a factor contains a coordinate, a rate or the time."""
+    return any(
+        s == ex.TIME or s.name.endswith(RATE_ENDS) or f"{s.name}{RATE_ENDS[1]}" in moving for s in factor.free_symbols
+    )
 
 
 def _cyclic(factors: list[Expr], dimension_of: Callable[[Any], Dimension | None]) -> list[Expr]:
@@ -155,7 +215,10 @@ def _cyclic(factors: list[Expr], dimension_of: Callable[[Any], Dimension | None]
 
 
 def rank_of_factor(factor: Expr, dimension_of: Callable[[Any], Dimension | None]) -> tuple[int, int, int, str]:
-    """Return the rank by which factors are sorted: first symbols in the order of `Place`, then functions."""
+    """Return the rank by which factors are sorted: first symbols in the order of `Place`, then functions.
+
+    Functions are in the Greek order of their angles, and the sine of an angle precedes its cosine: sin a cos a sin b.
+    """
     is_root = isinstance(factor, ex.Root) or isinstance(factor, Pow) and factor.exp.is_Rational and factor.exp.q == 2
     base = factor.base if isinstance(factor, Pow) and factor.exp.is_Rational else factor
     if is_root and not base.has(Function):
@@ -163,16 +226,28 @@ def rank_of_factor(factor: Expr, dimension_of: Callable[[Any], Dimension | None]
     if isinstance(base, Symbol | ex.Amount):
         if isinstance(base, Symbol) and (base.name.endswith(RATE_ENDS) or base == ex.TIME):
             return 0, Place.CHANGING, 0, str(base)
-        return 0, _place_of_letter(base, dimension_of), -1, str(base)
+        is_bare = str(base) == ANGULAR_RATE  # 2 omega_0 omega, because omega is the rate that varies
+        return 0, _place_of_letter(base, dimension_of), 0 if is_bare else -1, str(base)
     if isinstance(base, exp):
-        return 0, Place.SUM, 1, str(factor)
+        return 0, Place.EXPONENTIAL, 1, str(factor)
     if isinstance(base, Add | ex.Terms):
         place = rank_of_sum(_place_of_term(term, dimension_of) for term in base.args)
         if place is Place.ACCELERATION and not all(term.as_coeff_Mul()[1].is_Symbol for term in base.args):
             place = Place.SUM  # m (g + a) l, but l (l omega^2 + g)
-        swings = base.has(Function, ex.TIME)  # e^(-t/T) (cos w t + ...), but (a + b) e^(-t/T)
-        return 0, place, 2 if swings else 0, str(factor)
-    return 2 if isinstance(base, ex.Group) else 1, 0, 0, str(factor)
+        if place is Place.SUM and base.has(Function):
+            place = Place.EXPONENTIAL if base.has(ex.TIME) else Place.SWINGING
+        if all(f.is_number or _is_coefficient(f.as_base_exp()[0]) for term in base.args for f in Mul.make_args(term)):
+            place = Place.COEFFICIENT  # (1 + e) m v
+        return 0, place, 2 if base.has(Function, ex.TIME) else 0, str(factor)  # e^(-t/T) (cos w t + ...)
+    if isinstance(base, Function) and isinstance(base.args[0], Symbol):
+        return 1, _greek_place(base.args[0]), isinstance(base, cos), str(factor)
+    return 2 if isinstance(base, ex.Group) else 1, len(GREEK_LETTERS), 0, str(factor)
+
+
+def _greek_place(letter: Symbol) -> int:
+    names = list(GREEK_LETTERS)
+    name = letter.name.partition("_")[0]
+    return names.index(name) if name in names else -1
 
 
 def _place_of_letter(letter: Expr, dimension_of: Callable[[Any], Dimension | None]) -> Place:

@@ -156,14 +156,13 @@ def roots_last(terms: list[Any]) -> list[Any]:
 
 
 def positive_first(terms: list[Any]) -> list[Any]:
-    """Put the first positive term before the others: c^2 - a^2, not -a^2 + c^2. A term with both signs is not moved:
-    -beta +- i omega."""
-    if terms and sign_and_size(terms[0])[0] is MINUS:
-        others = (term for term in terms if ex.PLUS_MINUS not in term.free_symbols)
-        first = next((term for term in others if sign_and_size(term)[0] is not MINUS), None)
-        if first is not None:
-            return [first, *(term for term in terms if term is not first)]
-    return terms
+    """If the first term is negative, put the positive terms before the others: b + c - a, not -a + b + c. A term with
+    both signs is not moved: -beta +- i omega."""
+    if not terms or sign_and_size(terms[0])[0] is not MINUS:
+        return terms
+    others = [term for term in terms if ex.PLUS_MINUS not in term.free_symbols]
+    positive = [term for term in others if sign_and_size(term)[0] is not MINUS]
+    return [*positive, *(term for term in terms if term not in positive)]
 
 
 def number_and_letters(expr: Expr) -> tuple[list[Expr], list[Expr]]:
@@ -297,8 +296,10 @@ class Place(IntEnum):
     SPEED = auto()  # b v_0^2
     SUM = auto()
     OTHER = auto()  # numbers, momenta
-    FORCE = auto()  # after a coefficient of friction: mu N
     RATE = auto()
+    SWINGING = auto()  # sums with functions: m l^2 omega^2 (1 - cos a)
+    FORCE = auto()  # after a coefficient of friction, and after a sum with functions: mu N, (a - b cos a) F
+    EXPONENTIAL = auto()  # also a sum with functions of the time
     ROOT = auto()
     CHANGING = auto()  # rates of coordinates, and the time: r r_dot, not r_dot r
 
