@@ -32,17 +32,22 @@ def with_constants_in_front(value: Expr, moving: Sequence[Symbol]) -> Expr:
     numbers = [term.as_coeff_Mul()[0] for term in terms]
     powers = [_powers(term) for term in terms]
     constants = [{b: n for b, n in each.items() if not b.free_symbols & letters} for each in powers]
-    shared = {b: min(each[b] for each in constants) for b in constants[0] if all(b in each for each in constants)}
+    shared = _shared(constants)
     number = Rational(igcd(*(n.p for n in numbers)), ilcm(*(n.q for n in numbers)))
     if not any(abs(n) == number and each == shared for n, each in zip(numbers, constants, strict=True)):
         return value
     if not shared and all(n.q == 1 for n in numbers):
         return value
-    functions = {b: n for b, n in powers[0].items() if isinstance(b, sin | cos) and all(b in each for each in powers)}
-    shared |= {b: min(each[b] for each in powers) for b in functions}
+    shared |= {b: n for b, n in _shared(powers).items() if isinstance(b, sin | cos)}
     number = -number if all(n < 0 for n in numbers) else number
     common = Mul(number, *(b**n for b, n in shared.items()))
     return Mul(*Mul.make_args(common), Add(*(term / common for term in terms)), evaluate=False)
+
+
+def _shared(powers: Sequence[dict[Expr, Expr]]) -> dict[Expr, Expr]:
+    """The bases that all terms have, with the least power; a symbolic power must be the same in all terms."""
+    found = {base: {each[base] for each in powers} for base in powers[0] if all(base in each for each in powers)}
+    return {base: min(of) for base, of in found.items() if len(of) == 1 or all(n.is_Rational for n in of)}
 
 
 def _powers(product: Expr) -> dict[Expr, Expr]:

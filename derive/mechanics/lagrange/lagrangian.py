@@ -298,7 +298,7 @@ GENERALIZED_FORCE = Rule(
 
 
 def _by_velocities(value: Expr, of: Quantity) -> Expr:
-    return with_constants_in_front(by_rates(value, list(of.coordinates)), of.coordinates)
+    return with_constants_in_front(by_rates(value, list(of.coordinates)), list(of.coordinates))
 
 
 def generalized_force(of: Quantity, q: Coordinate, key: str | None = None) -> Quantity:

@@ -95,7 +95,7 @@ def conjugate_momentum(of: Quantity, q: Coordinate, symbol: str | None = None, k
 
 def written_momentum(value: Expr, of: Quantity) -> Expr:
     """Collect a momentum by rates; for a given Lagrangian, simplify each term instead if the result is shorter."""
-    forms = [with_constants_in_front(by_rates(value, list(of.coordinates)), of.coordinates)]
+    forms = [with_constants_in_front(by_rates(value, list(of.coordinates)), list(of.coordinates))]
     if energies_of(of) is None:
         forms.append(Add(*(tidied(term) for term in Add.make_args(explicit(value)))))
     return shortest(forms)
