@@ -12,10 +12,10 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from derive.building.printed import Wanted, printed
+from derive.building.derivations import Solved
+from derive.building.pages import Wanted, printed
 from derive.building.solution import derived
-from derive.building.solved import Solved
-from derive.cli.asked import found_root, problem_id_of
+from derive.cli.problem_ids import found_root, problem_id_of
 from derive.course.problem import Problem, load_problem
 from derive.errors import Complaint, Misused, did_you_mean
 from derive.page.signs import name_before, sign_before, sign_behind_name

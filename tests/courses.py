@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from derive.building.cache import Cache
+from derive.building.derivations import Solved, steps_key
 from derive.building.solution import rendered
-from derive.building.solved import Solved, steps_key
 from derive.course.problem import Problem, load_problem
 from derive.render.rendered import Rendered
 

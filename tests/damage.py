@@ -25,7 +25,7 @@ from typing import Any
 from derive.audit.auditing import Audit, audited
 from derive.audit.claims import Claim, Outcome
 from derive.audit.fingerprint import differ, fingerprint
-from derive.audit.near import letters_in
+from derive.audit.nearest_change import letters_in
 from derive.documents.layout import read_document
 from derive.documents.source import Format, source_of
 

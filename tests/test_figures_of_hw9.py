@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 from derive.algebra.expressions import explicit
-from derive.building.drawn import HEIGHT, WIDTH, numbers_of
+from derive.building.drawings import HEIGHT, WIDTH, numbers_of
 from derive.course.problem import Problem
 from derive.figures.annotations import Cone
 from derive.figures.marks import Drawing

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from derive.preview.asking import Warm
+from derive.preview.worker_control import Warm
 from tests.courses import ROOT, course_in
 
 TEXTS = ("Makefile", "README.md", "CONTRIBUTING.md", ".ci/run", ".pre-commit-config.yaml", "pyproject.toml")

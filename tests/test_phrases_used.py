@@ -20,7 +20,7 @@ from typing import Any
 import pytest
 import yaml
 
-from derive.building import printed
+from derive.building import pages
 from derive.errors import DeriveError
 from derive.page.phrasebook import Phrase, read_phrases
 from derive.page.wording import Phrases
@@ -117,7 +117,7 @@ def used_by(page: str, folder: Path) -> set[str]:
                 (root / "problems" / sort / script.name).symlink_to(script)
     noted = noted_phrases()
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(printed, "phrases", lambda *_: noted)
+        patch.setattr(pages, "phrases", lambda *_: noted)
         for level in (detail,) if detail else (None, "full"):
             rendered_once(root, problem_id, level, only={"text"})
     return {key for key in noted.used if key.partition(".")[0] in OF_PAGES}

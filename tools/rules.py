@@ -11,8 +11,8 @@ from itertools import groupby
 from pathlib import Path
 
 import derive.mechanics
-import derive.mechanics.observations.chosen
-import derive.steps.defined
+import derive.mechanics.observations.selection
+import derive.steps.definitions
 import derive.steps.numeric
 from derive.mechanics.in_results import RESULT_VERBS
 from derive.steps.rule import CHECK, ROUTE, Rule

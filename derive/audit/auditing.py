@@ -13,16 +13,16 @@ from time import process_time
 import sympy
 from sympy import MatrixBase, Symbol
 
-from derive.audit.assumed import Assumed
+from derive.audit.assumptions import Assumed
 from derive.audit.claims import Claim, Definition, Outcome, Verdict
 from derive.audit.deciding import Decision, counterexample, same
 from derive.audit.dimensions import odd_claim
 from derive.audit.expected import Compared, Expected, compared
-from derive.audit.known import ASSUMED, Known
-from derive.audit.limited import FAULTS, LimitReached, time_limited
-from derive.audit.near import Nearness, letters_in, terms_in
+from derive.audit.knowledge import ASSUMED, Known
+from derive.audit.nearest_change import Nearness, letters_in, terms_in
 from derive.audit.slips import WHY, Edit, nearest_edit
 from derive.audit.systems import expanded, root_equation
+from derive.audit.time_limit import FAULTS, LimitReached, time_limited
 from derive.documents.choices import Choice, readings
 from derive.documents.facts import Facts, Identity, facts_of, shape_of
 from derive.documents.layout import Cue, Document, Row, Statement

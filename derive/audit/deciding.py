@@ -18,7 +18,7 @@ from sympy import Abs, Expr, Integer, Integral, MatrixBase, Rational, Symbol
 from derive.algebra.equality import Grade, equal
 from derive.audit.claims import Claim, Outcome, Verdict
 from derive.audit.fingerprint import differ, fingerprint
-from derive.audit.known import Known
+from derive.audit.knowledge import Known
 from derive.audit.systems import System, equations_of, expanded, lagrange_equations, root_equation, vanishes
 from derive.documents.facts import ANGLES
 from derive.documents.layout import Cue

@@ -16,8 +16,8 @@ from sympy import Expr, MatrixBase, Symbol
 
 from derive.audit.claims import Claim, Outcome, Verdict
 from derive.audit.deciding import Decision, is_multiple, same
-from derive.audit.known import Known
-from derive.audit.limited import FAULTS, LimitReached, time_limited
+from derive.audit.knowledge import Known
+from derive.audit.time_limit import FAULTS, LimitReached, time_limited
 from derive.documents.choices import readings
 from derive.documents.facts import Facts
 from derive.documents.layout import read_document

@@ -13,8 +13,8 @@ from functools import lru_cache
 from sympy import Expr, Mul, Symbol, expand, factor_terms
 
 from derive.audit.fingerprint import at, number_of, size_at
-from derive.audit.limited import FAULTS
 from derive.audit.systems import Equation
+from derive.audit.time_limit import FAULTS
 from derive.documents.meaning import Meaning
 
 STEPS = 12  # the most steps of Newton's method

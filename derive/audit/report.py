@@ -11,7 +11,7 @@ from typing import Any
 from derive.audit.auditing import Audit
 from derive.audit.claims import Claim, Outcome, Verdict
 from derive.audit.expected import Compared, Status
-from derive.audit.known import ASSUMED
+from derive.audit.knowledge import ASSUMED
 from derive.errors import Complaint, Place
 
 WORDS = {

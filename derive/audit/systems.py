@@ -14,9 +14,9 @@ import sympy
 from sympy import Expr, Integral, Poly, Symbol
 
 from derive.audit.fingerprint import CLOSE, is_zero
-from derive.audit.known import LAST_EQUATIONS, Known
-from derive.audit.limited import FAULTS
+from derive.audit.knowledge import LAST_EQUATIONS, Known
 from derive.audit.numeric import Numbers, at, determined, spanned
+from derive.audit.time_limit import FAULTS
 from derive.documents.meaning import Meaning
 from derive.documents.source import Span
 from derive.documents.syntax import Letter

@@ -11,7 +11,7 @@ from derive.course.yaml_tree import abridged
 from derive.errors import DeriveError
 from derive.render.notation.notation import Notation
 from derive.render.notation.text import plain
-from derive.render.printing.said import named_result
+from derive.render.printing.text_blocks import named_result
 from derive.steps.derivation import returned_quantities, with_ancestors
 from derive.steps.homogeneity import dimension_table
 from derive.steps.record import Run

@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any
 
 from derive import FOLDER
-from derive.building import signed
+from derive.building import signatures
 from derive.building.files import shown_path
 from derive.errors import BuildFailed, Complaint
 
@@ -38,7 +38,7 @@ def digest(*parts: str | bytes) -> str:
 def file_digest(path: Path) -> str:
     """Return the digest of the file's content, or an empty text if the file is missing or cannot be read."""
     try:
-        return digest(signed.regular_content(path))
+        return digest(signatures.regular_content(path))
     except OSError:
         return ""
 
@@ -91,7 +91,7 @@ class Cache:
         """Return the content stored under the key, or None."""
         if self.folder is None or self.fresh:
             return None
-        content = signed.read_signed(self.folder / key, key)
+        content = signatures.read_signed(self.folder / key, key)
         if content is not None:
             with suppress(OSError):  # the file may belong to another user
                 os.utime(self.folder / key, follow_symlinks=False)
@@ -99,12 +99,12 @@ class Cache:
 
     def get_data(self, key: str) -> Any:
         """Return the JSON data stored under the key, or None."""
-        return signed.data_of(self.get(key))
+        return signatures.data_of(self.get(key))
 
     def keep(self, key: str, content: bytes) -> None:
         if self.folder is not None:
             try:
-                signed.write_signed(self.folder / key, key, content)
+                signatures.write_signed(self.folder / key, key, content)
             except BuildFailed as refused:  # the next build must do this work again, but this build succeeds
                 self.unkept.append(not_kept(refused.complaints[0], self.folder))
 

@@ -22,10 +22,10 @@ from typing import Any
 from derive.building.cache import Cache, digest, file_digest, folder_digest
 from derive.building.class_record import ClassRecord
 from derive.building.cluster import Cluster
+from derive.building.document_list import list_again
 from derive.building.files import folder, shown_path, write
 from derive.building.lock import locked
 from derive.building.manifest import Manifest
-from derive.building.papers import list_again
 from derive.building.preload import preload
 from derive.building.recipe import recipe_digest, recipe_of, stated_by
 from derive.building.set_names import set_folder
@@ -340,8 +340,8 @@ def _documents_of(shared: ClassDocuments, students: Sequence[Student]) -> list[M
 def _documents_of_one(shared: ClassDocuments, student: Student) -> Made:
     from derive.building.set_document import document_page, the_document
     from derive.building.solution import rendered
+    from derive.course.problem_file import written_problem
     from derive.course.variants import chosen_for
-    from derive.course.written import written_problem
     from derive.render.notation.latex import unprintable
 
     if shared.answers(student) is not None:

@@ -9,7 +9,7 @@ from derive.building.solution import derived
 from derive.course.problem import load_problem
 from derive.render.notation.latex import latex
 from derive.render.notation.notation import Notation
-from derive.render.printing.said import named_result
+from derive.render.printing.text_blocks import named_result
 from derive.steps.homogeneity import dimension_table
 
 

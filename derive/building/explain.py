@@ -18,7 +18,7 @@ from derive.page.template import templates_of
 from derive.page.wording import Phrases, phrases
 from derive.render.notation.notation import Notation
 from derive.render.notation.text import plain
-from derive.render.printing.said import named_result
+from derive.render.printing.text_blocks import named_result
 from derive.render.printing.text_page import inline_text
 from derive.steps.derivation import standing_in
 from derive.steps.homogeneity import dimension_table

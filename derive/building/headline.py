@@ -6,10 +6,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from derive.course.parts import POINTS, Question, points_in_all, points_text
+from derive.course.problem_file import ProblemKeys, written_problem
 from derive.course.problem_set import language_of, mapping_in, path_of
 from derive.course.prose import Prose, TexFormula
 from derive.course.schema import check_keys, keys_of
-from derive.course.written import ProblemKeys, written_problem
 from derive.course.yaml_tree import Mapping, Sequence, Tree
 from derive.errors import DeriveError, Faults
 

@@ -13,7 +13,7 @@ from dataclasses import asdict, dataclass, field, fields
 from pathlib import Path
 from typing import Any
 
-from derive.building import signed
+from derive.building import signatures
 from derive.building.cache import digest, file_digest
 from derive.building.recipe import OPTIONS, Recipe, of_documents, recipe_digest
 from derive.course.names import INDEX, ON_A_PAGE, SHEET, STUDENTS
@@ -50,14 +50,14 @@ class Manifest:
     @classmethod
     def read(cls, folder: Path) -> Manifest:
         """Return the record of this folder; an empty record if there is none, or if the record was altered."""
-        recorded = signed.data_of(signed.read_signed(folder / ".manifest.json", _record_of(folder)))
+        recorded = signatures.data_of(signatures.read_signed(folder / ".manifest.json", _record_of(folder)))
         return cls(folder, **recorded) if _is_record(recorded) else cls(folder)
 
     def save(self) -> None:
         used = {*self.made_by.values(), *self.typeset_by.values()}
         self.recipes = {key: recipe for key, recipe in self.recipes.items() if key in used}
         recorded = {name: value for name, value in asdict(self).items() if name != "folder"}
-        signed.write_signed(self.folder / ".manifest.json", _record_of(self.folder), json.dumps(recorded).encode())
+        signatures.write_signed(self.folder / ".manifest.json", _record_of(self.folder), json.dumps(recorded).encode())
 
     def remove(self, output: str) -> None:
         """Remove an output if it is a file of this folder and has not changed since the build wrote it."""

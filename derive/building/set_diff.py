@@ -14,8 +14,8 @@ from derive.building.manifest import Manifest
 from derive.building.revision import course_at
 from derive.building.set_names import check_asked, set_folder
 from derive.course.parts import points_text
+from derive.course.problem_file import written_problem
 from derive.course.problem_set import problem_set
-from derive.course.written import written_problem
 from derive.errors import Complaint, Faults, Misused
 
 Points = Mapping[str, Fraction | None]  # points of each problem of a set, in order

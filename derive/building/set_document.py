@@ -10,7 +10,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from derive.building.papers import Paper
+from derive.building.document_list import Paper
 from derive.course.names import LOGO, MORE, REPORT, SHEET, SOLUTIONS
 from derive.course.parts import points_text
 from derive.course.problem_set import ProblemSet
@@ -21,7 +21,7 @@ from derive.render.notation.latex import unprintable
 from derive.render.printing.figure_numbers import equations_numbered, numbered_in_a_row
 from derive.render.printing.latex_page import dotted, whole_latex
 from derive.render.printing.templates import HTML, filled_html
-from derive.render.printing.told_once import told_once
+from derive.render.printing.theorems_once import told_once
 from derive.render.rendered import Html, Rendered, Tex
 from derive.steps.level import Level
 

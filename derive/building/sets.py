@@ -38,7 +38,7 @@ from derive.building.recipe import (
 )
 from derive.building.scratch import sweep
 from derive.building.set_names import check_asked, set_folder
-from derive.building.signed import regular_content
+from derive.building.signatures import regular_content
 from derive.building.staleness import left_older
 from derive.building.tex import (
     Engine,
@@ -385,7 +385,7 @@ class _Build:
         """Make the documents of the set, if all its problems are derived and nothing has failed."""
         if len(self.derived) < len(self.names) or self.result.failed:
             return
-        from derive.building.papers import papers, papers_of, there_of
+        from derive.building.document_list import papers, papers_of, there_of
         from derive.building.set_document import document_page, index_page, the_document
 
         parts = [self.derived[name] for name in self.names]

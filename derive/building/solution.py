@@ -18,8 +18,8 @@ from derive.algebra.expressions import IN_DEGREES, Amount, Relation
 from derive.algebra.kinds import dimension_of_kind, unit_of_dimension, unit_of_kind
 from derive.building.cache import NO_CACHE, Cache
 from derive.building.calls import calls_of
-from derive.building.printed import Wanted, printed, rubric_of
-from derive.building.solved import Solved, steps_key
+from derive.building.derivations import Solved, steps_key
+from derive.building.pages import Wanted, printed, rubric_of
 from derive.course.names import EvidenceShown
 from derive.course.parts import Question
 from derive.course.problem import Problem, problem_and_faults, run_solve

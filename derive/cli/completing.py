@@ -11,7 +11,7 @@ import json
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
-from derive.cli.asked import found_root, problem_id_of
+from derive.cli.problem_ids import found_root, problem_id_of
 from derive.errors import DeriveError
 
 _NOT_PROBLEMS = ("set", "reference")

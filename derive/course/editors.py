@@ -5,11 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+from derive.course.problem_file import SCRIPT, ProblemKeys
 from derive.course.problem_set import CourseKeys, SetKeys
 from derive.course.reference.keys import DocumentKeys, GroupKeys, OwnKeys
 from derive.course.schema import LEFT_EMPTY, object_schema, schema_for_editors
 from derive.course.stock import stock_names, stock_script
-from derive.course.written import SCRIPT, ProblemKeys
 
 
 def problem_schema() -> str:

@@ -14,8 +14,8 @@ from xml.etree import ElementTree
 
 from derive.course.names import NAME
 from derive.course.placement import Placement, width_of
+from derive.course.problem_file import FigureKeys
 from derive.course.prose import Prose
-from derive.course.written import FigureKeys
 from derive.course.yaml_tree import Word
 from derive.errors import Faults, Place
 

@@ -11,9 +11,9 @@ from sympy import Expr, Symbol
 from derive.algebra.expressions import scalar
 from derive.course.expression import Declared
 from derive.course.given import Measured, read_end, read_numbers, read_value
+from derive.course.problem_file import MARKS_OF_BODY, DrawingKeys, MarkKeys
 from derive.course.prose import Prose
 from derive.course.schema import wrong_type
-from derive.course.written import MARKS_OF_BODY, DrawingKeys, MarkKeys
 from derive.course.yaml_tree import Formula, Scalar, Tree, Word
 from derive.errors import Faults, Place, did_you_mean, rejected
 

@@ -24,14 +24,15 @@ from derive.algebra.expressions import IN_DEGREES, Amount, Relation, explicit
 from derive.algebra.kinds import Asked, about_kind, unit_of_kind
 from derive.algebra.order import Order, in_order
 from derive.algebra.ranges import Range, within
-from derive.course.assumed import Assumed, check_assumed, narrowed, order_of
-from derive.course.declared import declared_letters
-from derive.course.defined import Defined, read_defined
+from derive.course.assumptions import Assumed, check_assumed, narrowed, order_of
+from derive.course.declarations import declared_letters
+from derive.course.definitions import Defined, read_defined
 from derive.course.expression import Declared
 from derive.course.given import Given, Measured, read_givens, read_numbers, value_in_prose
 from derive.course.own_figure import OwnFigure, read_figure
 from derive.course.parts import Question
 from derive.course.placement import Placement, case_label, placements
+from derive.course.problem_file import MARKS_OF_BODY, SCRIPT, LimitKeys, ProblemKeys, SortOfLetter, written_problem
 from derive.course.problem_set import form_of_set, path_of
 from derive.course.prose import Prose
 from derive.course.schema import THE_KEYS_ARE, read_record
@@ -39,10 +40,9 @@ from derive.course.script import Parameter, Script, imported_script, run
 from derive.course.stock import Described, Methods, StockScript, stock_names, stock_script
 from derive.course.unused import unused_in
 from derive.course.variants import Chosen, Variation
-from derive.course.written import MARKS_OF_BODY, SCRIPT, LimitKeys, ProblemKeys, SortOfLetter, written_problem
 from derive.course.yaml_tree import Mapping, Tree, Word, abridged, as_text
 from derive.errors import Complaint, Faults, Place, did_you_mean, nearest
-from derive.steps.defined import define
+from derive.steps.definitions import define
 from derive.steps.record import Run, assume, recorded
 
 DEFAULT_FIGURES = 4

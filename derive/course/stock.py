@@ -19,7 +19,7 @@ from derive import FOLDER
 from derive.algebra.dimensions import NUMBER, Dimension
 from derive.algebra.expressions import RATES, TIME, depends_on_time
 from derive.algebra.kinds import about_kind, dimension_of_kind, kind_with_article, named, unit_of_kind
-from derive.course.assumed import Assumed
+from derive.course.assumptions import Assumed
 from derive.course.expression import Declared, read_expression
 from derive.course.given import Given, Measured, NumbersAsLetters
 from derive.course.placement import Placement

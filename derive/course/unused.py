@@ -9,9 +9,9 @@ from collections.abc import Mapping as Table
 from derive.algebra.expressions import TIME
 from derive.course.given import Given, Measured
 from derive.course.placement import HIDDEN
+from derive.course.problem_file import DrawingKeys, ProblemKeys, SortOfLetter
 from derive.course.prose import Prose
 from derive.course.stock import Described
-from derive.course.written import DrawingKeys, ProblemKeys, SortOfLetter
 from derive.course.yaml_tree import Mapping, Scalar, Sequence, Tree, Word
 from derive.errors import Complaint
 

@@ -18,7 +18,7 @@ from sympy import Add, Expr, Integer, MatrixBase, Rational, Symbol, diff
 from derive.algebra.dimensions import NUMBER, Dimension, exponents
 from derive.algebra.expressions import PLUS_MINUS, TIME, rate
 from derive.algebra.kinds import Inhomogeneous, kind_with_article, named
-from derive.audit.limited import FAULTS
+from derive.audit.time_limit import FAULTS
 from derive.grading.key import Key, Target
 from derive.grading.outcomes import Outcome, Verdict
 from derive.grading.reading import Read

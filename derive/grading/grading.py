@@ -13,8 +13,8 @@ from sympy import Abs, Expr, Matrix, MatrixBase, Symbol
 from derive.algebra.expressions import PLUS_MINUS, Relation
 from derive.algebra.order import in_order
 from derive.algebra.ranges import within
-from derive.audit.limited import FAULTS, LimitReached, time_limited
 from derive.audit.slips import nearest_edit
+from derive.audit.time_limit import FAULTS, LimitReached, time_limited
 from derive.documents.meaning import Meaningless
 from derive.documents.source import Source, Span
 from derive.documents.syntax import Letter, Node, Num
@@ -25,10 +25,10 @@ from derive.grading.key import Key, Number, Part, Target
 from derive.grading.names import parts_of
 from derive.grading.outcomes import Outcome, Verdict, best_of, share_of
 from derive.grading.reading import Read, Reader, ReadStatement
+from derive.grading.reading_latex import RELATIONS, latex_of
 from derive.grading.relations import angle_of, give_the_same, verdict_on_equation_for, verdict_on_relation
-from derive.grading.shown import RELATIONS, latex_of
 from derive.grading.structure import are_equal, are_surely_equal
-from derive.grading.typed import TypedStatement, Unread, typed
+from derive.grading.typed_text import TypedStatement, Unread, typed
 
 EQUALS = ("=", "~", ":=", "to")
 SECONDS = 4.0  # seconds of processor time for one answer

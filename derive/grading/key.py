@@ -31,12 +31,12 @@ from derive.algebra.kinds import dimension_of_kind
 from derive.algebra.order import Order
 from derive.algebra.ranges import Range
 from derive.algebra.rounding import Rounded
-from derive.audit.limited import FAULTS
+from derive.audit.time_limit import FAULTS
 from derive.course.problem import Problem
 from derive.grading.names import Names, parts_of
 from derive.render.notation.notation import Notation
 from derive.render.notation.text import in_one_line
-from derive.render.printing.said import named_result
+from derive.render.printing.text_blocks import named_result
 from derive.steps.derivation import Derivation
 from derive.steps.homogeneity import dimension_of, dimension_table
 from derive.steps.step import Step

@@ -15,7 +15,7 @@ import sympy
 from sympy import Expr, Integer, MatrixBase, Rational, Symbol
 
 from derive.algebra.expressions import PLUS_MINUS, TIME, rate
-from derive.audit.limited import FAULTS
+from derive.audit.time_limit import FAULTS
 from derive.documents.choices import readings
 from derive.documents.facts import Facts
 from derive.documents.meaning import Meaning, Meaningless
@@ -23,7 +23,7 @@ from derive.documents.parser import Unreadable, parsed
 from derive.documents.source import Span
 from derive.documents.syntax import Apply, Frac, Fun, Letter, Mat, Mul, Node, Num, Open, Pow, Vec
 from derive.grading.names import Names, bare
-from derive.grading.typed import Typed, TypedSide, TypedStatement, Unread
+from derive.grading.typed_text import Typed, TypedSide, TypedStatement, Unread
 
 MOST_BITS = 3000  # the greatest number of bits of a number
 HIGHEST_POWER = 40

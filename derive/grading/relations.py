@@ -15,7 +15,7 @@ from sympy import Expr, Integer, MatrixBase, Rational, Symbol, acos, asin, atan,
 from derive.algebra.dimensions import NUMBER
 from derive.algebra.equality import equal
 from derive.algebra.expressions import PLUS_MINUS, Relation
-from derive.audit.limited import FAULTS
+from derive.audit.time_limit import FAULTS
 from derive.grading.comparing import _Comparison, aligned, factor_is_near, shown, verdict_on_value
 from derive.grading.key import Key, Number, Target
 from derive.grading.outcomes import Outcome, Verdict

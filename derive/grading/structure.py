@@ -16,7 +16,7 @@ from sympy import Add, Expr, Function, Integer, Pow, Rational, Symbol, cancel, c
 from derive.algebra.equality import equal
 from derive.algebra.trig_polynomials import monomial_ratio
 from derive.audit.fingerprint import CLOSE, differ, fingerprint
-from derive.audit.limited import FAULTS
+from derive.audit.time_limit import FAULTS
 from derive.grading.outcomes import Outcome
 
 MOST_TERMS = 60  # number of terms of a sum that are searched

@@ -8,7 +8,7 @@ from typing import Any
 from sympy import MatrixBase, MatrixSymbol, Symbol
 
 from derive.algebra.expressions import explicit
-from derive.page.introduced import expressions_in, letters_in, letters_of
+from derive.page.introduced_symbols import expressions_in, letters_in, letters_of
 from derive.page.selection import is_short
 from derive.page.wording import Inline, Math, Phrases, Text, filled, joined, names_asked, names_of_step
 from derive.steps.step import Step

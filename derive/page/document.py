@@ -21,9 +21,9 @@ from derive.course.names import EvidenceShown
 from derive.course.parts import Question
 from derive.course.placement import STATEMENT
 from derive.course.problem import Problem
+from derive.course.problem_file import ANY_OUTCOME
 from derive.course.prose import FIGURE, TexFormula, latex_in
 from derive.course.reference.comparison import Told
-from derive.course.written import ANY_OUTCOME
 from derive.errors import Complaint, Place, did_you_mean
 from derive.figures.marks import Plot, Recorded
 from derive.page.assumptions import between_bounds, not_implied, says_the_same, with_units
@@ -43,15 +43,15 @@ from derive.page.depiction import (
 )
 from derive.page.figures_named import figures_mentioned
 from derive.page.formulas import Formulas
-from derive.page.in_words import in_words
-from derive.page.introduced import references_in, wanting
+from derive.page.inline_formulas import in_words
+from derive.page.introduced_symbols import references_in, wanting
 from derive.page.names import page_names
 from derive.page.numbering import Numbering
 from derive.page.numbers_given import are_told, numbers_left, numbers_of_cases, take
 from derive.page.paragraphs import without_short_paragraphs
 from derive.page.pointers import pointed_out
 from derive.page.reasons import framed_once, without_known_reasons
-from derive.page.repeats import AGAIN, Stated, noted, results, told_by_number
+from derive.page.repeated_formulas import AGAIN, Stated, noted, results, told_by_number
 from derive.page.selection import NOTHING_NEEDED, OWN, POINTED_OUT, TOLD, Needed, Selection
 from derive.page.theorems import Theorems
 from derive.page.tree import Block, Display, Document, Illustration, Paragraph, PartPage

@@ -10,7 +10,7 @@ from typing import Any
 
 from derive.algebra.equality import Compared
 from derive.course.problem import Problem
-from derive.course.written import ANY_OUTCOME, SHOWN
+from derive.course.problem_file import ANY_OUTCOME, SHOWN
 from derive.errors import Place
 from derive.page.phrasebook import Phrase
 from derive.page.wording import AXIS_NAMES, Inline, Phrases, Text, filled, joined, names_of_step

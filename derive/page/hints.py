@@ -19,7 +19,7 @@ from derive.course.transcript import Transcript
 from derive.page.chain_lines import ChainLine, Equations
 from derive.page.clauses import Clauses
 from derive.page.folding import Sentence, groups_in, sentences
-from derive.page.introduced import expressions_in, letters_in, letters_of, wanting
+from derive.page.introduced_symbols import expressions_in, letters_in, letters_of, wanting
 from derive.page.tree import Block, Display, Document, Folded, Paragraph, PartPage
 from derive.page.wording import Inline, Math, Phrases, Text, filled
 from derive.steps.derivation import Derivation

@@ -18,8 +18,8 @@ from derive.algebra.expressions import TIME, explicit
 from derive.course.given import Measured
 from derive.course.placement import Placement, case_label
 from derive.course.problem import Problem
+from derive.course.problem_file import APART, TOGETHER
 from derive.course.stock import told_at
-from derive.course.written import APART, TOGETHER
 from derive.course.yaml_tree import Word
 from derive.errors import Complaint, Place, Rejected, rejected
 from derive.figures.extrema import MAXIMUM, NOISE, Extremum, extrema, meetings, values_along, zeros

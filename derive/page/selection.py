@@ -19,7 +19,7 @@ from sympy import MatrixBase, preorder_traversal
 
 from derive.algebra.expressions import Relation
 from derive.page.pointers import that_have_it
-from derive.steps.condensed import condensed
+from derive.steps.condensing import condensed
 from derive.steps.derivation import Derivation
 from derive.steps.level import Level, Manner
 from derive.steps.step import Form, Step

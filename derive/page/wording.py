@@ -28,12 +28,12 @@ from derive.course.given import Given, Measured
 from derive.course.names import ENGLISH, DecimalSign, Language
 from derive.course.parts import points_text
 from derive.course.problem import Problem
+from derive.course.problem_file import ANY_OUTCOME
 from derive.course.prose import Mention, TexFormula
-from derive.course.written import ANY_OUTCOME
 from derive.errors import Complaint, DeriveError, Place, Rejected, did_you_mean, with_article
+from derive.page.no_break_spaces import unbroken
 from derive.page.phrasebook import OF_EVERY_PAGE, SHOWN_AS, Phrase, no_phrase, read_phrases
 from derive.page.template import Templates, environment
-from derive.page.unbroken import unbroken
 from derive.steps.derivation import Derivation
 from derive.steps.numeric import in_radians
 from derive.steps.step import Step

@@ -15,8 +15,8 @@ from derive.building.set_names import check_asked
 from derive.course.problem_set import COURSE, problem_set
 from derive.errors import DeriveError
 from derive.page.template import templates_of
-from derive.preview.asking import Shown, Warm
 from derive.preview.server import HOST, Pages, Server, server
+from derive.preview.worker_control import Shown, Warm
 
 
 class Ending(Protocol):

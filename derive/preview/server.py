@@ -29,7 +29,7 @@ from typing import Any
 
 from derive.building.files import of_system
 from derive.errors import BuildFailed, Complaint, DeriveError
-from derive.preview.asking import Shown, Warm
+from derive.preview.worker_control import Shown, Warm
 
 HOST = "127.0.0.1"
 _LOCAL = re.compile(r"(127\.0\.0\.1|localhost)(:\d{1,5})?", re.ASCII | re.IGNORECASE)

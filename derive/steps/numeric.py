@@ -39,9 +39,9 @@ from derive.algebra.expressions import (
     scaled,
 )
 from derive.algebra.normal_form import vanishes
+from derive.algebra.period_series import SwingTime, SwingTimeOfNumbers
 from derive.algebra.rounding import rounded_form
 from derive.algebra.samples import value_at
-from derive.algebra.swing import SwingTime, SwingTimeOfNumbers
 from derive.algebra.tidy import factored_matrix, tidied
 from derive.errors import Complaint, Rejected
 from derive.steps.claims import (

@@ -67,7 +67,8 @@ from derive.steps.derivation import returned_quantities, with_ancestors
 from derive.steps.record import assume, assumed, current_run, forget_words
 from derive.steps.step import Quantity, is_zero
 from derive.stock.answering.answers import StockAnswers, answer, answer_for_each
-from derive.stock.answering.held_rest import rest_with_forces
+from derive.stock.answering.equilibria_with_forces import rest_with_forces
+from derive.stock.answering.impacts import ImpactAnswers
 from derive.stock.answering.methods import (
     ABOUT,
     by_newton,
@@ -77,7 +78,6 @@ from derive.stock.answering.methods import (
     laws_of,
 )
 from derive.stock.answering.moments import check_starts, started, struck
-from derive.stock.answering.of_impacts import ImpactAnswers
 from derive.stock.answering.sticking import state_static_friction
 from derive.stock.keys.deferred import made, parts_of, told_at_part
 from derive.stock.keys.places import PLACE

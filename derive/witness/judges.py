@@ -12,7 +12,7 @@ from derive.algebra.equality import Verdict
 from derive.algebra.expressions import Relation
 from derive.steps.rule import Judged
 from derive.steps.step import Quantity
-from derive.witness import along, runs, small
+from derive.witness import instants, runs, small_motions
 from derive.witness.claim import Claim
 from derive.witness.description import Description, with_functions
 from derive.witness.dynamics import Blueprint
@@ -21,31 +21,31 @@ from derive.witness.tape import NotComputable
 Judge = Callable[[Claim], Verdict | None]
 
 JUDGES: Mapping[str, Judge] = {
-    **dict.fromkeys(along.OF_MOTION, along.equation),
-    "lagrange.kinetic_energy": along.kinetic_energy,
-    "answers.solved_for": along.equation,
-    "answers.put_in": along.substitution,
-    "lagrange.energy_function": along.conserved,
-    "hamilton.conserved": along.conserved,
-    "lagrange.noether": along.conserved,
-    "motion.energy_kept": along.kept,
+    **dict.fromkeys(instants.OF_MOTION, instants.equation),
+    "lagrange.kinetic_energy": instants.kinetic_energy,
+    "answers.solved_for": instants.equation,
+    "answers.put_in": instants.substitution,
+    "lagrange.energy_function": instants.conserved,
+    "hamilton.conserved": instants.conserved,
+    "lagrange.noether": instants.conserved,
+    "motion.energy_kept": instants.kept,
     "motion.speed_from_energy": runs.speed,
     "motion.leaves_contact": runs.leaves,
     "motion.slips": runs.slips,
     "motion.free_flight": runs.flight,
     "motion.landing_time": runs.landing,
     "vibrations.solution": runs.solution,
-    "rest.equilibrium": small.rest,
-    "rest.stability": small.stability,
-    "rest.stability_on_constraints": small.stability,
-    "rest.stability_of_several": small.stability,
-    "vibrations.mode_frequency": small.frequency,
-    "vibrations.uncoupled_frequency": small.frequency,
-    "vibrations.frequency": small.frequency,
-    "vibrations.gyroscopic_frequency": small.frequency,
-    "vibrations.damped_rate": small.damped,
-    "vibrations.damped_frequency": small.damped,
-    "vibrations.superposition": small.motion,
+    "rest.equilibrium": small_motions.rest,
+    "rest.stability": small_motions.stability,
+    "rest.stability_on_constraints": small_motions.stability,
+    "rest.stability_of_several": small_motions.stability,
+    "vibrations.mode_frequency": small_motions.frequency,
+    "vibrations.uncoupled_frequency": small_motions.frequency,
+    "vibrations.frequency": small_motions.frequency,
+    "vibrations.gyroscopic_frequency": small_motions.frequency,
+    "vibrations.damped_rate": small_motions.damped,
+    "vibrations.damped_frequency": small_motions.damped,
+    "vibrations.superposition": small_motions.motion,
     "motion.period_by_energy": runs.period,
     "numeric.value": runs.period,
 }

@@ -16,7 +16,7 @@ from sympy import Abs, Expr, Integer, Symbol, diff
 
 from derive.algebra.equality import Verdict
 from derive.algebra.expressions import TIME, Relation, explicit, rate
-from derive.witness import small
+from derive.witness import small_motions
 from derive.witness.claim import TRIALS, Claim, seen
 from derive.witness.dynamics import Blueprint, Dynamics, Singular
 from derive.witness.facts import Around
@@ -343,7 +343,7 @@ def solution(claim: Claim) -> Verdict | None:
     """Test whether the coordinate is the stated function of time in the simulated motion of the described system."""
     (q,) = (claim.symbol,) if isinstance(claim.symbol, Symbol) else (None,)
     if any(each.fact(Around) is not None for each in claim.quantity.ancestors()):
-        return small.motion(claim)  # a linear equation describes the linearised motion
+        return small_motions.motion(claim)  # a linear equation describes the linearised motion
     if q is None or q not in claim.blueprint.coordinates:
         return None
     motion = claim.value

@@ -40,8 +40,8 @@ from derive.algebra.encoding import as_data, decoded, encoded, from_data
 from derive.algebra.expansion import Approach, Expansion, FirstOrder
 from derive.algebra.node import NODES, Node
 from derive.algebra.ordered_roots import OrderedRoot
+from derive.algebra.period_series import SwingTime, SwingTimeOfNumbers
 from derive.algebra.rounding import Rounded
-from derive.algebra.swing import SwingTime, SwingTimeOfNumbers
 from tests.mechanics.block import known_block
 
 x, y = symbols("x y", real=True)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from derive.audit.assumed import assumed_of
+from derive.audit.assumptions import assumed_of
 from derive.audit.auditing import Audit, audited
 from derive.audit.expected import Expected, Status
 from derive.audit.report import as_data, as_text, exit_code

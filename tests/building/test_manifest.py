@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 from fake_course import Course, stand_in_course
 
-from derive.building import signed
+from derive.building import signatures
 from derive.building.cache import digest
 from derive.building.manifest import Manifest, outputs_of, outputs_of_document
 from derive.building.sets import Options, Report, built_set
@@ -29,7 +29,7 @@ def signed_again(course: Course, **changes: Any) -> None:
     """The record as it would be if derive itself had written it."""
     record = dataclasses.asdict(Manifest.read(course.outputs)) | changes
     del record["folder"]
-    signed.write_signed(course.outputs / ".manifest.json", "the record of hw1", json.dumps(record).encode())
+    signatures.write_signed(course.outputs / ".manifest.json", "the record of hw1", json.dumps(record).encode())
 
 
 @pytest.mark.parametrize("name", ["../../victim.txt", "/victim.txt", ".lock", "a/b.pdf", "victim", "x.py", ""])

@@ -6,7 +6,7 @@ import json
 
 from derive.building.changes import ADDED, EQUAL, REMOVED, Change
 from derive.building.diff import Diff
-from derive.cli.changes_told import as_json, told
+from derive.cli.change_report import as_json, told
 from derive.cli.terminal import WIDTH
 from derive.render.notation.text import columns
 

@@ -17,10 +17,10 @@ from jsonschema.exceptions import ValidationError
 
 from derive.course.editors import course_schema, problem_schema, reference_schema, set_schema
 from derive.course.problem import load_problem
+from derive.course.problem_file import ProblemKeys
 from derive.course.problem_set import SetKeys
 from derive.course.schema import Record, keys_of, read_record
 from derive.course.stock import stock_names, stock_script
-from derive.course.written import ProblemKeys
 from derive.course.yaml_tree import Mapping, Source, yaml_tree
 from derive.errors import Faults, Rejected
 from tests.courses import ROOT

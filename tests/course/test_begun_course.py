@@ -9,7 +9,7 @@ import pytest
 import yaml
 
 from derive.cli.options import parser_of_commands
-from derive.course.begun_course import FILES, begun_course
+from derive.course.new_course import FILES, begun_course
 from derive.course.problem_set import problem_set
 from derive.errors import Misused
 from derive.page.template import templates_of

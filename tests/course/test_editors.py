@@ -7,9 +7,9 @@ import json
 import pytest
 
 from derive.course.editors import problem_schema, reference_schema
+from derive.course.problem_file import ProblemKeys
 from derive.course.schema import keys_of
 from derive.course.stock import stock_names, stock_script
-from derive.course.written import ProblemKeys
 from tests.courses import ROOT
 
 

@@ -11,12 +11,12 @@ import pytest
 
 from derive.course.parts import AnswerForm, Question
 from derive.course.problem import load_problem
+from derive.course.problem_file import DrawingKeys, ProblemKeys
 from derive.course.problem_set import SetKeys
 from derive.course.reference.keys import DocumentKeys, EntryKeys, ErratumKeys, GroupKeys, OwnKeys
 from derive.course.reference.statements import stated_groups
 from derive.course.schema import FIGURES, TEXT, Record, key, list_of, mapping_of, object_schema, one_of, read_record
 from derive.course.stock import stock_names, stock_script
-from derive.course.written import DrawingKeys, ProblemKeys
 from derive.course.yaml_tree import Mapping, Scalar, Sequence, Source, Word, yaml_tree
 from derive.errors import Faults
 from derive.stock.keys.bodies import PartKeys
@@ -39,7 +39,7 @@ from derive.stock.keys.parts import (
     ParticleKeys,
     SpringKeys,
 )
-from derive.stock.keys.placed import MovingBodyKeys
+from derive.stock.keys.placed_bodies import MovingBodyKeys
 from derive.stock.keys.places import WayKeys
 from derive.stock.keys.results import ResultKeys
 from tests.courses import ROOT

@@ -8,7 +8,7 @@ import pytest
 from sympy import Rational, Symbol
 
 from derive.building.cache import Cache
-from derive.building.drawn import numbers_of
+from derive.building.drawings import numbers_of
 from derive.building.solution import rendered
 from derive.course.problem import run_solve
 from derive.errors import DeriveError

@@ -14,7 +14,7 @@ from derive.algebra.expressions import explicit
 from derive.course.problem import run_solve
 from derive.errors import DeriveError
 from derive.mechanics.bodies.placed import PlacedBody
-from derive.mechanics.model import contacts, joints, strings, surfaces, touching
+from derive.mechanics.model import contact_points, contacts, joints, strings, surfaces
 from derive.mechanics.model.contacts import Contact
 from derive.mechanics.model.surfaces import Curve
 from derive.steps.record import Run
@@ -135,15 +135,15 @@ def test_rolling_in_space_without_the_velocity_of_the_table_is_refused(
 def test_an_edge_of_a_disc_that_is_not_its_lowest_point_is_refused(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    lowest, theta = touching.lowest, Symbol("theta", real=True)
+    lowest, theta = contact_points.lowest, Symbol("theta", real=True)
 
     def inside(of: Any, on: Any) -> Any:
         place = of.centre + sin(theta) * (lowest(of, on)[0] - of.centre)
         return place, on.distance(place)
 
-    monkeypatch.setattr(touching, "lowest", inside)
+    monkeypatch.setattr(contact_points, "lowest", inside)
     assert "could not be shown to be the lowest point" in refused(tmp_path, trial_called("disc-floor-in space"))
-    monkeypatch.setattr(touching, "_check_lowest", lambda *_: None)
+    monkeypatch.setattr(contact_points, "_check_lowest", lambda *_: None)
     assert "`virtual_work` disagrees" in refused(tmp_path, trial_called("disc-floor-in space"))
 
 
@@ -151,20 +151,20 @@ def test_a_disc_that_is_slightly_nearer_to_the_plane_than_its_gap_is_refused(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A proof detects any difference; numbers at a few points would not detect a billionth of a billionth."""
-    lowest = touching.lowest
+    lowest = contact_points.lowest
 
     def farther(of: Any, on: Any) -> Any:
         place, gap = lowest(of, on)
         return place, gap + (of.centre - place).components[2] / Integer(10) ** 18
 
-    monkeypatch.setattr(touching, "lowest", farther)
+    monkeypatch.setattr(contact_points, "lowest", farther)
     assert "could not be shown to be the lowest point" in refused(tmp_path, trial_called("disc-floor-in space"))
 
 
 def test_the_upper_end_of_a_cylinder_is_not_its_place_of_contact(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(touching, "_lower", lambda of, one, other: other)
+    monkeypatch.setattr(contact_points, "_lower", lambda of, one, other: other)
     assert "could not be shown to be the lowest point" in refused(tmp_path, trial_called("cylinder-floor-in space"))
 
 

@@ -345,7 +345,7 @@ def test_the_witness_follows_the_flight(tmp_path: Path) -> None:
 
 
 def claimed(quantity: Quantity, steps: dict[str, Quantity]) -> Claim:
-    from derive.mechanics.model.described import Described
+    from derive.mechanics.model.description import Described
     from derive.steps.rule import Judged
 
     known = steps["flight_x"].needed(flight.InFlight)

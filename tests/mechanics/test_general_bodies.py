@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 from sympy import Integer, Matrix, Rational, cos, diag, exp, pi, sin, sqrt, symbols, zeros
 
-import derive.mechanics.bodies.general as general
+import derive.mechanics.bodies.mapped_bodies as general
 from derive.algebra.equality import Grade, equal
 from derive.errors import Rejected, Unverified
 from derive.mechanics import (

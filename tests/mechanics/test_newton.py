@@ -15,11 +15,11 @@ from derive.algebra.expressions import Relation, explicit, rate, scalar
 from derive.algebra.ranges import Range, within
 from derive.errors import DeriveError, Rejected
 from derive.mechanics.impacts import momentum_laws
-from derive.mechanics.newton import alone, second_law, torque_law
 from derive.mechanics.newton import energy as by_energy
-from derive.mechanics.newton.alone import Alone, Force
+from derive.mechanics.newton import second_law, single_bodies, torque_law
 from derive.mechanics.newton.claims import constraint_forces_do_no_work, direction, same_equation
 from derive.mechanics.newton.directions import Direction
+from derive.mechanics.newton.single_bodies import Alone, Force
 from derive.steps.rule import Judged
 from derive.steps.step import Quantity
 from tests.mechanics.test_connections import value_at
@@ -49,9 +49,9 @@ def test_newtons_laws_give_the_accelerations_and_forces(trial: Trial, tmp_path: 
 def test_the_sense_of_a_rotation_follows_from_the_ranges_of_its_letters() -> None:
     c = Symbol("c", real=True)
     with pytest.raises(Rejected, match="unknown whether the rotation by 1/c"):
-        alone.sense_of(1 / c)
+        single_bodies.sense_of(1 / c)
     with within({c: Range(Integer(-2), Integer(-1))}):
-        assert alone.sense_of(1 / c) == -1
+        assert single_bodies.sense_of(1 / c) == -1
 
 
 def test_a_predicate_of_newtons_laws_tests_an_angle_in_its_range() -> None:
@@ -388,7 +388,9 @@ def test_a_moment_of_inertia_about_another_point_is_refused(tmp_path: Path, monk
 def test_an_acceleration_without_its_centripetal_term_is_refused(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(Alone, "acceleration", lambda body, way: diff(alone.dot(body.centre, way), body.moving[0]))
+    monkeypatch.setattr(
+        Alone, "acceleration", lambda body, way: diff(single_bodies.dot(body.centre, way), body.moving[0])
+    )
     assert "disagrees" in refused(tmp_path, POLAR)
 
 

@@ -19,8 +19,8 @@ from derive.algebra.rounding import Rounded
 from derive.building.solution import derived, rendered
 from derive.course.problem import deriving, load_problem
 from derive.mechanics import Particle, System, coordinate, lagrangian, point
-from derive.mechanics.observations.chosen import MOST, OBSERVATIONS
 from derive.mechanics.observations.frequencies import _has_polar_coordinates
+from derive.mechanics.observations.selection import MOST, OBSERVATIONS
 from derive.mechanics.observations.view import View
 from derive.steps.record import Run, recorded
 from derive.steps.rule import RULES, Judged, Rule

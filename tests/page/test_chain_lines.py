@@ -8,7 +8,7 @@ from pathlib import Path
 from sympy import Matrix, Symbol, sqrt
 
 from derive.page.chain_lines import ChainLine, ChainWriter, Equations, _share_a_sum_or_root
-from derive.page.repeats import results
+from derive.page.repeated_formulas import results
 from derive.page.template import templates_of
 from derive.page.wording import Ref, phrases
 from derive.steps.step import Level, Step

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from derive.algebra.equality import Grade
-from derive.building.solved import Solved
+from derive.building.derivations import Solved
 from derive.course.problem import Problem, load_problem
 from derive.errors import Complaint
 from derive.page.chain_lines import Equations

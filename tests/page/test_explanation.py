@@ -9,7 +9,7 @@ import pytest
 
 import derive
 from derive.algebra.equality import Compared, Evidence, Grade
-from derive.building.solved import Solved
+from derive.building.derivations import Solved
 from derive.course.problem import Problem
 from derive.page.explanation import Explanation, explanation_of, told_of
 from derive.page.template import templates_of

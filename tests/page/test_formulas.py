@@ -10,8 +10,8 @@ import pytest
 from sympy import MatrixSymbol, Symbol
 
 from derive.algebra.kinds import dimension_of_kind
+from derive.building.derivations import Solved
 from derive.building.solution import rendered
-from derive.building.solved import Solved
 from derive.course.latex.vocabulary import KNOWN, ONLY_PRINTED
 from derive.course.problem import Problem, load_problem
 from derive.course.prose import TexFormula

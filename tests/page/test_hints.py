@@ -13,12 +13,12 @@ from sympy import Basic, MatrixBase
 
 from derive.algebra.equality import equal
 from derive.algebra.expressions import Relation
-from derive.building.solved import Solved
+from derive.building.derivations import Solved
 from derive.course.problem import Problem
 from derive.page.chain_lines import ChainLine, Equations
 from derive.page.document import document_of
 from derive.page.hints import TO_BE_DONE, with_hints
-from derive.page.introduced import expressions_in, letters_in, letters_of, wanting
+from derive.page.introduced_symbols import expressions_in, letters_in, letters_of, wanting
 from derive.page.template import templates_of
 from derive.page.tree import Display, Document, Folded, Paragraph
 from derive.page.wording import Math, Text, phrases

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from derive.building.solved import Solved
+from derive.building.derivations import Solved
 from derive.course.problem import Problem, load_problem
 from derive.page.document import document_of
 from derive.page.template import templates_of

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from sympy import ImmutableDenseMatrix, Integer
 
-from derive.building.solved import Solved
+from derive.building.derivations import Solved
 from derive.course.problem import Problem
 from derive.page.document import document_of
 from derive.page.pointers import pointed_out, that_have_it

@@ -7,10 +7,10 @@ from pathlib import Path
 
 import pytest
 
-from derive.building.solved import Solved
+from derive.building.derivations import Solved
 from derive.course.problem import Problem, load_problem
 from derive.page.document import document_of
-from derive.page.introduced import expressions_in, letters_in
+from derive.page.introduced_symbols import expressions_in, letters_in
 from derive.page.selection import (
     LEFT_OUT,
     NOTHING_NEEDED,

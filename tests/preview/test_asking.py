@@ -14,7 +14,7 @@ from pathlib import Path
 
 import pytest
 
-from derive.preview.asking import Shown, Warm
+from derive.preview.worker_control import Shown, Warm
 from tests.building.test_workers import is_gone
 from tests.courses import PINNED, ROOT, course_in
 
@@ -152,7 +152,7 @@ def test_with_too_few_descriptors_there_is_a_complaint_and_none_is_lost(
 SERVER = """
 import sys, threading, time
 from pathlib import Path
-from derive.preview.asking import Warm
+from derive.preview.worker_control import Warm
 warm = Warm(Path(sys.argv[1]), 60)
 threading.Thread(target=lambda: warm.page("hw9/block", None), daemon=True).start()
 time.sleep(1.5)

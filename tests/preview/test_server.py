@@ -17,8 +17,8 @@ from typing import Any
 import pytest
 
 from derive.errors import BuildFailed
-from derive.preview.asking import Shown
 from derive.preview.server import HOST, MOST, Pages, Server, policy_of, server
+from derive.preview.worker_control import Shown
 from tests.waiting import until
 
 FAULT = Shown(complaints=("block.yaml:3:1: error[wrong-kind]",))

@@ -7,11 +7,11 @@ from itertools import pairwise
 import pytest
 
 from derive.algebra.expressions import Relation, rate
+from derive.building.derivations import Solved, steps_key
 from derive.building.solution import derived
-from derive.building.solved import Solved, steps_key
 from derive.course.problem import Problem, load_problem
 from derive.page.document import document_of
-from derive.page.introduced import expressions_in, letters_in, letters_of
+from derive.page.introduced_symbols import expressions_in, letters_in, letters_of
 from derive.page.template import templates_of
 from derive.page.tree import Display, Document
 from derive.page.wording import Math, Text, ToldOnce, phrases

@@ -13,7 +13,7 @@ from derive.course.names import MORE, SHEET
 from derive.course.problem_set import problem_set
 from derive.errors import Rejected
 from derive.render.printing.figure_numbers import equations_numbered, numbered_in_a_row
-from derive.render.printing.told_once import told_once
+from derive.render.printing.theorems_once import told_once
 from derive.render.rendered import Rendered
 from tests.courses import course_in, kept
 

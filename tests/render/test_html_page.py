@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from derive.building.papers import papers_of
+from derive.building.document_list import papers_of
 from derive.building.set_document import document_page, index_page, problem_page
 from derive.building.solution import rendered
 from derive.course.names import MORE, SHEET

@@ -10,7 +10,7 @@ from sympy import Integer, Symbol
 from derive.algebra.equality import Compared, Grade
 from derive.algebra.expressions import Truncated
 from derive.errors import Unverified
-from derive.steps.condensed import condensed
+from derive.steps.condensing import condensed
 from derive.steps.step import NUMBERS, Form, Step
 from tests.courses import course_in, solved_once
 

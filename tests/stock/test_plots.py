@@ -8,8 +8,8 @@ import pytest
 from sympy import Symbol, cos, pi, simplify, sin, sqrt
 
 from derive.building.cache import Cache
+from derive.building.derivations import steps_key
 from derive.building.solution import rendered
-from derive.building.solved import steps_key
 from derive.course.problem import run_solve
 from derive.errors import DeriveError
 from derive.figures.marks import Outline, Plot

@@ -9,7 +9,7 @@ import pytest
 from sympy import Integer, Rational, symbols
 
 from derive.algebra.expressions import rate
-from derive.mechanics.model.described import Struck
+from derive.mechanics.model.description import Struck
 from derive.witness import impact
 from derive.witness.description import Body, Description, Force, Impact, Meeting, Particle
 from derive.witness.impact import _blueprint, after

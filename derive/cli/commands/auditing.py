@@ -8,7 +8,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from derive.cli.asked import problem_id_of, root_of
+from derive.cli.problem_ids import problem_id_of, root_of
 from derive.cli.running import waiting
 from derive.cli.terminal import tell
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 def audit(arguments: argparse.Namespace) -> int:
     """Print the verdicts; the exit code is 1 if a row differs."""
-    from derive.audit.assumed import assumed_of, declared_letters
+    from derive.audit.assumptions import assumed_of, declared_letters
     from derive.audit.auditing import audited
     from derive.audit.report import as_html, as_json, as_text, exit_code
     from derive.documents.layout import read_document

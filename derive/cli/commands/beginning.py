@@ -7,7 +7,7 @@ import argparse
 import sys
 from pathlib import Path
 
-from derive.cli.asked import found_root, new_id_of, root_of, root_with
+from derive.cli.problem_ids import found_root, new_id_of, root_of, root_with
 from derive.errors import Complaint, Misused
 
 
@@ -22,8 +22,8 @@ def init(arguments: argparse.Namespace) -> int:
 
 def _write_course(folder: Path, title: str) -> None:
     from derive.building.files import shown_path, write
-    from derive.course.begun_course import begun_course
     from derive.course.editors import SCHEMAS, schema_folder
+    from derive.course.new_course import begun_course
     from derive.page.template import templates_of
 
     texts = begun_course(folder, title, templates_of(folder).file)
@@ -48,8 +48,8 @@ def new(arguments: argparse.Namespace) -> int:
     """Write the files of a new problem, which can be built immediately, and print what to do next."""
     from derive.building.files import shown_path, write
     from derive.building.set_names import wrong_set_name
-    from derive.course.begun import begun
     from derive.course.editors import SCHEMAS, schema_folder
+    from derive.course.new_problem import begun
     from derive.page.template import templates_of
 
     if found_root(arguments.root) is None and not arguments.root:

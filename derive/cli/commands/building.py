@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from derive.cli.asked import problem_id_of, root_of, warn_of_names, warn_of_templates
+from derive.cli.problem_ids import problem_id_of, root_of, warn_of_names, warn_of_templates
 from derive.cli.running import internal
 from derive.cli.terminal import complain, note, tell
 from derive.errors import Complaint, Misused

@@ -11,8 +11,8 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from derive.cli.asked import problem_id_of, root_of, warn_of_names, warn_of_templates
 from derive.cli.check_table import check_table
+from derive.cli.problem_ids import problem_id_of, root_of, warn_of_names, warn_of_templates
 from derive.cli.running import delivered, internal, waiting
 from derive.cli.terminal import complain, faults_of_source, note, tell
 from derive.errors import DeriveError
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 
 def check(arguments: argparse.Namespace) -> int:
-    from derive.building.papers import list_again
+    from derive.building.document_list import list_again
     from derive.building.preload import preload
     from derive.building.set_names import check_asked, set_names
     from derive.building.solution import rendered

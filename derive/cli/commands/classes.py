@@ -5,8 +5,8 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from derive.cli.asked import new_id_of, root_of
 from derive.cli.commands.building import Voice
+from derive.cli.problem_ids import new_id_of, root_of
 from derive.cli.running import internal
 from derive.cli.terminal import complain
 

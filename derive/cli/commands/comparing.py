@@ -7,7 +7,7 @@ import os
 import sys
 from typing import TYPE_CHECKING
 
-from derive.cli.asked import problem_id_of, root_of
+from derive.cli.problem_ids import problem_id_of, root_of
 from derive.cli.running import internal, waiting
 from derive.cli.terminal import complain, tell
 from derive.errors import DeriveError
@@ -57,7 +57,7 @@ def _found(arguments: argparse.Namespace, asked: str) -> Diff | SetDiff:
 
 def _told(asked: str, found: Diff | SetDiff, as_data: bool) -> str:
     from derive.building.set_diff import SetDiff
-    from derive.cli.changes_told import as_json, set_as_json, told, told_of_set
+    from derive.cli.change_report import as_json, set_as_json, told, told_of_set
 
     coloured = sys.stdout.isatty() and not os.environ.get("NO_COLOR")
     if isinstance(found, SetDiff):

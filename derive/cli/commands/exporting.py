@@ -6,16 +6,16 @@ import argparse
 import time
 from functools import partial
 
-from derive.cli.asked import problem_id_of, root_of
 from derive.cli.output import check_output, deliver
+from derive.cli.problem_ids import problem_id_of, root_of
 from derive.cli.running import waiting
 from derive.cli.terminal import complain
 
 
 def export(arguments: argparse.Namespace) -> int:
+    from derive.building.document_list import list_again
     from derive.building.files import shown_path
     from derive.building.manifest import EXPORT_SUFFIX, Manifest
-    from derive.building.papers import list_again
     from derive.building.recipe import input_digest, recipe_of, stated_by
     from derive.building.set_names import set_folder
     from derive.building.solution import rendered

@@ -10,15 +10,15 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from derive.cli.asked import new_id_of, problem_id_of, root_of
 from derive.cli.output import check_output, deliver
+from derive.cli.problem_ids import new_id_of, problem_id_of, root_of
 from derive.cli.running import waiting
 from derive.cli.terminal import complain, table, tell
 from derive.errors import Complaint, DeriveError, Misused
 
 if TYPE_CHECKING:
     from derive.building.class_record import ClassRecord
-    from derive.building.graded import Asked, Result
+    from derive.building.grading_jobs import Asked, Result
     from derive.grading.table import Row, Table
 
 EXAMPLE = "such as `derive grade hw9/block --part b '7/24 M a^2 omega^2'`"
@@ -39,7 +39,7 @@ def grade(arguments: argparse.Namespace) -> int:
 
 
 def _grade_one(arguments: argparse.Namespace) -> int:
-    from derive.building.graded import NotGraded, check_part, grade_answers
+    from derive.building.grading_jobs import NotGraded, check_part, grade_answers
     from derive.course.problem_set import path_of
     from derive.grading.report import as_data, one_as_text
 
@@ -86,7 +86,7 @@ def _class_of(arguments: argparse.Namespace, root: Path, asked: str) -> ClassRec
 
 
 def _grade_table(arguments: argparse.Namespace) -> int:
-    from derive.building.graded import NotGraded, grade_answers
+    from derive.building.grading_jobs import NotGraded, grade_answers
     from derive.building.preload import preload
     from derive.building.workers import under_way
 
@@ -158,7 +158,7 @@ def _at_line(path: str, row: Row, complaint: Complaint) -> Complaint:
 
 
 def _written(arguments: argparse.Namespace, answers: Table, results: list[Result]) -> str:
-    from derive.building.graded import NotGraded
+    from derive.building.grading_jobs import NotGraded
     from derive.grading.report import NOT_GRADED, as_data, explained, points
     from derive.grading.table import written_table
 

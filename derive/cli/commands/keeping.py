@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from derive.cli.asked import found_root, root_of
+from derive.cli.problem_ids import found_root, root_of
 from derive.cli.terminal import tell
 
 

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from functools import partial
 from pathlib import Path
 
-from derive.cli.asked import new_id_of, problem_id_of, root_of, root_with, warn_of_names
+from derive.cli.problem_ids import new_id_of, problem_id_of, root_of, root_with, warn_of_names
 from derive.cli.running import waiting
 from derive.cli.terminal import table
 from derive.errors import Complaint, DeriveError, Misused, did_you_mean

@@ -5,15 +5,15 @@ from __future__ import annotations
 import argparse
 from contextlib import suppress
 
-from derive.cli.asked import problem_id_of, root_of
+from derive.cli.problem_ids import problem_id_of, root_of
 from derive.cli.running import ending
 from derive.cli.streams import silence
 
 
 def preview_pages(arguments: argparse.Namespace) -> int:
     """Serve a page until the user interrupts, which is the normal end and not a failure."""
-    from derive.preview.asking import Shown
     from derive.preview.preview import preview
+    from derive.preview.worker_control import Shown
 
     set_id, _, name = problem_id_of(arguments.id).partition("/")
 

@@ -8,8 +8,8 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from derive.cli.asked import found_root, problem_id_of, root_with
 from derive.cli.output import check_output, deliver
+from derive.cli.problem_ids import found_root, problem_id_of, root_with
 from derive.cli.running import delivered, waiting
 from derive.cli.terminal import complain, table
 from derive.errors import Complaint, Misused

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from derive.cli.asked import problem_id_of, root_of
+from derive.cli.problem_ids import problem_id_of, root_of
 
 
 def why(arguments: argparse.Namespace) -> int:

@@ -6,7 +6,7 @@ import argparse
 from functools import partial
 from typing import TYPE_CHECKING
 
-from derive.cli.asked import problem_id_of, root_of
+from derive.cli.problem_ids import problem_id_of, root_of
 from derive.cli.running import waiting
 from derive.cli.terminal import complain
 from derive.errors import Complaint, Misused

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from derive.course.parts import UNIT
+from derive.course.problem_file import GIVEN, SYMBOLS, VALUES, SortOfLetter
 from derive.course.reference.quotes import LINE, LINES, QUOTATION, SIDES, Lines
 from derive.course.schema import (
     FIGURES,
@@ -20,7 +21,6 @@ from derive.course.schema import (
     one_or_more,
     record_of,
 )
-from derive.course.written import GIVEN, SYMBOLS, VALUES, SortOfLetter
 from derive.course.yaml_tree import Mapping, Tree, Word
 
 SCALAR_TEXT = Reader(SCALAR.schema, TEXT.read)

@@ -16,7 +16,7 @@ from sympy import Expr, Symbol
 
 from derive.algebra.dimensions import NUMBER, Dimension
 from derive.algebra.expressions import AXES, TIME
-from derive.course.declared import declared_letters
+from derive.course.declarations import declared_letters
 from derive.course.expression import Declared, read_expression
 from derive.course.problem import Problem, pinned_by
 from derive.course.problem_set import mapping_in, problem_ids

@@ -34,7 +34,7 @@ from derive.mechanics.kinematics.coordinates import AtOneMoment, Coordinate, OfC
 from derive.mechanics.lagrange.facts import FromLagrangian, KeptMomentum, WithMomenta
 from derive.mechanics.motion.claims import arrives_as_told, comes_there, turned_first
 from derive.mechanics.motion.turning_points import arrivals, common_condition, words_of
-from derive.solving.defined import check_defined
+from derive.solving.defined_values import check_defined
 from derive.solving.presentation import presented, without_positive
 from derive.solving.relations import conditions_told
 from derive.solving.unknowns import ValueOf, coordinates_of, left_over, letter_of, meaning, unknown_of, with_unknown

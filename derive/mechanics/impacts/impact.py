@@ -18,7 +18,7 @@ from derive.mechanics.kinematics.coordinates import Coordinate, by_functions_of_
 from derive.mechanics.kinematics.places import Location
 from derive.mechanics.model.acted_on import WrongPart
 from derive.mechanics.model.constraint import Constraint
-from derive.mechanics.model.described import Struck, places_that_move_alone
+from derive.mechanics.model.description import Struck, places_that_move_alone
 from derive.mechanics.model.material import material_point
 from derive.mechanics.model.system import System
 from derive.steps.record import assume, coordinates_in, require_constant

@@ -15,7 +15,7 @@ from derive.algebra.expressions import Factors, Partial, Relation, Terms, explic
 from derive.algebra.ranges import sign_within, strict_sign_within
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
-from derive.mechanics.answers.solved_for import solved_for
+from derive.mechanics.answers.linear_equations import solved_for
 from derive.mechanics.answers.substitution import put_in
 from derive.mechanics.impacts import claims
 from derive.mechanics.impacts.impact import Impact

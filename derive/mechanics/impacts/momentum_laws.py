@@ -22,7 +22,7 @@ from derive.mechanics.impacts.impulses import momentum_jump
 from derive.mechanics.kinematics.coordinates import Coordinate, OfCoordinate
 from derive.mechanics.lagrange.energies import kinetic_energy_of
 from derive.mechanics.model.rigid import inertia_of, is_about_the_point
-from derive.mechanics.newton.alone import (
+from derive.mechanics.newton.single_bodies import (
     ZERO,
     Alone,
     Force,

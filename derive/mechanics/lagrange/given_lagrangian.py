@@ -23,7 +23,7 @@ from derive.errors import Complaint, Rejected
 from derive.mechanics.lagrange.applied_forces import acting_on
 from derive.mechanics.lagrange.facts import Varied
 from derive.mechanics.model.constraint import Constraint
-from derive.mechanics.model.described import Described, described
+from derive.mechanics.model.description import Described, described
 from derive.mechanics.model.forces import Damper, GivenForce
 from derive.steps.establish import Lines, Scope, establish
 from derive.steps.record import assume, coordinates_in, free_letter

@@ -14,7 +14,7 @@ from sympy import Add, Expr, Symbol
 from derive.errors import Complaint, Rejected
 from derive.mechanics.kinematics.places import Location
 from derive.mechanics.model.constraint import Constraint
-from derive.mechanics.model.described import Described, conditions_that_nothing_keeps, places_that_move_alone
+from derive.mechanics.model.description import Described, conditions_that_nothing_keeps, places_that_move_alone
 from derive.mechanics.model.forces import GivenForce
 from derive.steps.step import is_zero
 

@@ -16,6 +16,7 @@ from derive.mechanics.bodies.placed import PlacedBody, PointOfBody
 from derive.mechanics.kinematics.places import Axes, Location
 from derive.mechanics.model.connection import Connection, PointForce, end_of, is_end
 from derive.mechanics.model.constraint import Constraint, StaticLimit
+from derive.mechanics.model.contact_points import has_radius, radius_of, touching
 from derive.mechanics.model.forces import GivenForce
 from derive.mechanics.model.material import GROUND
 from derive.mechanics.model.no_slip import contact_velocity, no_slip, velocity_at, velocity_of_particle
@@ -30,7 +31,6 @@ from derive.mechanics.model.surfaces import (
     unit,
     vector,
 )
-from derive.mechanics.model.touching import has_radius, radius_of, touching
 from derive.steps.record import assume, coordinates_in, require_constant
 from derive.steps.signs import sign_known
 from derive.steps.step import Quantity, is_zero

@@ -17,7 +17,7 @@ from derive.algebra.amplitudes import inverse_of
 from derive.algebra.derivatives import derivative
 from derive.algebra.tidy import tidied
 from derive.mechanics.model.constraint import Constraint
-from derive.mechanics.model.described import description_behind
+from derive.mechanics.model.description import description_behind
 from derive.steps.step import Quantity
 
 

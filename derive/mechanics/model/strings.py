@@ -16,12 +16,12 @@ from derive.mechanics.bodies.placed import PlacedBody
 from derive.mechanics.kinematics.places import Location
 from derive.mechanics.model.connection import Connection, PointForce, end_of, is_end, require_bodies
 from derive.mechanics.model.constraint import Constraint
+from derive.mechanics.model.contact_points import has_radius, radius_of
 from derive.mechanics.model.dalembert import Load
 from derive.mechanics.model.forces import StoredEnergy
 from derive.mechanics.model.no_slip import velocity_at
 from derive.mechanics.model.part import Part, moved
 from derive.mechanics.model.surfaces import Circle, column_of, direction_between, distance_between, dot, raw_distance
-from derive.mechanics.model.touching import has_radius, radius_of
 from derive.steps.record import coordinates_in, require_constant, require_no_coordinate
 from derive.steps.signs import sign_for_all
 from derive.steps.step import is_zero

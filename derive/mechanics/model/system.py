@@ -24,7 +24,7 @@ from derive.mechanics.kinematics.places import Axes, Location
 from derive.mechanics.model.acted_on import WrongPart, check_what_is_acted_on
 from derive.mechanics.model.constraint import Constraint
 from derive.mechanics.model.dalembert import Load, MassPoint, Matter
-from derive.mechanics.model.described import Described, described
+from derive.mechanics.model.description import Described, described
 from derive.mechanics.model.forces import Charge, Damper, GivenForce, StoredEnergy
 from derive.mechanics.model.part import Part
 from derive.steps.record import assume, coordinates_in, require_constant

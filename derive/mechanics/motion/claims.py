@@ -23,8 +23,8 @@ from sympy import (
 )
 
 from derive.algebra.expressions import TIME, Relation, depends_on_time, explicit, rate
+from derive.algebra.period_series import half_swing
 from derive.algebra.samples import letters_of, points, seed_of
-from derive.algebra.swing import half_swing
 from derive.algebra.tidy import tidied
 from derive.mechanics.model.constraint import Constrained, Constraint
 from derive.mechanics.motion.facts import Arrival, ByEnergy, InFlight, SignedRate, Steady

@@ -22,9 +22,9 @@ from derive.algebra.expressions import (
     rate,
     scalar,
 )
+from derive.algebra.period_series import SwingTime, half_swing, is_isochronous, quarter_swing
 from derive.algebra.ranges import where_positive
 from derive.algebra.samples import letters_of, points, seed_of
-from derive.algebra.swing import SwingTime, half_swing, is_isochronous, quarter_swing
 from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected, Spelled
 from derive.mechanics.arguments import checked

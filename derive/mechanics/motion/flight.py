@@ -24,10 +24,10 @@ from derive.mechanics.kinematics.coordinates import OfCoordinate
 from derive.mechanics.kinematics.places import Location
 from derive.mechanics.lagrange.facts import ForceOf
 from derive.mechanics.model.constraint import Constrained, Constraint
+from derive.mechanics.model.contact_points import has_radius, radius_of
 from derive.mechanics.model.dalembert import MassPoint, Matter
-from derive.mechanics.model.described import description_behind
+from derive.mechanics.model.description import description_behind
 from derive.mechanics.model.surfaces import Plane, Surface, dot
-from derive.mechanics.model.touching import has_radius, radius_of
 from derive.mechanics.motion import claims, leaving
 from derive.mechanics.motion.facts import ByEnergy, InFlight, Orbit
 from derive.mechanics.motion.turning_points import squared_by_energy

@@ -12,7 +12,7 @@ from derive.algebra.tidy import tidied
 from derive.mechanics.model.contacts import Contact
 from derive.mechanics.model.strings import Line
 from derive.mechanics.model.surfaces import Circle
-from derive.mechanics.newton.alone import Alone, Vector, dot
+from derive.mechanics.newton.single_bodies import Alone, Vector, dot
 from derive.steps.record import coordinates_in
 from derive.steps.signs import sign_known
 from derive.steps.step import is_zero

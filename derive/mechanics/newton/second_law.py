@@ -11,9 +11,9 @@ from derive.errors import Complaint, Rejected
 from derive.mechanics.kinematics.coordinates import Coordinate
 from derive.mechanics.model.system import System
 from derive.mechanics.newton import claims
-from derive.mechanics.newton.alone import ZERO, Alone, bodies_alone, body_of, changes_alone, sum_of, unit_along
 from derive.mechanics.newton.by_lagrange import facts_of_motion, lagrangian_behind, virtual_work
 from derive.mechanics.newton.directions import INCREASING, direction_of, normals
+from derive.mechanics.newton.single_bodies import ZERO, Alone, bodies_alone, body_of, changes_alone, sum_of, unit_along
 from derive.steps.establish import Lines, PhraseData, Scope, establish
 from derive.steps.rule import ROUTE, Predicate, Rule
 from derive.steps.step import Quantity, compared_with, is_zero

@@ -16,7 +16,9 @@ from derive.mechanics.kinematics.coordinates import Coordinate
 from derive.mechanics.model.rigid import inertia_of, is_about_the_point
 from derive.mechanics.model.system import System
 from derive.mechanics.newton import claims
-from derive.mechanics.newton.alone import (
+from derive.mechanics.newton.by_lagrange import facts_of_motion, lagrangian_behind, virtual_work
+from derive.mechanics.newton.second_law import OUTCOMES, at_rest_in, data_of, outcome_of, scope_of
+from derive.mechanics.newton.single_bodies import (
     ZERO,
     Alone,
     Vector,
@@ -30,8 +32,6 @@ from derive.mechanics.newton.alone import (
     sense_of,
     sum_of,
 )
-from derive.mechanics.newton.by_lagrange import facts_of_motion, lagrangian_behind, virtual_work
-from derive.mechanics.newton.second_law import OUTCOMES, at_rest_in, data_of, outcome_of, scope_of
 from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.rule import ROUTE, Rule
 from derive.steps.step import Quantity, compared_with

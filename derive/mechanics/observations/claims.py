@@ -34,10 +34,10 @@ from sympy import (
 from sympy.polys.polyerrors import BasePolynomialError
 
 from derive.algebra.expressions import TIME, Amount, Relation, bound, depends_on_time, explicit, rate
+from derive.algebra.period_series import half_swing
 from derive.algebra.ranges import range_of
 from derive.algebra.rounding import half_a_unit
 from derive.algebra.samples import NoNumber, Undefined, letters_of, value_at
-from derive.algebra.swing import half_swing
 from derive.steps.known_numbers import with_numbers
 from derive.steps.record import assumed
 from derive.steps.rule import Judged, Naming, Predicate

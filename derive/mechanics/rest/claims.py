@@ -36,10 +36,10 @@ from derive.algebra.expressions import At, Relation, Slope, explicit, rate
 from derive.algebra.ranges import has_meaning, range_of
 from derive.algebra.samples import letters_of, value_at
 from derive.algebra.tidy import tidied
+from derive.mechanics.rest.equilibrium_search import none_is_missing
 from derive.mechanics.rest.facts import Shape, StableWhere
 from derive.mechanics.rest.growth import grows_always, inertia_is_positive, is_turned_aside, matter_of
 from derive.mechanics.rest.on_constraints import signs_on_constraints
-from derive.mechanics.rest.searched import none_is_missing
 from derive.steps.claims import always_sign, negated, same_equation, value_of_role
 from derive.steps.claims import both as both
 from derive.steps.numeric import Extreme

@@ -42,11 +42,7 @@ from derive.mechanics.lagrange.applied_forces import ActedOn
 from derive.mechanics.model.dalembert import Matter
 from derive.mechanics.model.system import System
 from derive.mechanics.rest import claims
-from derive.mechanics.rest.constrained_stability import constraints_of
-from derive.mechanics.rest.counting import is_countable, signs_counted
-from derive.mechanics.rest.facts import RestOf, matter_behind
-from derive.mechanics.rest.mass_matrix import check_regular
-from derive.mechanics.rest.sides import (
+from derive.mechanics.rest.both_sides import (
     SidesOpen,
     State,
     how_sides_are_taken,
@@ -55,6 +51,10 @@ from derive.mechanics.rest.sides import (
     on_known_sides,
     sides_of,
 )
+from derive.mechanics.rest.constrained_stability import constraints_of
+from derive.mechanics.rest.facts import RestOf, matter_behind
+from derive.mechanics.rest.mass_matrix import check_regular
+from derive.mechanics.rest.number_of_zeros import is_countable, signs_counted
 from derive.solving.attainable import lies_within
 from derive.solving.divisors import may_vanish
 from derive.solving.zeros import Unsolved, Zero, factors_of, zeros_of

@@ -25,12 +25,12 @@ from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected, Spelled
 from derive.mechanics.hamilton.facts import SeenWith
 from derive.mechanics.rest import claims
+from derive.mechanics.rest.both_sides import on_known_sides
 from derive.mechanics.rest.constrained_stability import OnConstraints, constraints_of
 from derive.mechanics.rest.equilibria import all_matter, place_given, potential_at_rest, slope_otherwise, steady_in
 from derive.mechanics.rest.facts import Shape, StableWhere, matter_behind
 from derive.mechanics.rest.mass_matrix import check_regular, has_positive_inertia
 from derive.mechanics.rest.potentials import slope
-from derive.mechanics.rest.sides import on_known_sides
 from derive.solving.relations import border_of, positive
 from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.record import require_constant

@@ -35,7 +35,7 @@ from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.body import Body
 from derive.mechanics.bodies.equimomental import Particles, counted_from, squared_distance, summed, tensor_at
 from derive.mechanics.bodies.facts import AboutPoint, CountedFrom, OfBody
-from derive.mechanics.bodies.general import GeneralBody
+from derive.mechanics.bodies.mapped_bodies import GeneralBody
 from derive.mechanics.bodies.mapping import Map
 from derive.mechanics.bodies.parts import PlacedPart, place_of
 from derive.mechanics.bodies.possible import check_parts, require_positive

@@ -41,8 +41,8 @@ from derive.algebra.amplitudes import Amplitudes, Determinant
 from derive.algebra.dimensions import Dimension
 from derive.algebra.expansion import Approach, Expansion, FirstOrder
 from derive.algebra.ordered_roots import OrderedRoot
+from derive.algebra.period_series import SwingTime, SwingTimeOfNumbers
 from derive.algebra.rounding import Rounded, decimal_text
-from derive.algebra.swing import SwingTime, SwingTimeOfNumbers
 from derive.course.transcript import Transcript
 from derive.render.notation.binding import Binding, binding, sign_apart, signed, within
 from derive.render.notation.layout import (

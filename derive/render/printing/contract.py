@@ -29,8 +29,8 @@ from derive.algebra.dimensions import NUMBER, Dimension
 from derive.algebra.direction import Direction
 from derive.algebra.expansion import Expansion
 from derive.algebra.kinds import unit_of_dimension, unit_of_kind
+from derive.algebra.period_series import SwingTime
 from derive.algebra.rounding import Rounded, decimal_text, half_a_unit
-from derive.algebra.swing import SwingTime
 from derive.course.parts import points_text
 from derive.errors import Complaint
 from derive.page.tree import Document, Illustration
@@ -40,7 +40,7 @@ from derive.render.notation.notation import Notation
 from derive.render.notation.text import in_one_line
 from derive.render.printing.chain_names import Page, StepNames
 from derive.render.printing.plain_sympy import sympy_text
-from derive.render.printing.said import Said, named_result
+from derive.render.printing.text_blocks import Said, named_result
 from derive.render.printing.text_page import inline_text
 from derive.steps.step import NUMBERS, Step
 

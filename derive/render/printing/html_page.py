@@ -45,7 +45,7 @@ from derive.render.printing.figure_numbers import OF_PROBLEM, figure_number
 from derive.render.printing.lines import PAGE_WIDTH, Printed, answers_together, before_answers, printed_lines
 from derive.render.printing.templates import filled_html
 from derive.render.printing.text_page import inline_text
-from derive.render.printing.told_once import theorem, told_in
+from derive.render.printing.theorems_once import theorem, told_in
 from derive.render.rendered import Files, Html
 
 LISTED = 3  # a page with at least this many parts has a table of contents

@@ -12,7 +12,7 @@ from html import escape
 from derive.course.placement import STATEMENT
 from derive.page.chain_lines import Equations
 from derive.page.cross_references import found_before
-from derive.page.introduced import references_in
+from derive.page.introduced_symbols import references_in
 from derive.page.tree import Block, Display, Folded, Illustration, PartPage
 from derive.page.wording import DimensionMark, Inline, Math, NewParagraph, ProblemRef, Ref, Text, UnitMark
 from derive.render.notation.latex import dimension_latex, latex, unit_latex

@@ -9,10 +9,10 @@ from collections.abc import Mapping, Sequence
 from derive.algebra.dimensions import exponents
 from derive.course.names import EvidenceShown
 from derive.course.placement import STATEMENT
+from derive.page.no_break_spaces import NO_BREAK, unbroken
 from derive.page.numbering import Number
 from derive.page.theorems import standalone
 from derive.page.tree import Block, Display, Document, Folded, Illustration, Paragraph, PartPage
-from derive.page.unbroken import NO_BREAK, unbroken
 from derive.page.wording import (
     DimensionMark,
     Inline,

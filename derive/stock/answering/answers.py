@@ -27,7 +27,7 @@ from derive.mechanics import Coordinate
 from derive.steps.derivation import returned_quantities
 from derive.steps.step import Quantity
 from derive.stock.answering.by_name import ByName
-from derive.stock.answering.marked import Marked
+from derive.stock.answering.marks import Marked
 from derive.stock.answering.plots import Plotted
 
 T = TypeVar("T")

@@ -11,7 +11,7 @@ from derive.course.yaml_tree import Word
 from derive.errors import rejected
 from derive.mechanics import Coordinate, System, second_law, torque_law
 from derive.mechanics.kinematics.coordinates import OfCoordinate
-from derive.mechanics.newton.alone import body_of
+from derive.mechanics.newton.single_bodies import body_of
 from derive.steps.derivation import returned_quantities, with_ancestors
 from derive.steps.step import Quantity
 

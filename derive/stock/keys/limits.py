@@ -9,11 +9,11 @@ from sympy import Expr, MatrixBase, Symbol
 
 from derive.algebra.equality import equal
 from derive.algebra.expressions import Relation, bound, explicit
-from derive.course.declared import INFINITE
+from derive.course.declarations import INFINITE
 from derive.course.expression import Declared, read_expression
 from derive.course.problem import Problem, deriving
+from derive.course.problem_file import LimitKeys
 from derive.course.stock import told_at
-from derive.course.written import LimitKeys
 from derive.course.yaml_tree import Formula, Word
 from derive.errors import Faults, did_you_mean, rejected
 from derive.mechanics import case_in_letters, known_case, limiting_case, put_in

@@ -8,7 +8,7 @@ from dataclasses import replace
 from derive.course.problem import Problem, deriving
 from derive.course.yaml_tree import Word
 from derive.errors import Faults, did_you_mean
-from derive.mechanics.observations.chosen import NAMES, best, of_kinds
+from derive.mechanics.observations.selection import NAMES, best, of_kinds
 from derive.mechanics.observations.view import View
 from derive.steps.derivation import with_ancestors
 from derive.steps.record import Run

@@ -11,8 +11,9 @@ from sympy import Expr
 from derive.algebra.expressions import TIME, rate, scalar
 from derive.algebra.kinds import KINDS
 from derive.algebra.ranges import POSITIVE, Range
-from derive.course.declared import read_range
+from derive.course.declarations import read_range
 from derive.course.expression import RESERVED, Declared
+from derive.course.problem_file import SortOfLetter, schema_of_sorts, sort_of_letter
 from derive.course.schema import (
     SCALAR,
     TEXT,
@@ -26,7 +27,6 @@ from derive.course.schema import (
     wrong_type,
 )
 from derive.course.stock import InLetters, each, told_at
-from derive.course.written import SortOfLetter, schema_of_sorts, sort_of_letter
 from derive.course.yaml_tree import Mapping as MappingNode
 from derive.course.yaml_tree import Scalar, Sequence, Tree, Word
 from derive.errors import Complaint, Faults, Place, Rejected, did_you_mean, rejected

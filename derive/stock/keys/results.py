@@ -16,7 +16,7 @@ from sympy import Expr
 
 import derive.mechanics  # noqa: F401  registers the verbs of `results:`
 from derive.algebra.expressions import Prescribed
-from derive.course.declared import INFINITE
+from derive.course.declarations import INFINITE
 from derive.course.expression import names_in
 from derive.course.schema import SCALAR, TEXT, Reader, Record, as_written, key, mapping_of, one_or_more, record_of
 from derive.course.stock import InLetters, each, told_at

@@ -13,11 +13,11 @@ from sympy import Expr, Symbol
 from derive.algebra.expressions import scalar
 from derive.algebra.kinds import kind_of_dimension
 from derive.algebra.ranges import Range
-from derive.course.assumed import Assumed, read_assumed
+from derive.course.assumptions import Assumed, read_assumed
 from derive.course.expression import Declared
+from derive.course.problem_file import SortOfLetter
 from derive.course.schema import SCALAR, TEXT, Record, as_written, key, mapping_of, one_or_more
 from derive.course.stock import Described, InLetters, attempted, each
-from derive.course.written import SortOfLetter
 from derive.course.yaml_tree import Scalar, Tree, Word
 from derive.course.yaml_tree import Sequence as Listed
 from derive.errors import Faults, Place, rejected
@@ -65,7 +65,7 @@ from derive.stock.keys.parts import (
     ParticleKeys,
     SpringKeys,
 )
-from derive.stock.keys.placed import BODIES, MovingBodyKeys
+from derive.stock.keys.placed_bodies import BODIES, MovingBodyKeys
 from derive.stock.keys.places import (
     COORDINATES,
     FUNCTIONS,

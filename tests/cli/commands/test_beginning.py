@@ -52,7 +52,7 @@ def test_what_is_there_stays_as_it_is(root: Path, capfd: pytest.CaptureFixture[s
 @pytest.fixture
 def outside(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.delenv("DERIVE_ROOT", raising=False)
-    monkeypatch.setattr("derive.cli.asked.found_root", lambda named: _course_above(named))
+    monkeypatch.setattr("derive.cli.problem_ids.found_root", lambda named: _course_above(named))
     monkeypatch.setattr("derive.cli.commands.beginning.found_root", lambda named: _course_above(named))
     monkeypatch.chdir(tmp_path)
     return tmp_path

@@ -10,7 +10,7 @@ import pytest
 
 from derive.cli.options import main
 from derive.preview import preview as previewed
-from derive.preview.asking import Shown
+from derive.preview.worker_control import Shown
 from tests.courses import course_in
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from derive.building.solved import steps_key
+from derive.building.derivations import steps_key
 from derive.course.problem import load_problem
 from derive.course.reference.comparison import Comparison
 from derive.course.reference.statements import reference_paths

@@ -8,8 +8,8 @@ import pytest
 from sympy import sqrt, symbols
 
 from derive.algebra.equality import equal
+from derive.building.derivations import steps_key
 from derive.building.solution import derived, rendered
-from derive.building.solved import steps_key
 from derive.errors import Rejected
 from tests.stock.described import course_with, edited, loaded
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from derive.building.solution import rendered
-from derive.mechanics.observations.chosen import NAMES
+from derive.mechanics.observations.selection import NAMES
 from tests.courses import ROOT
 
 PROBLEM = """

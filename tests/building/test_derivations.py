@@ -9,8 +9,8 @@ import pytest
 
 from derive.building import solution
 from derive.building.cache import Cache
+from derive.building.derivations import Solved, steps_key
 from derive.building.solution import rendered
-from derive.building.solved import Solved, steps_key
 from derive.course.problem import load_problem
 from derive.render.rendered import Rendered
 from tests.courses import course_in

@@ -12,7 +12,7 @@ from derive.page.numbering import Number
 from derive.page.tree import Folded, Paragraph
 from derive.page.wording import Ref, Text
 from derive.render.notation.notation import Notation
-from derive.render.printing.said import Said
+from derive.render.printing.text_blocks import Said
 from tests.courses import course_in, rendered_once
 
 

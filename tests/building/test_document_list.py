@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
+from derive.building.document_list import list_again, papers, there_of
 from derive.building.files import write
 from derive.building.manifest import Manifest
-from derive.building.papers import list_again, papers, there_of
 from derive.building.set_document import document_page, index_page
 from derive.building.sets import Options, built_set
 from derive.building.solution import rendered

@@ -22,7 +22,7 @@ from derive.mechanics import (
     weight,
 )
 from derive.mechanics.rest import equilibria as equilibria_module
-from derive.mechanics.rest.searched import none_is_missing
+from derive.mechanics.rest.equilibrium_search import none_is_missing
 from derive.solving import zeros
 from derive.solving.zeros import Zero
 from derive.steps.record import recorded

@@ -33,7 +33,7 @@ from derive.mechanics import (
 from derive.steps.record import recorded
 from derive.steps.rule import Judged
 from derive.steps.step import Quantity
-from derive.witness import small
+from derive.witness import small_motions
 from derive.witness.claim import Claim
 from derive.witness.description import Description
 from derive.witness.dynamics import Blueprint
@@ -70,18 +70,18 @@ def at(value: object) -> dict[str, object]:
 
 def test_a_pendulum_stays_at_its_equilibria_and_nowhere_else() -> None:
     for rest in equilibria(potential_energy_of(pendulum())):
-        assert small.rest(claim(rest))
+        assert small_motions.rest(claim(rest))
     moved = replace(rest, facts=(replace(rest.facts[0], values={q: Integer(1)}),))
-    assert not small.rest(claim(moved))
+    assert not small_motions.rest(claim(moved))
 
 
 def test_below_is_stable_and_above_is_not() -> None:
     U = potential_energy_of(pendulum())
     below, above = (stability(U, {THETA: value}, key=key) for value, key in ((0, "below"), (pi, "above")))
-    assert small.stability(claim(below, **at(Integer(0))))
-    assert small.stability(claim(above, **at(pi)))
-    assert small.stability(claim(below, outcome="unstable", **at(Integer(0)))).detail.startswith("every small")
-    assert small.stability(claim(above, outcome="stable", **at(pi))).detail == "a small displacement grows"
+    assert small_motions.stability(claim(below, **at(Integer(0))))
+    assert small_motions.stability(claim(above, **at(pi)))
+    assert small_motions.stability(claim(below, outcome="unstable", **at(Integer(0)))).detail.startswith("every small")
+    assert small_motions.stability(claim(above, outcome="stable", **at(pi))).detail == "a small displacement grows"
 
 
 def test_a_condition_of_stability_is_tried_on_both_of_its_sides() -> None:
@@ -90,8 +90,8 @@ def test_a_condition_of_stability_is_tried_on_both_of_its_sides() -> None:
     L = lagrangian(system)
     of = system.described.description
     right, wrong = Relation(g, ">", R * w**2), Relation(g, ">", 2 * R * w**2)
-    assert small.stability(claim(L, of, "depends", condition=right, **at(Integer(0))))
-    assert not small.stability(claim(L, of, "depends", condition=wrong, **at(Integer(0))))
+    assert small_motions.stability(claim(L, of, "depends", condition=right, **at(Integer(0))))
+    assert not small_motions.stability(claim(L, of, "depends", condition=wrong, **at(Integer(0))))
 
 
 def test_a_saddle_that_a_constraint_closes_is_stable() -> None:
@@ -103,8 +103,8 @@ def test_a_saddle_that_a_constraint_closes_is_stable() -> None:
     system = System(Particle(m, point(x.symbol, y.symbol)), potential(energy), constraint(y.symbol, force="Q"))
     places = {"coordinates": (x.symbol, y.symbol), "place": (Integer(0), Integer(0))}
     L = lagrangian(system)
-    assert small.stability(claim(L, system.described.description, "stable", **places))
-    assert not small.stability(claim(L, system.described.description, "unstable", **places))
+    assert small_motions.stability(claim(L, system.described.description, "stable", **places))
+    assert not small_motions.stability(claim(L, system.described.description, "unstable", **places))
 
 
 def test_the_frequencies_of_normal_modes_are_those_of_small_motions() -> None:
@@ -115,17 +115,17 @@ def test_the_frequencies_of_normal_modes_are_those_of_small_motions() -> None:
     modes = normal_modes(linearised(equations_of_motion(lagrangian(system))))
     slow, fast = (each for each in modes if each.key.startswith("frequency"))
     of = system.described.description
-    assert small.frequency(claim(slow, of))
-    assert small.frequency(claim(fast, of))
-    assert not small.frequency(claim(replace(slow, value=sqrt(2 * k / m)), of))
+    assert small_motions.frequency(claim(slow, of))
+    assert small_motions.frequency(claim(fast, of))
+    assert not small_motions.frequency(claim(replace(slow, value=sqrt(2 * k / m)), of))
 
 
 def test_a_rate_of_growth_is_an_eigenvalue_too() -> None:
     (above,) = [linearised(equations_of_motion(lagrangian(pendulum()))[0], at={THETA: pi})]
     (growth,) = normal_modes([above] if isinstance(above, Quantity) else above)
     assert growth.step.outcome == "unstable"
-    assert small.frequency(claim(growth))
-    assert not small.frequency(claim(growth, outcome="stable"))
+    assert small_motions.frequency(claim(growth))
+    assert not small_motions.frequency(claim(growth, outcome="stable"))
 
 
 def damped_pair() -> tuple[System, tuple[Quantity, ...]]:
@@ -144,12 +144,12 @@ def test_rates_of_decay_and_damped_frequencies_are_exponents_of_small_motions() 
     swings = [each for each in modes if each.step.rule == "vibrations.damped_frequency"]
     assert decays and swings
     for each in decays:
-        assert small.damped(claim(each, of))
-        assert not small.damped(claim(replace(each, value=each.value * 2), of))
+        assert small_motions.damped(claim(each, of))
+        assert not small_motions.damped(claim(replace(each, value=each.value * 2), of))
     for each in swings:
         beta = {"beta": decays[0].value}
-        assert small.damped(claim(each, of, **beta))
-        assert not small.damped(claim(replace(each, value=sqrt(2 * k / m)), of, **beta))
+        assert small_motions.damped(claim(each, of, **beta))
+        assert not small_motions.damped(claim(replace(each, value=sqrt(2 * k / m)), of, **beta))
 
 
 def test_a_sum_of_modes_is_the_motion_from_its_start_and_from_no_other() -> None:
@@ -161,8 +161,8 @@ def test_a_sum_of_modes_is_the_motion_from_its_start_and_from_no_other() -> None
     first, second = motions_by_modes(modes, {x: A})
     of = system.described.description
     start = {"start_1": Relation(x.symbol, "=", A)}
-    assert small.motion(claim(first, of, **start))
-    assert small.motion(claim(second, of, **start))
-    assert not small.motion(claim(replace(first, value=second.value), of, **start))
+    assert small_motions.motion(claim(first, of, **start))
+    assert small_motions.motion(claim(second, of, **start))
+    assert not small_motions.motion(claim(replace(first, value=second.value), of, **start))
     moving = {**start, "start_2": Relation(rate(y.symbol), "=", A)}
-    assert not small.motion(claim(first, of, **moving))
+    assert not small_motions.motion(claim(first, of, **moving))

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from derive.building.solution import rendered
-from derive.course.begun import PATTERNS, begun
+from derive.course.new_problem import PATTERNS, begun
 from derive.course.problem_set import problem_set
 from derive.errors import Misused, Rejected
 from derive.page.template import templates_of

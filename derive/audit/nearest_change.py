@@ -14,12 +14,12 @@ from itertools import islice
 from sympy import Add as Add_
 from sympy import Expr, Integral, Symbol, expand
 
-from derive.audit.known import Known
-from derive.audit.limited import FAULTS
+from derive.audit.knowledge import Known
 from derive.audit.numeric import NoNumber, Numbers, at, close
 from derive.audit.points import Surface
 from derive.audit.slips import Edit, edits_of_side, with_term
 from derive.audit.systems import OF_RATES, equations_of, expanded
+from derive.audit.time_limit import FAULTS
 from derive.documents.meaning import Meaning, Meaningless
 from derive.documents.syntax import Add, Der, Fun, Letter, Node, Num, Root
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from derive.course.written import ANY_OUTCOME, ProblemKeys, written_problem
+from derive.course.problem_file import ANY_OUTCOME, ProblemKeys, written_problem
 from derive.errors import Faults, Rejected
 from tests.course.problem_file import at, edited, faults, loaded
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from derive.page.unbroken import unbroken
+from derive.page.no_break_spaces import unbroken
 from derive.page.wording import Text
 from derive.render.notation.latex import escaped
 

@@ -22,7 +22,7 @@ from derive.mechanics import (
     solved_for,
     work_of_impulses,
 )
-from derive.mechanics.newton.alone import body_of
+from derive.mechanics.newton.single_bodies import body_of
 from derive.steps.step import Quantity
 from derive.stock.answering.answers import Answers, answer, answer_for_each
 from derive.stock.keys.deferred import told_at_part

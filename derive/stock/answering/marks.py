@@ -15,8 +15,8 @@ from derive.algebra.equality import equal
 from derive.algebra.expressions import AXES, explicit, scalar
 from derive.course.expression import read_expression
 from derive.course.placement import Placement
+from derive.course.problem_file import MarkKeys
 from derive.course.stock import InLetters, each, told_at
-from derive.course.written import MarkKeys
 from derive.course.yaml_tree import Formula as Written
 from derive.course.yaml_tree import Scalar, Tree, Word
 from derive.course.yaml_tree import Sequence as SequenceNode

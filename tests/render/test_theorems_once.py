@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from derive.render.printing.told_once import theorem, told_in, told_once
+from derive.render.printing.theorems_once import theorem, told_in, told_once
 
 AGAIN = f"For levers see {told_in('Problem')}."
 LEVERS = f"<p>{theorem('levers', 'Levers balance.', AGAIN)}So this one does.</p>"

@@ -9,7 +9,7 @@ from typing import Any
 from sympy import Add, Function, MatrixBase
 
 from derive.page.clauses import continues_sentence
-from derive.page.introduced import expressions_in, letters_in, letters_of, references_in
+from derive.page.introduced_symbols import expressions_in, letters_in, letters_of, references_in
 from derive.page.selection import is_short
 from derive.page.tree import Block, Display, Document, Paragraph
 from derive.steps.derivation import Derivation

@@ -14,9 +14,9 @@ from sympy import Integer, Symbol
 
 from derive.algebra.dimensions import dimension
 from derive.algebra.expressions import column
-from derive.building import drawn
+from derive.building import drawings
 from derive.building.cache import NO_CACHE, Cache
-from derive.building.drawn import POINTS_PER_CM, WIDE, WIDTH, drawing_files, numbers_of
+from derive.building.drawings import POINTS_PER_CM, WIDE, WIDTH, drawing_files, numbers_of
 from derive.building.set_document import problem_document
 from derive.building.sets import Options, built_set
 from derive.building.solution import rendered
@@ -34,7 +34,7 @@ from derive.render.drawing import lettering
 from derive.render.drawing.lettering import Lettered, letters_of
 from derive.render.notation.notation import Notation
 from derive.render.rendered import Rendered
-from tests.building.test_solved import forbid_deriving
+from tests.building.test_derivations import forbid_deriving
 from tests.courses import ROOT, course_in, rendered_once
 
 CAPTION = "  vectors:\n"
@@ -53,7 +53,7 @@ def problem(tmp_path_factory: pytest.TempPathFactory) -> Problem:
     return load_problem(course_in(tmp_path_factory.mktemp("course")), "hw9/block")
 
 
-SHAPE = drawn.HEIGHT / drawn.WIDTH
+SHAPE = drawings.HEIGHT / drawings.WIDTH
 
 
 def letters(**kinds: str) -> dict[str, Any]:
@@ -102,7 +102,7 @@ def drawings(monkeypatch: pytest.MonkeyPatch) -> list[str]:
         made.append("drawn")
         return SimpleNamespace(pdf=b"pdf %d" % len(made)), SimpleNamespace(svg=b"svg %d" % len(made))
 
-    monkeypatch.setattr(drawn, "_drawn", draw)
+    monkeypatch.setattr(drawings, "_drawn", draw)
     return made
 
 
@@ -176,7 +176,7 @@ def test_what_cannot_be_drawn_is_told_where_the_problem_asks_for_it(
     def refuse(*_: object) -> None:
         raise Rejected(Complaint("drawing", "the sides are negative"))
 
-    monkeypatch.setattr(drawn, "_drawn", refuse)
+    monkeypatch.setattr(drawings, "_drawn", refuse)
     with pytest.raises(Rejected) as caught:
         files_of(problem, NO_CACHE)
     place = caught.value.complaints[0].place
@@ -200,7 +200,7 @@ def test_an_edit_of_the_given_redraws_and_one_of_the_words_does_not(
     file.write_text(file.read_text().replace("points: 10", "points: 10\nnote: words"))
     with monkeypatch.context() as patch:
         forbid_deriving(patch)
-        patch.setattr(drawn, "_drawn", lambda *_: pytest.fail("drawn again"))
+        patch.setattr(drawings, "_drawn", lambda *_: pytest.fail("drawn again"))
         assert rendered(course, "hw9/block", None, kept, draws=True).files == block.files
     file.write_text(file.read_text().replace("[a, 2*a, 3*a]", "[a, 2*a, 2*a]"))
     changed = dict(rendered(course, "hw9/block", None, kept, draws=True).files)
@@ -272,13 +272,13 @@ def many_labels(count: int, **more: Any) -> Drawing:
 def test_a_drawing_with_many_labels_is_larger_unless_its_author_chooses_the_width(
     count: int, width: float | None, cm: float
 ) -> None:
-    sheet, _ = drawn._drawn(many_labels(count, values=()), {}, Notation(), None, (width, SHAPE), "", NO_CACHE)
+    sheet, _ = drawings._drawn(many_labels(count, values=()), {}, Notation(), None, (width, SHAPE), "", NO_CACHE)
     assert sheet.labels == count
     assert sheet.width / POINTS_PER_CM == pytest.approx(cm, abs=1.2)
 
 
 def test_the_author_chooses_the_width_of_a_force_diagram() -> None:
     alone = replace(many_labels(4), body_size=20.0)
-    small, _ = drawn._drawn(alone, {}, Notation(), None, (None, SHAPE), "", NO_CACHE)
-    wide, _ = drawn._drawn(alone, {}, Notation(), None, (9.0, SHAPE), "", NO_CACHE)
+    small, _ = drawings._drawn(alone, {}, Notation(), None, (None, SHAPE), "", NO_CACHE)
+    wide, _ = drawings._drawn(alone, {}, Notation(), None, (9.0, SHAPE), "", NO_CACHE)
     assert small.width < 3 * POINTS_PER_CM < 8 * POINTS_PER_CM < wide.width

@@ -8,7 +8,7 @@ from sympy import Expr, Integer, Rational, cos, elliptic_k, nan, pi, series, sin
 from derive.algebra.equality import equal
 from derive.algebra.expansion import NoExpansion
 from derive.algebra.expressions import explicit
-from derive.algebra.swing import SwingTime, quarter_swing
+from derive.algebra.period_series import SwingTime, quarter_swing
 
 q, A = symbols("q A", real=True)
 w, c = symbols("omega c", positive=True)

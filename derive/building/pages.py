@@ -13,9 +13,9 @@ from typing import Any
 
 from derive.algebra.dimensions import Dimension
 from derive.building.cache import NO_CACHE, Cache
-from derive.building.drawn import drawing_files
+from derive.building.derivations import Solved
+from derive.building.drawings import drawing_files
 from derive.building.numbers import faults_of_numbers
-from derive.building.solved import Solved
 from derive.course.names import HINTS, KEY, EvidenceShown
 from derive.course.parts import points_text
 from derive.course.problem import Problem

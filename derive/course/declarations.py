@@ -13,7 +13,7 @@ from derive.algebra.ranges import POSITIVE, Range
 from derive.course.expression import RESERVED, Declared, read_expression
 from derive.course.given import symbol_of_kind
 from derive.course.measures import Wanted, number_with_unit
-from derive.course.written import SortOfLetter
+from derive.course.problem_file import SortOfLetter
 from derive.course.yaml_tree import Scalar, Word, abridged
 from derive.errors import Faults, Rejected, rejected
 

@@ -8,7 +8,7 @@ from sympy import Symbol
 
 from derive.algebra.expressions import component_names, scalar, vector
 from derive.course.problem import load_problem
-from derive.page.introduced import letters_in, letters_of, references_in, wanting
+from derive.page.introduced_symbols import letters_in, letters_of, references_in, wanting
 from derive.page.template import templates_of
 from derive.page.wording import Math, Ref, Text, phrases
 from tests.courses import ROOT, course_in, solved_once

@@ -8,8 +8,8 @@ from typing import Any
 import pytest
 
 from derive.building.cache import Cache
+from derive.building.derivations import steps_key
 from derive.building.solution import rendered
-from derive.building.solved import steps_key
 from derive.course.problem import run_solve
 from derive.errors import DeriveError
 from derive.figures.annotations import AngleMark, Arrow, HollowPoint, Line, Turn

@@ -8,7 +8,7 @@ from typing import Any
 from sympy import Symbol, symbols
 
 from derive.page.chain_lines import ChainLine
-from derive.page.repeats import Stated, noted, results, told_by_number
+from derive.page.repeated_formulas import Stated, noted, results, told_by_number
 from derive.page.wording import Chain, Ref, Text
 from derive.steps.step import Level
 

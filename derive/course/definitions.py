@@ -10,7 +10,7 @@ from sympy import Expr, Symbol
 from derive.algebra.dimensions import Dimension
 from derive.algebra.natural import is_positive
 from derive.algebra.ranges import within
-from derive.course.declared import check_name
+from derive.course.declarations import check_name
 from derive.course.expression import Declared, read_expression
 from derive.course.yaml_tree import Formula, Word
 from derive.errors import Faults, rejected
