@@ -206,6 +206,7 @@ def test_words_may_be_in_the_first_row_of_an_answer_that_begins_with_its_law() -
     assert r"\wordstodisplay{The tension is}" in solution(page(*said))
     assert r"\todisplay{The tension is}" in solution(page(said[0], display("mass", framed=1)))
     assert r"\todisplay{The tension is}" in solution(page(*said, evidence=EvidenceShown.MARGIN))
+    assert r"\todisplay{so " in solution(page(Paragraph((Text("so "), DisplayedMath(a))), shown))
 
 
 def test_a_long_result_is_in_one_frame_of_several_lines() -> None:

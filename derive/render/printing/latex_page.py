@@ -179,11 +179,12 @@ class LatexPage:
 
     def is_in_first_row(self, block: Paragraph, display: Display) -> bool:
         """Return whether words may be in the first row of their display, if they are short: words that continue the
-        sentence of the display before them, and words before the law of an answer. With notes in the margin, return
-        false, because a note needs a line of text."""
+        sentence of the display before them, and words before the law of an answer. Words with a displayed formula are
+        never in this row, nor words with a note in the margin."""
         first, *others = printed_lines(display.groups[0], self.notation)
         is_law = not first.framed and first.left is not None and any(line.framed for line in others)
-        return (continues_sentence(block.nodes) or is_law) and not self.has_margin()
+        has_display = any(isinstance(node, DisplayedMath) for node in block.nodes)
+        return (continues_sentence(block.nodes) or is_law) and not has_display and not self.has_margin()
 
     def kind(self, block: Any) -> str:
         return type(block).__name__.lower()
