@@ -12,7 +12,7 @@ from pathlib import Path
 
 import derive.mechanics
 import derive.mechanics.observations.selection
-import derive.steps.definitions
+import derive.steps.defined
 import derive.steps.numeric
 from derive.mechanics.in_results import RESULT_VERBS
 from derive.steps.rule import CHECK, ROUTE, Rule

@@ -162,8 +162,8 @@ class _Fractions(Expanded):
         return sorted(degrees, key=lambda place: (degrees[place], str(self.name(place))))
 
     def without(self, function: type) -> Callable[[Terms], Terms]:
-        """Replace even powers of `function`, sine or cosine, by the other function of the same angle. An odd power
-        leaves one factor `function`."""
+        """Return a function that replaces the square of `function`, sine or cosine, by 1 minus the square of the other
+        function of the same angle. An odd power leaves one factor `function`."""
 
         def turn(terms: Terms) -> Terms:
             for place, other in self._turning(terms):

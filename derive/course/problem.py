@@ -42,7 +42,7 @@ from derive.course.unused import unused_in
 from derive.course.variants import Chosen, Variation
 from derive.course.yaml_tree import Mapping, Tree, Word, abridged, as_text
 from derive.errors import Complaint, Faults, Place, did_you_mean, nearest
-from derive.steps.definitions import define
+from derive.steps.defined import define
 from derive.steps.record import Run, assume, recorded
 
 DEFAULT_FIGURES = 4

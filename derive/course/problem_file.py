@@ -246,7 +246,7 @@ class MarkKeys(Record):
 
     against: Formula | None = key("for a curve: the letter that varies along it", FORMULA)
     between: tuple[Formula, ...] = key(
-        "for a curve: the two ends of this letter, such as `[-pi, pi]`", ENDS, called="range"
+        "for a curve: the range of the letter under `against`, such as `[-pi, pi]`", ENDS, called="range"
     )
 
     def has(self, name: str) -> bool:

@@ -291,7 +291,7 @@ class Meaning:
                 return base.dot(base)
             if exponent == -1 or (exponent.is_Integer and base.shape[0] == base.shape[1] and abs(exponent) < 6):
                 return base**exponent
-            raise Meaningless("this power of a vector or matrix has no value", node.span)
+            raise Meaningless("this power of a vector or matrix cannot be evaluated", node.span)
         if exponent.is_Number and abs(exponent) > LARGEST_POWER:
             raise Meaningless("this power is too high", node.exponent.span)
         if base == 0 and exponent.is_negative:

@@ -135,7 +135,7 @@ class _Grading:
             error.source = written.source
             raise
         self.remarks = [*written.notes, *dict.fromkeys(note for each in statements for note in self.notes_of(each))]
-        self.remarks += [f"the name `{each}` is not read" for each in self.left_out]
+        self.remarks += [f"the left side `{each}` is ignored; only the right side is graded" for each in self.left_out]
         found = self.matched(statements)
         return self.summed(found, statements)
 
@@ -638,7 +638,7 @@ def _repeated(values: list[Expr], distinct: list[Expr], wanted: list[Expr]) -> l
 
 
 def _is_plain_decimal(text: str) -> bool:
-    """Whether a number is one decimal, with or without a power of ten."""
+    """Whether a text is a single decimal number, with or without a power of ten."""
     import re
 
     plain = re.sub(r"\\times|\\cdot|[×·*xX]", "*", text.replace(" ", "").replace("\\,", "").strip("$"))

@@ -247,8 +247,8 @@ def _towards(trial: Trial, unknown: Expr, state: State, sign: float) -> State:
 
 # --- free flight after the constraint has ended ---
 
-# The motion before a flight begins at this fraction of the way from its given start, because this start may be an
-# equilibrium.
+# The motion that leads to a flight begins at this fraction of the way from the given start to the place where contact
+# is lost, because the given start may be an equilibrium.
 BEGUN = 0.03
 FLIGHTS = 3  # number of sets of numbers
 # The greatest difference between a formula for a position and a simulated flight, relative to 1 plus the size of the

@@ -14,7 +14,7 @@ from sympy import Integer, Symbol
 
 from derive.algebra.dimensions import dimension
 from derive.algebra.expressions import column
-from derive.building import drawings
+from derive.building import drawings as files
 from derive.building.cache import NO_CACHE, Cache
 from derive.building.drawings import POINTS_PER_CM, WIDE, WIDTH, drawing_files, numbers_of
 from derive.building.set_document import problem_document
@@ -53,7 +53,7 @@ def problem(tmp_path_factory: pytest.TempPathFactory) -> Problem:
     return load_problem(course_in(tmp_path_factory.mktemp("course")), "hw9/block")
 
 
-SHAPE = drawings.HEIGHT / drawings.WIDTH
+SHAPE = files.HEIGHT / files.WIDTH
 
 
 def letters(**kinds: str) -> dict[str, Any]:
@@ -102,7 +102,7 @@ def drawings(monkeypatch: pytest.MonkeyPatch) -> list[str]:
         made.append("drawn")
         return SimpleNamespace(pdf=b"pdf %d" % len(made)), SimpleNamespace(svg=b"svg %d" % len(made))
 
-    monkeypatch.setattr(drawings, "_drawn", draw)
+    monkeypatch.setattr(files, "_drawn", draw)
     return made
 
 
@@ -176,7 +176,7 @@ def test_what_cannot_be_drawn_is_told_where_the_problem_asks_for_it(
     def refuse(*_: object) -> None:
         raise Rejected(Complaint("drawing", "the sides are negative"))
 
-    monkeypatch.setattr(drawings, "_drawn", refuse)
+    monkeypatch.setattr(files, "_drawn", refuse)
     with pytest.raises(Rejected) as caught:
         files_of(problem, NO_CACHE)
     place = caught.value.complaints[0].place
@@ -200,7 +200,7 @@ def test_an_edit_of_the_given_redraws_and_one_of_the_words_does_not(
     file.write_text(file.read_text().replace("points: 10", "points: 10\nnote: words"))
     with monkeypatch.context() as patch:
         forbid_deriving(patch)
-        patch.setattr(drawings, "_drawn", lambda *_: pytest.fail("drawn again"))
+        patch.setattr(files, "_drawn", lambda *_: pytest.fail("drawn again"))
         assert rendered(course, "hw9/block", None, kept, draws=True).files == block.files
     file.write_text(file.read_text().replace("[a, 2*a, 3*a]", "[a, 2*a, 2*a]"))
     changed = dict(rendered(course, "hw9/block", None, kept, draws=True).files)
@@ -248,9 +248,9 @@ def test_a_tex_source_compiles_where_it_lies_and_without_its_drawings(tmp_path: 
     root = course_in(tmp_path)
     tex = problem_document(root, block, problem_set(root, "hw9"))
     pages = {}
-    for name, files in (("with", block.files), ("without", ())):
+    for name, included in (("with", block.files), ("without", ())):
         target = tmp_path / f"{name}.pdf"
-        typeset(tex, target, chosen_engine(None), included=files)
+        typeset(tex, target, chosen_engine(None), included=included)
         pages[name] = target.read_bytes()
     assert pages["with"] != pages["without"]
 
@@ -272,13 +272,13 @@ def many_labels(count: int, **more: Any) -> Drawing:
 def test_a_drawing_with_many_labels_is_larger_unless_its_author_chooses_the_width(
     count: int, width: float | None, cm: float
 ) -> None:
-    sheet, _ = drawings._drawn(many_labels(count, values=()), {}, Notation(), None, (width, SHAPE), "", NO_CACHE)
+    sheet, _ = files._drawn(many_labels(count, values=()), {}, Notation(), None, (width, SHAPE), "", NO_CACHE)
     assert sheet.labels == count
     assert sheet.width / POINTS_PER_CM == pytest.approx(cm, abs=1.2)
 
 
 def test_the_author_chooses_the_width_of_a_force_diagram() -> None:
     alone = replace(many_labels(4), body_size=20.0)
-    small, _ = drawings._drawn(alone, {}, Notation(), None, (None, SHAPE), "", NO_CACHE)
-    wide, _ = drawings._drawn(alone, {}, Notation(), None, (9.0, SHAPE), "", NO_CACHE)
+    small, _ = files._drawn(alone, {}, Notation(), None, (None, SHAPE), "", NO_CACHE)
+    wide, _ = files._drawn(alone, {}, Notation(), None, (9.0, SHAPE), "", NO_CACHE)
     assert small.width < 3 * POINTS_PER_CM < 8 * POINTS_PER_CM < wide.width

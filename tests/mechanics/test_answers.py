@@ -615,8 +615,8 @@ def driven() -> tuple[Quantity, Quantity]:
 @pytest.mark.parametrize(
     ("module", "name", "wrong", "asked"),
     [
-        ("answers.solved_for", "_written", lambda matrix: 2 - matrix.det(), lambda: atwood()),
-        ("answers.solved_for", "presented", lambda value: 2 * value, lambda: atwood()),
+        ("answers.linear_equations", "_written", lambda matrix: 2 - matrix.det(), lambda: atwood()),
+        ("answers.linear_equations", "presented", lambda value: 2 * value, lambda: atwood()),
         (
             "answers.substitution",
             "with_unknown",

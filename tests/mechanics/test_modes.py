@@ -39,7 +39,7 @@ from derive.mechanics.vibrations import uncoupled as uncoupled_module
 from derive.mechanics.vibrations.facts import Linear
 from derive.solving import linear_systems
 from derive.solving.linear_systems import Conservative
-from derive.steps.definitions import define
+from derive.steps.defined import define
 from derive.steps.record import Run, recorded
 from derive.steps.rule import Judged
 from derive.steps.step import Quantity

@@ -284,7 +284,7 @@ def _on_no_body(what: str) -> Rejected:
 def moves_like(
     body: Alone, place: Vector, slopes: Mapping[Symbol, Vector], there: Callable[[Any], Any] = explicit
 ) -> bool:
-    """Whether the material point of a body that is at a place moves with this place.
+    """Whether a place moves in the same way as the material point of the body at this place.
 
     slopes   coordinate -> the displacement of the place, per unit of the change of the coordinate
     there    a function that substitutes the coordinates at one instant

@@ -20,7 +20,7 @@ from derive.mechanics.observations.view import Observed, View, numbered, observa
 from derive.mechanics.rest.facts import RestOf
 from derive.mechanics.vibrations.facts import Linear, Mode
 from derive.solving.relations import solved_for_letter
-from derive.steps import definitions
+from derive.steps import defined
 from derive.steps.establish import PhraseData
 from derive.steps.numeric import WholeSwing
 from derive.steps.record import coordinates_in, free_letter
@@ -88,7 +88,7 @@ def _like_a_pendulum(view: View, square: Expr, g: Symbol) -> tuple[str, dict[str
     if g not in length.free_symbols:
         worth_it = not isinstance(length, Symbol) and simple(length, 6) and _has_rational_factors(length)
         return ("length", {"length": length}, []) if worth_it else None
-    defined_first = sorted(view.shown, key=lambda shown: shown.step.rule != definitions.QUANTITY.name)
+    defined_first = sorted(view.shown, key=lambda shown: shown.step.rule != defined.QUANTITY.name)
     for step in defined_first:
         for name, value in step.named_values:
             if isinstance(value, Expr) and not isinstance(value, Symbol) and is_zero(value - length):

@@ -368,7 +368,7 @@ def level_as_told(facts: Judged) -> bool:
     return told is not None and told.operator == "!=" and same_equation(told.residual, open_)
 
 
-DIGITS_LEFT = 10**40  # largest accepted ratio of an energy to a difference of energies; a value has 60 digits or more
+DIGITS_LEFT = 10**40  # largest accepted ratio of an energy to a difference of energies, which have 60 digits or more
 
 
 def is_its_derivative(facts: Judged, outcome: str) -> bool:

@@ -98,7 +98,7 @@ def _own_moment(body: Any, axis: str, letter: str, turn: MatrixBase) -> Quantity
     About a diameter of a flat round part, this moment is half of the moment about the symmetry axis, because
     I_x + I_y = I_z and I_x = I_y.
 
-    body     the body that is the part
+    body     the part, as a body of its own
     axis     a body axis of the part
     letter   the symbol of the moment without its index; the index is the parallel axis of the whole body, or "axial" if
              the whole body has no parallel axis

@@ -16,7 +16,7 @@ from derive.course.problem import Problem
 from derive.errors import Complaint, Place
 from derive.render.notation.latex import latex
 from derive.render.notation.notation import Notation
-from derive.steps.definitions import QUANTITY
+from derive.steps.defined import QUANTITY
 from derive.steps.step import Quantity, Step, entry_name
 
 ANOTHER = "use another symbol"

@@ -8,7 +8,7 @@ import pytest
 from sympy import sin, symbols
 
 from derive.algebra.equality import equal
-from derive.mechanics.answers import solved_for as solving
+from derive.mechanics.answers import linear_equations as solving
 from tests.stock.described import edited, messages, solved
 
 BLOCKS = """\
