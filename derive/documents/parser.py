@@ -333,16 +333,13 @@ class _Reader:
         if len(run) == 1:
             factors[:] = [("", near)]
             return
-        functions = [at for at, each in enumerate(run) if isinstance(each, Fun)]
-        if functions and functions[0]:  # `g/l \sin x` is g/l times the sine
-            bottom = _product([("", each) for each in run[: functions[0]]])
-            product = [("", Frac(top.span.to(bottom.span), top, bottom)), *(("", each) for each in run[functions[0] :])]
-            factors[:] = product
-            return
+        # a function after other factors is not in the denominator: `g/l \sin x` is g/l times the sine
+        end = next((at for at, each in enumerate(run) if at and isinstance(each, Fun)), len(run))
         rest: list[tuple[str, Node]] = [("", each) for each in run]
         span = top.span.to(run[-1].span)
-        far = Frac(span, top, _product(rest))
-        factors[:] = [("", Open(span, "slash", (Mul(span, (("", near), *rest[1:])), far)))]
+        below = Frac(top.span.to(run[end - 1].span), top, _product(rest[:end]))
+        readings = Mul(span, (("", near), *rest[1:])), _product([("", below), *rest[end:]])
+        factors[:] = [("", readings[0] if end == 1 else Open(span, "slash", readings))]
 
     def divided_differentials(self, factors: list[tuple[str, Node]]) -> bool:
         r"""Read the denominator of `\partial f/\partial x` or `df/dt`, if a differential is before the slash."""
