@@ -344,7 +344,7 @@ def _pieces(ends: Sequence[Any]) -> list[Piece]:
 
 
 def _owner(each: Any) -> Any:
-    """Return the body or particle that a piece of string pulls at an end, a pulley or a rim."""
+    """Return the body or particle that a piece of string pulls at one end; None for a massless pulley."""
     if isinstance(each, Pulley):
         return each.of if isinstance(each, Rim) else None
     return end_of(each)[1]
