@@ -22,9 +22,11 @@ def by_accelerations(value: Expr, moving: Sequence[Symbol]) -> Expr:
 
 
 def with_constants_in_front(value: Expr, moving: Sequence[Symbol]) -> Expr:
-    """Write the number, the constants and the functions that all terms have in common in front of a sum, if the number
-    and the constants are the whole coefficient of one term: (2/5) m a^2 (phi_ddot + psi_ddot cos(theta)), but
-    m l^2 theta_ddot + m g l sin(theta)."""
+    """Write the common factors of a sum in front of it: (2/5) m a^2 (phi_ddot + psi_ddot cos(theta)).
+
+    The common factors are a number, constants, sines and cosines. The sum is unchanged if the number and the constants
+    are not the whole coefficient of any term, m l^2 theta_ddot + m g l sin(theta), or if only an integer is common.
+    """
     terms = Add.make_args(value)
     if len(terms) < 2:
         return value

@@ -245,7 +245,7 @@ class _Auditor:
         self.late += max(0.0, process_time() - begun - USUAL_SECONDS)
 
     def of_constant(self, claim: Claim) -> Verdict:
-        """Return the verdict on `v = const`; it is wrong for a vector of which only the length is constant."""
+        """Return the verdict on `v = const`; the row is wrong if only the length of a vector is constant."""
         said = Verdict(Outcome.DEFINES, "a quantity is constant")
         side = self.last_good_side(claim)
         if side is None:
@@ -266,12 +266,12 @@ class _Auditor:
         left, right = claim.values
         old, new = left.free_symbols - right.free_symbols, right.free_symbols - left.free_symbols
         if claim.relation == "~" and new:
-            return "only the right side has some letters"
+            return "some letters are on the right side only"
         first = claim
         while first.before is not None:
             first = first.before
         if first.values is not None and first.values[0] in self.meaning.evaluations and new:
-            return "the first side is a value at one place or instant"
+            return "the first side is a value at one position or instant"
         letters = [self.meaning.symbols.get(each) for each in (*old, *new)]
         bases = {each.base.lower() for each in letters if each is not None}
         if (
@@ -279,7 +279,7 @@ class _Auditor:
             and len(bases) == 2
             and same(left.xreplace(dict(zip(old, new, strict=True))), right)
         ):
-            return "another letter is written, and no row states that both are equal"
+            return "one letter is replaced by another, and no row states that they are equal"
         return ""
 
     def remark(self, claim: Claim, verdict: Verdict) -> None:

@@ -109,7 +109,7 @@ class Manifest:
             self.typeset_from[name] |= self.inputs[problem]
 
     def was_exported(self, file: str, recipe: Recipe, inputs: dict[str, str], of_set: dict[str, str]) -> None:
-        """Record the recipe and the input files of an export, which is recorded under the name of its file."""
+        """Record an export, with its recipe and its input files, under the name of its file."""
         self.of_set = of_set
         self.typeset_by[file] = recipe_digest(recipe)
         self.recipes[self.typeset_by[file]] = {**recipe}

@@ -89,7 +89,10 @@ def _after_figures(blocks: list[Block], figures: Sequence[Illustration], words: 
 
 
 def _with_forces(blocks: list[Block], figures: Sequence[Illustration], words: Phrases) -> list[Block]:
-    """Mention the figures of forces at the beginning of the first sentence; empty if it does not allow this."""
+    """Mention the figures of forces at the beginning of the first sentence.
+
+    Return an empty list if this sentence has another form.
+    """
     first, article = blocks[0], words.drawings["article"]
     nodes = first.nodes if isinstance(first, Paragraph) else ()
     opening = nodes[0] if nodes else None
@@ -105,7 +108,7 @@ def _with_mention(
     blocks: list[Block], at: int, figures: Sequence[Illustration], words: Phrases, equation: int = -1
 ) -> list[Block]:
     """Put the figures in parentheses at the end of a paragraph. If the paragraph ends within a clause, put them next to
-    an equation of the display after it, unless a reason is there.
+    an equation of the display after it, unless this equation already has a reason.
 
     equation    the position of this equation in the display: the last one, or the first one for figures above it
     """

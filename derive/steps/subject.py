@@ -19,7 +19,7 @@ from derive.errors import Complaint, Rejected
 
 class Mixed(Enum):
     """The value of a property in which united subjects differ. It counts as different from every value, including
-    itself; only within one system, two quantities of the whole system agree in it."""
+    itself. Within one system it counts as equal for two quantities that belong to the whole system."""
 
     SEVERAL = "several"
 

@@ -344,7 +344,7 @@ def _pieces(ends: Sequence[Any]) -> list[Piece]:
 
 
 def _owner(each: Any) -> Any:
-    """Return the body or particle that a piece of string pulls at an end, a pulley or a rim."""
+    """Return the body or particle that a piece of string pulls at one end; None for a massless pulley."""
     if isinstance(each, Pulley):
         return each.of if isinstance(each, Rim) else None
     return end_of(each)[1]
@@ -374,11 +374,11 @@ def _tangent(one: Any, other: Any) -> tuple[Location, Location]:
     )
     if not found:
         message = f"no horizontal or vertical string is tangent to {name} on the way to its neighbour"
-        help_line = "put the end of a vertical string beside the centre, at a distance equal to the radius"
+        help_line = "the end of a vertical string must be one radius to the left or right of the centre"
         raise Rejected(Complaint("no-contact", message, help=help_line))
     if len(found) > 1 and any(isinstance(each, Rim) for each in (one, other)):
         message = f"the string may touch {name} on either side on the way to its neighbour"
-        help_line = "put the two axes at different heights and at different horizontal places"
+        help_line = "put the two axes at different heights and at different horizontal positions"
         raise Rejected(Complaint("no-contact", message, help=help_line))
     return found[0]
 

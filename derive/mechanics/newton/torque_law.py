@@ -131,8 +131,8 @@ def torque_law(
 
 
 def _sum_of_torques(terms: Sequence[Expr], at_rest: bool) -> Expr:
-    """The sum of the torques, with the length in front that all of them contain: R (S_1 - S_2). If the body is at rest
-    and all terms are negative, all signs are reversed, because the sum is zero."""
+    """The sum of the torques, with their common symbols in front: R (S_1 - S_2). If the body is at rest and all terms
+    are negative, all signs are reversed, because the sum is zero."""
     negative = at_rest and all(term.could_extract_minus_sign() for term in explicit(sum_of(terms)).as_ordered_terms())
     terms = [tidied(-term if negative else term) for term in terms if term != 0]
     common = Mul(*(f for f in Mul.make_args(common_factor(terms)) if f.is_Symbol)) if len(terms) > 1 else Integer(1)

@@ -92,7 +92,7 @@ from derive.render.notation.products import (
 
 
 def _swings(factor: Expr) -> bool:
-    """Return whether a factor is a function of the time, or a sum of them: v/omega sin(omega t)."""
+    """Return whether a factor contains a function of time: the sine in v/omega sin(omega t)."""
     return any(each.has(ex.TIME) for each in factor.atoms(Function))
 
 

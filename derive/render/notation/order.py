@@ -40,8 +40,8 @@ def ordered_terms(expr: Add, moving: Mapping[str, int]) -> list[Expr]:
 def powers_descending(terms: list[Any]) -> list[Any]:
     """Sort the terms of a polynomial of three or more terms by descending powers of its unknown: m w^2 - b w - k.
 
-    The unknown is the symbol that has the highest power, if each term has another power of this symbol. The terms of a
-    series in the time have ascending powers.
+    The unknown is the symbol with the highest power. The order is unchanged if two terms have the same power of the
+    unknown, or if the unknown is time, because a series in time has ascending powers.
     """
     if len(terms) < 3:
         return terms

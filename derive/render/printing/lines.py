@@ -29,7 +29,7 @@ MOST_SIDES = 4  # greatest number of right sides on one line of a chain
 class Printed:
     """One printed line: the left side (if the line begins a chain), then relations and right sides, then the reason.
 
-    `framed` is whether the line is an answer, or a line of one.
+    `framed` is whether the line is an answer or a part of one.
     """
 
     left: Layout | None

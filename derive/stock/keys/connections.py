@@ -331,7 +331,7 @@ class StringKeys(Record):
     end: WrittenPlace | None = key("the other end", PLACE, called="to")
     wound_on: tuple[Word, ...] = key(
         "in place of `to` and `length`: the round body on which the string is wound, or over which it runs without "
-        "slipping; or, in place of `from` too, the two round bodies on which it is wound, `[upper, lower]`",
+        "slipping; in place of `from`, `to` and `length`: two round bodies on which it is wound, `[upper, lower]`",
         one_or_list_of(TEXT, "a body, or a list of two bodies"),
     )
     over: tuple[WrittenPlace, ...] = key(
