@@ -821,7 +821,7 @@ class _Reader:
         return Mul(self.since(token), (("", number), ("", unit)))
 
     def unit(self, tokens: list[Token]) -> str:
-        r"""Return a unit as a word: `m/s^2` for `m/s^2`, `m.s^{-2}` and `\metre\per\second\squared`."""
+        r"""Return a unit as plain text: `m/s^2` for `\metre\per\second\squared`, and `m s^-2` for `m.s^{-2}`."""
         word = ""
         for token in without_spaces(tokens):
             if token.kind in (Kind.OPEN, Kind.CLOSE):

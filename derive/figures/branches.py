@@ -28,7 +28,7 @@ HALVINGS = 80
 TRIED = (0.11, 0.37, 0.68, 0.93)  # parts of an interval of the parameter at which the second route is used
 REAL = 1e-6  # greatest imaginary part of a value that is real within the precision of floating point, relative to 1
 CLOSE = 1e-5  # greatest distance of a zero of the slope from its branch, relative to the vertical axis
-NEAR, DIGITS = 5, 40  # near an equilibrium, energies are compared at 10^-5 of the range searched, with 40 digits
+NEAR, DIGITS = 5, 40  # an equilibrium is compared with points at 10^-NEAR of the range, with DIGITS digits
 SHRUNK = 1e-6  # at a zero, the slope is smaller than this fraction of the slope beside the zero; at a pole it is larger
 # The second route also counts zeros that are beyond an end of the vertical axis by at most these fractions of its
 # length. If the problem does not state the ends of this axis, the whole length is added to the fractions.

@@ -661,7 +661,7 @@ def _along_axis(way: Sequence[Expr]) -> ImmutableDenseMatrix:
 
 
 def _magnitude(components: Sequence[Expr]) -> Expr | None:
-    """Return the magnitude of a force; None if the magnitude contains a root."""
+    """Return the magnitude of a force; None if the magnitude contains a root or an absolute value."""
     (first, *others) = [c for c in components if c != 0] or [ZERO]
     if not others:
         return -first if first.could_extract_minus_sign() else first

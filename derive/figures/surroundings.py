@@ -103,7 +103,7 @@ class FloorMark(Surface):
 
 @dataclass(frozen=True)
 class OriginMark(Surface):
-    """The origin of a coordinate along a level line, as a short upright stroke.
+    """The origin of a coordinate along a horizontal line, as a short vertical stroke.
 
     off   the distance of the line below `at`, in points
     """
@@ -438,7 +438,7 @@ class DistanceMark(Mark):
 
 @dataclass(frozen=True)
 class GravityMark(Mark):
-    """The arrow of the gravitational field, downwards and next to all other marks."""
+    """The downward arrow of the gravitational field, beside the other marks."""
 
     down: Position
     layer: ClassVar[int] = LAST

@@ -1,7 +1,7 @@
 """From steps to words: the phrase for a rule and an outcome, with its names filled from the derivation.
 
-A phrase becomes nodes that do not depend on a format, such as `Text`, `Math`, `Ref` and `Chain`. Inputs, axes,
-coordinates and steps have names here; an unknown name is an error, so prose can mention no other quantity.
+A phrase becomes nodes, such as `Text`, `Math`, `Ref` and `Chain`, which do not depend on the output format. Inputs,
+axes, coordinates and steps have names here; an unknown name is an error, so prose can mention no other quantity.
 """
 
 from __future__ import annotations
@@ -483,7 +483,7 @@ def names_of_step(step: Step, words: Phrases, dimension: Dimension | None) -> di
 
 
 def _lists(names: Mapping[str, Any], last: str) -> dict[str, tuple[Inline, ...]]:
-    """Return `equation_list`: (1), (2) and (3), for equation_1, equation_2 and equation_3; the same for other roles."""
+    """Join numbered roles: equation_1, equation_2 and equation_3 become `equation_list`, "(1), (2) and (3)"."""
     groups: dict[str, list[Any]] = {}
     for role in sorted(names, key=lambda name: (len(name), name)):
         stem, _, number = role.rpartition("_")

@@ -141,7 +141,7 @@ def test_a_planet_conserves_the_vector_of_runge_and_lenz() -> None:
     [
         (lambda x: poisson_bracket(x, conjugate(x)), "needs the coordinates"),
         (lambda x: poisson_bracket(x.rate, x, x), "contains x_dot"),
-        (lambda x: poisson_bracket("x", x, x), "needs two steps or formulas"),
+        (lambda x: poisson_bracket("x", x, x), "`poisson_bracket` needs two scalars, but `x` is not one"),
     ],
 )
 def test_what_has_no_bracket_is_refused(wrong: Callable[..., Any], said: str) -> None:

@@ -382,7 +382,7 @@ def refused(case: str) -> Any:
         ("cubic", "the squares of 3 frequencies are the roots of a polynomial that does not factor"),
         ("nonlinear", "is not an equation of motion to first order"),
         ("beats of one", "do not beat"),
-        ("driven", "contains the time explicitly"),
+        ("driven", "depend on the time, but they must be constant"),
     ],
 )
 def test_wrong_questions_about_modes_are_refused(case: str, said: str) -> None:

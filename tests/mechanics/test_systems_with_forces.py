@@ -284,7 +284,7 @@ def two() -> System:
         (lambda: potential(k * coordinate("x", "length").rate), "depends on the rate of x"),
         (lambda: charge(q, point(0, 0), E=(coordinate("x", "length"), 0)), "needs a uniform electric field"),
         (lambda: charge(q, point(0, 0, 0), B=(0, 0, B * t)), "needs a constant magnetic field"),
-        (lambda: constraint(l), "needs a formula of coordinates"),
+        (lambda: constraint(l), "needs a formula in the coordinates"),
         (lambda: constraint(coordinate("x", "length").rate ** 2, l), "linear in their rates"),
         (lambda: constraint(coordinate("x", "length").acceleration), "linear in their rates"),
         (lambda: System(Particle(m, point(*lengths("x", "y"))), couple(tau, coordinate("phi"))), "depends on phi"),

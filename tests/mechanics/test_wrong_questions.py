@@ -179,7 +179,7 @@ QUESTIONS: dict[str, tuple[Callable[[], Any], str]] = {
         lambda: frequency_squared(
             linearised(motion(l * TIME * sin(THETA.symbol), -l * TIME * cos(THETA.symbol), THETA))
         ),
-        "contains the time explicitly",
+        "depend on the time, but they must be constant",
     ),
     "values put into an inequality": (
         lambda: with_values(known_slab()["stability"], let("a", lambda: 2 * b, kind="length")),

@@ -332,7 +332,8 @@ def _polynomial(equation: Quantity, left: Expr, x: Symbol, unknown: Expr) -> Pol
     except PolynomialError:
         found = None
     if found is None or found.degree() < 1:
-        message = f"`{equation.key}` is not a polynomial in {unknown}"
+        is_not = f"does not contain {unknown}" if found is not None else f"is not a polynomial in {unknown}"
+        message = f"`{equation.key}` {is_not}"
         raise Rejected(Complaint("no-polynomial", message))
     if found.LC().could_extract_minus_sign():
         found = -found
@@ -345,7 +346,8 @@ def _factors(polynomial: Poly, equation: Quantity, unknown: Expr) -> list[tuple[
     found = [(part.as_poly(x), times) for part, times in parts if part.has(x)]
     if any(part is None or part.degree() > 2 for part, _ in found):
         degree = max(part.degree() for part, _ in found if part is not None)
-        message = f"`roots`: `{equation.key}` has a factor of degree {degree} in {unknown}, which does not factor"
+        factor = f"an unsolved factor of degree {degree} in {unknown}"
+        message = f"`roots` solves factors up to degree 2, but `{equation.key}` has {factor}"
         raise Rejected(Complaint("not-solved", message, help="substitute numbers, or choose a special case"))
     return [(each, times * n) for part, times in found for each, n in _not_doubled(part)]
 

@@ -147,7 +147,11 @@ def _function(of: Any, pairs: Pairs) -> Any:
     found = of.symbol if isinstance(of, Coordinate) else of
     value = value_behind(found)
     if not isinstance(value, Expr):
-        raise Rejected(Complaint("wrong-argument", "`poisson_bracket` needs two steps or formulas"))
+        raise Rejected(
+            Complaint(
+                "wrong-argument", f"`poisson_bracket` needs two scalars, but `{getattr(of, 'key', of)}` is not one"
+            )
+        )
     rates = [v for q, p in pairs for v in (rate(q), rate(p)) if explicit(value).has(v)]
     if rates:
         name = f"`{of.key}`" if isinstance(of, Quantity) else str(value)

@@ -242,7 +242,10 @@ def rate_of(quantity: Quantity, key: str | None = None) -> Quantity:
     """
     require_all_times("rate_of", quantity)
     if not isinstance(quantity.symbol, Symbol) or isinstance(quantity.value, MatrixBase):
-        raise Rejected(Complaint("wrong-argument", f"`{quantity.key}` has no single symbol, so its rate has no symbol"))
+        message = (
+            f"`rate_of` needs a scalar with a plain symbol, but `{quantity.key}` is a vector or has another symbol"
+        )
+        raise Rejected(Complaint("wrong-argument", message))
     moving = [q for q in quantity.coordinates if q != quantity.symbol]  # the value x(t) does not depend on x itself
 
     def by_time() -> Expr:

@@ -199,7 +199,7 @@ def constraint(condition: Any, equals: Any = ZERO, force: str = "lambda") -> Con
         raise Rejected(Complaint("wrong-argument", "`constraint` needs a formula of the coordinates")) from None
     moving = list(coordinates_in(left - right))
     if not moving:
-        message = f"`constraint` needs a formula of coordinates, but {left - right} has none"
+        message = f"`constraint` needs a formula in the coordinates, but {left - right} contains no coordinate"
         raise Rejected(Complaint("wrong-argument", message))
     rates = [rate(q) for q in moving if (left - right).has(rate(q))]
     higher = [q for q in moving if (left - right).has(rate(q, 2), rate(q, 3))]

@@ -224,7 +224,7 @@ def _check_moves_with_its_material(surface: Surface) -> None:
         moving += [*(velocity_at(n, n) - turned).components]
     if all(is_zero(tidied(c)) for c in moving):
         return
-    who = "the axes in which it is at rest" if surface.of is None else "the body that carries it"
+    who = "the rotating axes that are given for it" if surface.of is None else "the body that carries it"
     what = "`along` or `normal` has components in space, which must turn with the axes or the body, as in "
     help_line = (
         f"{what}`along: [cos(theta), sin(theta)]`; the place `through` must move with it"

@@ -454,7 +454,7 @@ def wound_string(end: Any, on: Any, tension: str = "T", over: Sequence[Any] = ()
     other = (*over,) if end is None else (end, *over)
     flat = all(isinstance(each, PlacedBody) and each.is_plane for each in rims)
     if not flat or len(rims) != 1 + (end is None):
-        message = "`wound_string` must go from a particle, a point of a body or a place to a round body in a plane"
+        message = "`wound_string` needs, in a plane, an end and one round body, or no end and two round bodies"
         raise Rejected(Complaint("wrong-argument", message))
     if not all(is_end(each) or isinstance(each, Pulley) for each in other):
         raise Rejected(Complaint("wrong-argument", "a string runs over pulleys or places, from a place or a body"))

@@ -335,7 +335,9 @@ class System:
                 Complaint(
                     "letter-clash",
                     message,
-                    help=Spelled('give each a symbol, `constraint(..., force="N")`', "give each a symbol, `force: N`"),
+                    help=Spelled(
+                        'give each its own symbol, `constraint(..., force="N")`', "give each its own symbol, `force: N`"
+                    ),
                 )
             )
 

@@ -111,7 +111,9 @@ def _arrival(
         message = (
             f"`{of.key}`: the motion turns back before {unknown} = {place}, so `{root.key}` has the other sign there"
         )
-        raise Rejected(Complaint("sign-of-rate", message, help=f"substitute this place in `{root.key}` first"))
+        raise Rejected(
+            Complaint("sign-of-rate", message, help=f"substitute {unknown} = {place} into `{root.key}` instead")
+        )
     return replace(come, sense=sense, turned=True)
 
 

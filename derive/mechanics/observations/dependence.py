@@ -68,7 +68,7 @@ INDEPENDENT = Rule(
 
 
 def independent(view: View) -> Observed:
-    """Given symbols that occur in the equations from which an answer follows, but not in the answer."""
+    """Observations that an answer does not contain a given symbol, although the equations behind the answer do."""
     for of in reversed(view.answers):
         solved = isinstance(of.value, Relation)
         value = of.value.right if solved else of.value

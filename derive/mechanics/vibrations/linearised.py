@@ -324,7 +324,7 @@ def _check_rest(equations: Sequence[Quantity], moving: Sequence[Coordinate], pla
         letters = [s for q in moving for s in (q.symbol, q.rate, q.acceleration)] if depends_on_time(value) else []
         slopes = [derivative(value, s) for s in letters]
         if any(depends_on_time(_at_rest(slope, moving, place)) for slope in slopes):
-            message = f"`{equation.key}` contains the time explicitly, so it has no constant coefficients"
+            message = f"the coefficients of `{equation.key}` depend on the time, but they must be constant"
             raise Rejected(Complaint("changes", message))
         left = lasting(_at_rest(value, moving, place))
         if left.has(nan, zoo):

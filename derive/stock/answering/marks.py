@@ -268,7 +268,7 @@ class Marked:
 
 
 def _circle(centre: MatrixBase, through: MatrixBase, around: MatrixBase) -> MatrixBase:
-    """Return the places of a circle through a place as a function of ANGLE."""
+    """Return the point at ANGLE on the circle that begins at `through`; in space, `around` is its axis."""
     arm = through - centre
     x, y = (arm[0], arm[1])
     across = ImmutableDenseMatrix([-y, x]) if arm.rows == 2 else around.cross(arm) / sqrt(around.dot(around))

@@ -98,7 +98,10 @@ def test_a_description_reads_the_same_in_each_process(tmp_path: Path) -> None:
         ("damping: {constant: c}", "damping needs either `at` or `on`"),
         ("springs: {constant: c, from: A, to: [0, 0]}", "`constant` must be a spring constant, but `c` is a damping"),
         ("central: {energy: k*m**2/2, distance: m, from: A, to: [0, 0]}", "`m` already denotes something else"),
-        ("constraints: {condition: l}", "`constraint` needs a formula of coordinates, but l has none"),
+        (
+            "constraints: {condition: l}",
+            "`constraint` needs a formula in the coordinates, but l contains no coordinate",
+        ),
         ("constraints: {condition: x, equals: m}", "`condition` and `equals` have different dimensions"),
         ("springs: {konstant: k, from: A, to: A}", "a spring has no key `konstant`"),
         ("charges: {charge: q, at: B}", "`B` is not a named place"),
