@@ -171,6 +171,14 @@ SHARED_BY_CLAIMS = {"mechanics.kinematics.coordinates"}  # coordinates as functi
 CLAIMS = [name for name in VERB_MODULES if name.endswith(".claims")]
 
 
+@over([name for name in VERB_MODULES if not name.endswith(".claims")])
+def test_no_verb_calls_a_predicate(name: str) -> None:
+    """A rule lists its predicates; a verb that used one to find its result would be checked by its own code."""
+    functions = [node for node in ast.walk(tree(name)) if isinstance(node, ast.FunctionDef)]
+    called = [node.func for each in functions for node in ast.walk(each) if isinstance(node, ast.Call)]
+    assert [ast.unparse(each) for each in called if ast.unparse(each).startswith("claims.")] == []
+
+
 @over(CLAIMS)
 def test_predicates_share_no_code_with_the_verbs_next_to_them(name: str) -> None:
     """Predicates may read the facts of a result, and the descriptions of bodies and systems."""

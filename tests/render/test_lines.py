@@ -51,6 +51,14 @@ def test_an_answer_is_an_equation_of_its_own_after_its_derivation(law: Any, resu
         assert (last.left, last.sides) == (NOTATION.layout(T), (("equals", NOTATION.layout(result)),))
 
 
+@pytest.mark.parametrize("again", [None, Symbol("T")])
+def test_the_frame_of_an_approximate_chain_has_no_equals_sign(again: Any) -> None:
+    T, (a, b, c) = Symbol("T"), LETTERS[:3]
+    chain = (ChainLine(T, "equals", a * b), ChainLine(None, "approx", c), ChainLine(again, "equals", 2 * c + a))
+    *_, answer = printed_lines(Equations("T", chain, 7, 1), NOTATION)
+    assert answer.framed and [relation for relation, _ in answer.sides] == ["approx"]
+
+
 def test_the_frame_of_an_exact_answer_holds_its_decimals() -> None:
     T, (a, b, c) = Symbol("T"), LETTERS[:3]
     numeric = ChainLine(None, "approx", 2 * a, numeric=True)

@@ -17,6 +17,7 @@ from sympy import (
     asin,
     atan,
     cos,
+    diff,
     expand_trig,
     factor_list,
     pi,
@@ -404,7 +405,8 @@ def anywhere(view: View) -> Observed:
         if of.step.rule != "rest.condition" or not any(of in q.ancestors() for q in view.answers):
             continue
         residual = explicit(of.value.residual)
-        if not claims.is_only_condition(of):
+        slopes = [diff(explicit(of.parents[0].value), q) for q in of.coordinates]
+        if len([slope for slope in slopes if not is_zero(slope)]) != 1:
             continue  # another coordinate may still be restricted
         for letter in [s for s in view.of_kind("angular speed") if s in residual.free_symbols]:
             for base, _ in _factors(residual):

@@ -58,7 +58,7 @@ def printed_lines(equations: Equations, notation: Notation, limit: float = LINE_
         indent = width(packed[0].left) if last and last.left is None and packed[0].left is not None else 0
         left = notation.side(line.left) if line.left is not None else None
         goes_on = left is None or left == begun and line.relation == "equals"
-        begun, relations = (begun, [*relations, line.relation]) if left is None else (left, [line.relation])
+        begun, relations = (begun, [*relations, line.relation]) if goes_on else (left, [line.relation])
         own = Printed(left, (side,), line.reason, framed=framed)
         if last and left is not None and line.beside and _has_room(last, left, own, limit):
             sides = (*last.sides, ("next", left), side)
