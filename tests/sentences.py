@@ -109,7 +109,7 @@ def main() -> None:
     asked = options.parse_args()
     written = [path for path in files("derive", *PROSE) if not str(path.relative_to(ROOT)).startswith(NOT_READ)]
     drawn = [(path, line, text) for path in written for line, text in sentences(path)]
-    for path, line, text in random.Random(asked.seed).sample(drawn, asked.count):
+    for path, line, text in random.Random(asked.seed).sample(drawn, min(asked.count, len(drawn))):
         print(f"{path.relative_to(ROOT)}:{line}: {text}")
 
 
