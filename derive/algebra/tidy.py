@@ -72,6 +72,17 @@ def _tidied_scalar(value: Expr) -> Expr:
         return sum_of_angles
     if value.has(tan):
         value = value.replace(lambda e: isinstance(e, Add) and e.has(tan), _by_secant)
+        return shortest({_in_tidy_form(value): None, _in_tidy_form(_with_one_function(value)): None})
+    return _in_tidy_form(value)
+
+
+def _with_one_function(value: Expr) -> Expr:
+    """Write tan a as sin a/cos a if the value also contains sin a or cos a."""
+    angles = {function.args[0] for function in value.atoms(sin, cos)}
+    return value.xreplace({t: sin(t.args[0]) / cos(t.args[0]) for t in value.atoms(tan) if t.args[0] in angles})
+
+
+def _in_tidy_form(value: Expr) -> Expr:
     if isinstance(value, Function):
         return value.func(*(_tidied_scalar(arg) for arg in value.args))
     if _has_roots(value):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from pathlib import Path
 from random import Random
@@ -469,13 +470,51 @@ SLIDING = ("normal: N}", "normal: N, friction: {sliding: mu, direction: right}}"
         (
             [("particles: {bead: {mass: m, at: [x, y]}}", "bodies: {bead: {shape: ball, radius: b, mass: m, "
               "centre: [x, y], turned: 0}}")],
-            "the coordinates do not keep a ball on the curve",
+            "the centre of a ball is on no normal of the curve",
         ),
     ],
 )  # fmt: skip
 def test_a_curve_that_cannot_be_meant_is_told(changes: list[tuple[str, str]], said: str, tmp_path: Path) -> None:
     (message, *_) = messages(tmp_path, edited(CURVE, *changes))
     assert said in message
+
+
+ROUND = """\
+title: A disc in a bowl
+solve: system
+symbols: {m: mass, a: length, b: length, g: acceleration, mu_s: positive number}
+given:
+  coordinates: {alpha: "angle in (-pi/2, pi/2)", h: positive length, phi: angle}
+  bodies:
+    disc:
+      shape: disc
+      radius: a
+      mass: m
+      centre: [b*tan(alpha) - h*sin(alpha), b*tan(alpha)**2/2 + h*cos(alpha)]
+      turned: phi
+  gravity: g
+  surfaces: {bowl: {y: x**2/(2*b)}}
+  contacts: {of: disc, on: bowl, normal: N, friction: {static: mu_s, force: F}}
+statement: A disc.
+parts:
+  - ask: Find the forces.
+    answer: [N, F]
+"""
+
+
+def test_a_disc_on_a_curve_is_pressed_by_its_weight_and_by_its_acceleration(tmp_path: Path) -> None:
+    """The centre of the disc moves along a curve with the radius of curvature b/cos^3(alpha) - a. Along the tangent,
+    rolling has the friction m g sin(alpha)/3 for any curve."""
+    found = solved(tmp_path, ROUND)
+    at = {"m": 2.0, "a": 0.3, "b": 1.7, "g": 9.8, "alpha": 0.6, "alpha_dot": 1.3}
+    centripetal = 2 * (1.7 / math.cos(0.6) ** 3 - 0.3) * 1.3**2
+    assert value_at(explicit(found["N"].value), at) == pytest.approx(2 * 9.8 * math.cos(0.6) + centripetal)
+    assert value_at(explicit(found["F"].value), at) == pytest.approx(2 * 9.8 * math.sin(0.6) / 3)
+
+
+def test_a_disc_beside_the_normal_of_a_curve_is_refused(tmp_path: Path) -> None:
+    (message, *_) = messages(tmp_path, edited(ROUND, ("- h*sin(alpha)", "- h*sin(2*alpha)")))
+    assert "is on no normal of the curve" in message
 
 
 def test_the_force_of_a_wire_has_either_sign_and_is_never_lost(tmp_path: Path) -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from sympy import Expr, ImmutableDenseMatrix, Integer, Mul, Symbol, cos, diff, sin, sqrt, tan
 
 from derive.algebra.expressions import Relation
@@ -25,11 +27,12 @@ def touching(placed: PlacedBody, surface: Surface) -> tuple[Location, Expr, Loca
     if surface.is_two_sided:
         message = "a round body can touch a plane, a curve, a circle or a sphere, but not a rail"
         raise Rejected(Complaint("no-contact", message, help="let a particle or a point of the body touch it"))
-    if isinstance(surface, Curve):
-        foot = _foot(placed, surface)
-        _assume_that_it_fits(placed, surface, foot)
-        return foot, ZERO, surface.normal(foot)
     hub = placed.hub
+    if isinstance(surface, Curve):
+        foot, distance = _foot(placed, surface)
+        _assume_that_it_fits(placed, surface, foot)
+        away, gap = surface.normal(foot), tidied(distance - radius_of(placed))
+        return foot + gap * away, gap, away
     away = surface.normal(hub)
     if _has_rims(placed):
         place, gap = lowest(placed, surface)
@@ -39,20 +42,31 @@ def touching(placed: PlacedBody, surface: Surface) -> tuple[Location, Expr, Loca
     return Location(tuple(tidied(c) for c in place.components)), tidied(gap), away
 
 
-def _foot(placed: PlacedBody, curve: Curve) -> Location:
-    """Return the place where a round body touches a curve: the centre of the body is on the normal of the curve at
-    this place, one radius from the curve."""
-    radius = radius_of(placed)
-    for q in coordinates_in(column_of(placed.hub)):
-        foot = curve.point(q)
-        if is_zero(column_of(placed.hub - foot - radius * curve.normal(foot))):
-            return foot
-    message = f"the coordinates do not keep {placed.body.name} on the curve, so the point where it touches is unknown"
+def _foot(placed: PlacedBody, curve: Curve) -> tuple[Location, Expr]:
+    """Return the place of a curve whose normal contains the centre of a round body, and the distance of the centre
+    from this place."""
+    for foot in _feet(placed, curve):
+        normal = curve.normal(foot)
+        distance = tidied(dot(normal, placed.hub - foot))
+        if sign_known(distance) == 1 and is_zero(column_of(placed.hub - foot - distance * normal)):
+            return foot, distance
+    message = f"the centre of {placed.body.name} is on no normal of the curve whose place is a coordinate"
     help_line = (
         "let a coordinate x be the horizontal distance of the point of contact: the centre is at "
-        "[x - R*f'/sqrt(1 + f'**2), f + R/sqrt(1 + f'**2)]"
+        "[x - R*f'/sqrt(1 + f'**2), f + R/sqrt(1 + f'**2)]; for a normal force, write a positive length h instead of R"
     )
     raise Rejected(Complaint("no-contact", message, help=help_line))
+
+
+def _feet(placed: PlacedBody, curve: Curve) -> Iterator[Location]:
+    """Yield places of the curve that a round body may touch: those whose horizontal distance is a coordinate, and the
+    place where the centre would be if its distance from the curve were zero."""
+    moving = coordinates_in(column_of(placed.hub))
+    yield from (curve.point(q) for q in moving)
+    for length in (*moving, *radius_of(placed).free_symbols):
+        foot = placed.hub.with_values({length: ZERO})
+        if is_zero(curve.distance(foot)):
+            yield foot
 
 
 def _assume_that_it_fits(placed: PlacedBody, curve: Curve, foot: Location) -> None:
@@ -60,7 +74,7 @@ def _assume_that_it_fits(placed: PlacedBody, curve: Curve, foot: Location) -> No
     bends = diff(curve.formula, curve.letter, 2).xreplace({curve.letter: (foot - curve.through).components[0]})
     room = tidied(curve.gradient(foot) ** 3 - radius_of(placed) * (-bends if curve.below else bends))
     if sign_for_all(room) != 1:
-        factors = (factor for factor in Mul.make_args(room) if not factor.is_positive)
+        factors = (factor for factor in Mul.make_args(room) if sign_known(factor) != 1)
         more, less = sides_without_minus(Mul(*factors))
         assume(Relation(more, ">", less))
 

@@ -37,7 +37,7 @@ from derive.steps.step import Quantity, is_zero
 
 __all__ = ["contact", "landing_surface"]
 
-ZERO = Integer(0)
+ZERO, ONE = Integer(0), Integer(1)
 Part: TypeAlias = Constraint | GivenForce | Quantity
 
 
@@ -48,8 +48,9 @@ class Contact(Connection):
     of       the body or particle; None for a fixed corner that a body touches
     at       the place of contact
     surface  the surface that the body touches
-    gap      the distance between the body and the surface, or the height of the body above a curve, m
+    gap      the distance between the body and the surface, or the height of a particle above a curve, m
     normal   the unit vector from the surface to the body
+    gradient  the length of the gradient of `gap` on the surface
     """
 
     of: Any
@@ -57,6 +58,7 @@ class Contact(Connection):
     surface: Surface
     gap: Expr
     normal: Location
+    gradient: Expr = ONE
 
     @property
     def is_kept(self) -> bool:
@@ -82,6 +84,7 @@ class Contact(Connection):
             surface=self.surface.moved(known),
             gap=self.gap.subs(known),
             normal=self.normal.with_values(known),
+            gradient=self.gradient.subs(known),
         )
 
     def pair(self, size: Expr, direction: Location) -> tuple[PointForce, PointForce]:
@@ -148,9 +151,8 @@ def contact(
     hoop, a cylinder or a cone touches a plane at the lowest point of a rim. Let e be the unit vector along the axis of
     the body, n the unit normal of the plane and R the radius of the rim. The distance of the body from the plane is
     then the distance of the centre of this rim from the plane, minus R sqrt(1 - (n.e)^2). A cone that lies on its side
-    must be held at its apex. If a round body touches a curve, the coordinates themselves must keep it on the curve. Its
-    centre must be one radius from the curve, along the normal at the point of contact. The horizontal distance of this
-    point from the origin of the curve must be a coordinate.
+    must be held at its apex. If a round body touches a curve, its centre is on the normal at the point of contact. The
+    horizontal distance of this point from the origin of the curve must be a coordinate.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapters 3 and 7; for a disc in
     space, Landau, Lifshitz, *Mechanics*, section 38.
     """
@@ -239,9 +241,9 @@ def _normal(touch: Contact, letter: str) -> Constraint:
         message = "the coordinates allow the body to leave the surface, so a normal force must keep it there"
         raise Rejected(Complaint("missing-key", message, help="give the symbol of the normal force, `normal: N`"))
     force = scalar(letter)
-    enforcer, gradient = "rail" if touch.surface.is_two_sided else "surface", touch.surface.gradient(touch.at)
+    enforcer = "rail" if touch.surface.is_two_sided else "surface"
     pair = touch.pair(force, touch.normal)
-    return Constraint(touch.gap, ZERO, force, forces=pair, enforcer=enforcer, gradient=gradient)
+    return Constraint(touch.gap, ZERO, force, forces=pair, enforcer=enforcer, gradient=touch.gradient)
 
 
 def _forces_of(touch: Contact, parts: Sequence[Part]) -> Iterator[PointForce]:
@@ -261,9 +263,9 @@ def _contact(of: Any, on: Any) -> Contact:
         raise Rejected(Complaint("wrong-argument", message, help=help_line))
     if isinstance(of, PlacedBody):
         place, gap, away = touching(of, surface)
+        found = Contact((), body, place, surface, gap, away)
     else:
-        place, gap, away = at, surface.distance(at), surface.normal(at)
-    found = Contact((), body, place, surface, gap, away)
+        found = Contact((), body, at, surface, surface.distance(at), surface.normal(at), surface.gradient(at))
     _check(found)
     _check_reached(found)
     return found
@@ -283,9 +285,16 @@ def _check(touch: Contact) -> None:
     the surface along this normal."""
     if not is_zero(tidied(dot(touch.normal, touch.normal)) - 1):
         raise Unverified(Complaint("unverified", "the normal of a contact is not a unit vector"))
-    gap = touch.gap / touch.surface.gradient(touch.at)
-    if not is_zero(tidied(touch.surface.height(touch.at, touch.normal) - gap)):
+    if not _is_at_its_distance(touch):
         raise Unverified(Complaint("unverified", "the place of a contact is not on the surface of the body"))
+
+
+def _is_at_its_distance(touch: Contact) -> bool:
+    surface, gap = touch.surface, touch.gap / touch.gradient
+    if isinstance(surface, Curve) and isinstance(touch.of, PlacedBody) and touch.gradient == 1:
+        foot = touch.at - gap * touch.normal
+        return is_zero(surface.distance(foot)) and is_zero(column_of(surface.normal(foot) - touch.normal))
+    return is_zero(tidied(surface.height(touch.at, touch.normal) - gap))
 
 
 def _surface_of(body: Any) -> Circle:
@@ -303,8 +312,6 @@ def _reject_normal(letter: str, touch: Contact) -> None:
     where = ", ".join(map(str, touch.at.components))
     message = f"the coordinates keep the body on the surface at ({where}), so `{letter}` does not appear"
     help_line = "give the body a coordinate for its distance from the surface, so that the normal force keeps it there"
-    if isinstance(touch.of, PlacedBody) and isinstance(touch.surface, Curve):
-        help_line = "only coordinates can keep a round body on a curve: leave out `normal`, and write `{rolling: F}`"
     raise Rejected(Complaint("not-an-unknown", message, help=help_line))
 
 
@@ -469,9 +476,5 @@ def _coefficient(touch: Contact, coefficient: Any, letter: str) -> Expr:
     if touch.is_kept:
         message = f"the coordinates keep the body on the surface, so its normal force `{letter}` does not appear"
         help_line = f"give the body a coordinate for its distance from the surface, and write `normal: {letter}`"
-        if isinstance(touch.of, PlacedBody) and isinstance(touch.surface, Curve):
-            help_line = (
-                "only coordinates can keep a round body on a curve, so leave out the coefficient: `{rolling: F}`"
-            )
         raise Rejected(Complaint("not-an-unknown", message, help=help_line))
     return mu

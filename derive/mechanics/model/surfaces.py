@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, Self, TypeAlias
 
-from sympy import Abs, Add, Expr, ImmutableDenseMatrix, Integer, Pow, Symbol, diff, factor, sqrt
+from sympy import Abs, Add, Expr, ImmutableDenseMatrix, Integer, Pow, Symbol, cos, diff, factor, sin, sqrt, tan
 from sympy.matrices import ImmutableMatrix
 
 from derive.algebra.expressions import (
@@ -182,11 +182,14 @@ class Curve(Surface):
         return -above if self.below else above
 
     def gradient(self, at: Location) -> Expr:
-        return sqrt(1 + self._at(diff(self.formula, self.letter), at) ** 2)
+        return tidied(sqrt(tidied(1 + self._slope(at) ** 2)))
+
+    def _slope(self, at: Location) -> Expr:
+        return self._at(diff(self.formula, self.letter), at).replace(tan, lambda angle: sin(angle) / cos(angle))
 
     def normal(self, at: Location) -> Location:
-        slope, length = self._at(diff(self.formula, self.letter), at), self.gradient(at)
-        above = Location((-slope / length, 1 / length))
+        slope, length = self._slope(at), self.gradient(at)
+        above = Location((tidied(-slope / length), tidied(1 / length)))
         return -above if self.below else above
 
     def height(self, at: Location, normal: Location) -> Expr:
