@@ -154,8 +154,8 @@ def as_data(value: Any, classes: Mapping[str, Any]) -> Any:
 
 
 def from_data(data: Any, classes: Mapping[str, Any]) -> Any:
-    """Return the value that `as_data` encoded, with tuples in place of lists. A record of a class that is not in
-    `classes` is not built."""
+    """Return the value that `as_data` encoded, with tuples in place of lists. Raises `KeyError` for a record of a class
+    that is not in `classes`."""
     if isinstance(data, list):
         return tuple(from_data(each, classes) for each in data)
     if not isinstance(data, dict):

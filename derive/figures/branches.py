@@ -26,9 +26,9 @@ STEPS = 160  # number of steps of a branch between two changes
 GRID = 2000  # number of steps of the parameter, and of the coordinate in the second route
 HALVINGS = 80
 TRIED = (0.11, 0.37, 0.68, 0.93)  # parts of an interval of the parameter at which the second route is used
-REAL = 1e-6  # greatest imaginary part of a value that is real within the precision of floating point, relative to 1
+REAL = 1e-6  # a value counts as real if its imaginary part is at most this fraction of 1 plus the size of its real part
 CLOSE = 1e-5  # greatest distance of a zero of the slope from its branch, relative to the vertical axis
-NEAR, DIGITS = 5, 40  # an equilibrium is compared with points at 10^-NEAR of the range, with DIGITS digits
+NEAR, DIGITS = 5, 40  # an equilibrium is compared with points 10^-NEAR of the range away, with DIGITS digits
 SHRUNK = 1e-6  # at a zero, the slope is smaller than this fraction of the slope beside the zero; at a pole it is larger
 # The second route also counts zeros that are beyond an end of the vertical axis by at most these fractions of its
 # length. If the problem does not state the ends of this axis, the whole length is added to the fractions.
@@ -261,7 +261,7 @@ def _confirm(
 ) -> None:
     """Compare the branches with the potential energy, for a few values of the parameter between the changes.
 
-    Letters on which the branches do not depend have trial numbers.
+    Symbols without a given number get trial numbers, because the branches do not depend on these symbols.
     """
     q = diagram.coordinate
     energy = diagram.energy.xreplace(dict(numbers))

@@ -291,7 +291,7 @@ def _diagram(system: System, alone: BodyAlone, shares: Sequence[Rational], scene
 
 def _stands(scene: Connections, alone: BodyAlone) -> bool:
     """Whether the weight and a normal force of a round body are on one line through its centre. The normal force is
-    then drawn as a push with its tip at the contact, because its torque depends on its point of action."""
+    then drawn as a push with its tip at the contact, because its torque depends on its point of application."""
     of = alone.of
     if not scene.system.weights or not isinstance(of, PlacedBody):
         return False
@@ -318,16 +318,16 @@ def _is_below(drawn: _Drawn, of: PlacedBody, scene: Connections) -> bool:
 
 
 def _offset(drawn: _Drawn, of: PlacedBody, scene: Connections) -> tuple[float, float]:
-    """Return the horizontal distance of the point of action from the centre of mass, and the height of the point above
-    the centre.
+    """Return the horizontal distance of the point of application from the centre of mass, and the height of the point
+    above the centre.
     """
     *level, up = (scene.number(c) for c in (drawn.at - of.centre).components)
     return hypot(*level), up
 
 
 def _acting(system: System, of: Any) -> list[PointForce]:
-    """Return the forces of connections on a body. If there are any, the normal force of a fixed plane that the body
-    touches is added, if no equation contains this force."""
+    """Return the forces of connections on a body. If there are any, a normal force that no equation contains is added:
+    the force of a fixed plane on which the coordinates keep the body."""
     named = [force for each in connections_of(system, Connection) for force in each.on(of)]
     named += _drawn_pulls(system, of)
     return [*named, *_unnamed_normals(system, of)] if named else []
@@ -622,7 +622,7 @@ def _forces(system: System, of: Any, acting: Sequence[PointForce], found: Mappin
 
 
 def _is_on_axle(system: System, of: Any, acting: Sequence[PointForce]) -> bool:
-    """Whether a body is on an axle, like a pulley, so that the force of the axle is vertical."""
+    """Whether a body is on a fixed axle, as a pulley is, and the force of the axle is vertical."""
     if not isinstance(of, PlacedBody) or not of.is_plane or not is_fixed(system, of.centre):
         return False
     if any(force.direction[0] != 0 for force in acting):

@@ -1,6 +1,6 @@
 """Links: lines from a fixed or known point to a moving point, and their angles, from the formulas of the positions.
 
-A link is the line along which polar coordinates are measured; it does not show a physical part. Numerical samples
+A link is the line along which polar coordinates are measured; it need not be a physical part. Numerical samples
 exclude most pairs of points that are not links; algebra decides about the remaining pairs.
 """
 

@@ -515,7 +515,7 @@ def _polhodes(
     ratios, _ = _moments(problem, drawing, placement)
     if missing := sorted({s.name for ratio in ratios for s in ratio.free_symbols}):
         message = f"the drawing `{drawing.key}` needs a number for {', '.join(f'`{name}`' for name in missing)}"
-        help_line = "the values of a drawing of polhodes contain only letters of the moments of inertia"
+        help_line = "under `values` of this drawing, use only symbols of the moments of inertia"
         raise Rejected(Complaint("drawing", message, placement.place if placement else None, help=help_line))
     order = order_of([float(ratio) for ratio in ratios])
     assert order is not None
