@@ -1,7 +1,7 @@
-"""Assumed relations between symbols, such as l < r_0 or v_0^2 < g R. They determine signs and limit sample values.
+"""Assumed relations between symbols, such as l < r_0 or v_0^2 < g R, and their consequences for signs and samples.
 
-A symbol is replaced by its value from the relation: r_0 = l + u, with an amount u > 0. The sign of a polynomial in l and
-r_0 can then often be read from its coefficients.
+A symbol is replaced by its value from the relation: r_0 = l + u, with an amount u > 0. The sign of a polynomial in l
+and r_0 can then often be read from its coefficients.
 """
 
 from __future__ import annotations
