@@ -223,8 +223,8 @@ def _common_number(numbers: Sequence[Expr]) -> Expr | None:
 
 
 def _gathered(value: Expr, letters: Sequence[Symbol]) -> list[tuple[tuple[int, ...], Coefficient]]:
-    """The result of `coefficients`, or of SymPy if that raises `Outside`; empty if the value is not a polynomial in
-    these symbols."""
+    """The result of `coefficients`, or of SymPy if `coefficients` raises `Outside`; empty if the value is not a
+    polynomial in these symbols."""
     try:
         return coefficients(value, letters)
     except Outside:

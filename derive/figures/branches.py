@@ -25,7 +25,7 @@ from derive.figures.marks import Branch, Diagram
 STEPS = 160  # number of steps of a branch between two changes
 GRID = 2000  # number of steps of the parameter, and of the coordinate in the second route
 HALVINGS = 80
-TRIED = (0.11, 0.37, 0.68, 0.93)  # parts of an interval of the parameter at which the second route is used
+TRIED = (0.11, 0.37, 0.68, 0.93)  # the second route is used at these fractions of an interval of the parameter
 REAL = 1e-6  # a value counts as real if its imaginary part is at most this fraction of 1 plus the size of its real part
 CLOSE = 1e-5  # greatest distance of a zero of the slope from its branch, relative to the vertical axis
 NEAR, DIGITS = 5, 40  # an equilibrium is compared with points 10^-NEAR of the range away, with DIGITS digits

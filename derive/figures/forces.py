@@ -60,7 +60,8 @@ OFF = Rational(1, 30)  # distance between a rod and the arrow of a force along i
 APART = 5.0  # the distance between the arrows of two forces on the same line, in points
 ALONG = 1.8  # distance between a surface and the arrow of a force along it, on the side of the body, in points
 # A round body whose weight and normal force are on one line: its drawn size in points, and the lengths of its longest
-# and of its shortest arrow, in units of FORCE points. So the weight ends above the contact, and friction is visible.
+# and of its shortest arrow, in units of FORCE points. With these lengths the weight ends above the contact, and the
+# friction is visible.
 STANDING, SHORT, SHORTEST = 47.0, Rational(12, 25), Rational(7, 20)
 ROPE = 110.0  # the drawn length of a whole rope, whose pieces are drawn alone, in points
 FOOT = 30.0  # half the length of the piece of a surface under a body, in points

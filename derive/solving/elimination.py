@@ -45,8 +45,8 @@ def isolated_in_order(residuals: Sequence[Expr], unknowns: Sequence[Symbol]) -> 
     residuals   the equations, linear in the unknowns: residual = 0
     unknowns    the unknowns, in the order in which they should be found
 
-    Unknowns that are zero are left out. An unknown is also left out if no `MOST` or fewer equations determine it with a
-    determinant that is known not to vanish.
+    Unknowns that are zero are left out. An unknown is also left out if no set of at most `MOST` equations determines it
+    with a determinant that is known not to vanish.
     """
     slopes = [{u: c for u in unknowns if (c := tidied(derivative(row, u))) != 0} for row in residuals]
     found: dict[Symbol, Isolated] = {}
