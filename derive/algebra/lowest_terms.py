@@ -92,7 +92,7 @@ def _with_plus_first(product: Product) -> Product:
 
 
 def _turned(base: Expr, power: int) -> Product:
-    """The factor (-1)^n (-b)^n/b^n of value 1, for b^n: a product with b^n times this factor contains (-b)^n instead."""
+    """The factor (-1)^n (-b)^n/b^n, equal to 1: multiplied by it, a product with b^n contains (-b)^n instead."""
     return Product(S.NegativeOne**power, {base: -power, -base: power})
 
 
