@@ -58,7 +58,7 @@ class Order:
         return Order(positive, {**replaced, letter: value}, amounts)
 
     def put_in(self, expr: Expr) -> Expr:
-        """The expression with all replaced symbols substituted by their values."""
+        """The expression with the values of all replaced symbols substituted."""
         return expr.xreplace(dict(self.replaced)) if self.replaced else expr
 
     def touches(self, expr: Expr) -> bool:

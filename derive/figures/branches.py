@@ -28,10 +28,11 @@ HALVINGS = 80
 TRIED = (0.11, 0.37, 0.68, 0.93)  # the second route is used at these fractions of an interval of the parameter
 REAL = 1e-6  # a value counts as real if its imaginary part is at most this fraction of 1 plus the size of its real part
 CLOSE = 1e-5  # greatest distance of a zero of the slope from its branch, relative to the vertical axis
-NEAR, DIGITS = 5, 40  # an equilibrium is compared with points 10^-NEAR of the range away, with DIGITS digits
+# The energy at an equilibrium is compared with the energy at a distance of 10^-NEAR of the range, with DIGITS digits.
+NEAR, DIGITS = 5, 40
 SHRUNK = 1e-6  # at a zero, the slope is smaller than this fraction of the slope beside the zero; at a pole it is larger
 # The second route also counts zeros that are beyond an end of the vertical axis by at most these fractions of its
-# length. If the problem does not state the ends of this axis, the whole length is added to the fractions.
+# length. If the problem does not state the ends of this axis, each fraction is increased by 1.
 WIDENED = 0.0731, 0.0917
 EDGE = 1e-5  # zeros this close to an end of the coordinate's range are not counted; relative to the vertical axis
 FULL_TURN = 2 * exact_pi

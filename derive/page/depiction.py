@@ -334,7 +334,7 @@ def letters_not_drawn(problem: Problem, drawings: Sequence[m.Recorded]) -> list[
 
 
 def _with_values(problem: Problem, placement: Placement) -> dict[str, Place | None]:
-    """Return the place of each value of a drawing, by the name of its symbol."""
+    """Return the place in the file of each value of a drawing, by the name of its symbol."""
     is_for_parts = any(part.cases == placement.key for part in problem.parts)
     cases = () if is_for_parts else placement.cases
     return {**placement.names, **{number.symbol.name: number.place for case in cases for number in case}}
