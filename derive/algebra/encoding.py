@@ -64,7 +64,7 @@ def encoded(expr: Any, name: Callable[[Dummy], str] | None = None) -> list[Any]:
 
 @lru_cache(maxsize=4096)
 def _assumptions(symbol: Symbol) -> dict[str, bool]:
-    """Return assumptions with which SymPy makes an equal symbol, because SymPy does not record which ones were
+    """Return assumptions with which SymPy makes an equal symbol, because SymPy does not record which assumptions were
     written."""
     usual: tuple[dict[str, bool], ...] = ({}, {"real": True}, {"positive": True}, {"nonnegative": True})
     for assumptions in usual:

@@ -64,7 +64,7 @@ _POSITIVE: ContextVar[tuple[Expr, ...]] = ContextVar("positive", default=())
 
 @contextmanager
 def own_meaning() -> Iterator[None]:
-    """Make no assumptions of positivity at the start of the `with` block, and restore the earlier ones after it."""
+    """Forget all assumptions of positivity for the `with` block, and restore them after it."""
     token = _POSITIVE.set(())
     try:
         yield

@@ -82,7 +82,7 @@ def bifurcations_of(
     """Return the lines of a diagram for these numbers; raise `Rejected` if no equilibrium changes within the ends.
 
     axis       the ends of the vertical axis; by default the axis has room for all equilibria
-    is_angle   whether two values of the coordinate that differ by a full turn are the same
+    is_angle   whether two values of the coordinate that differ by a full turn mean the same position
     """
     states = [_state(branch, parameter, numbers) for branch in diagram.branches]
     places = [_real(branch.place.xreplace(dict(numbers)), parameter) for branch in diagram.branches]

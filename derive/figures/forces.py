@@ -420,7 +420,8 @@ def _magnitudes(drawn: Sequence[_Drawn], scene: Connections) -> list[float] | No
 
 
 def _share(size: float) -> Rational:
-    """Return the length of an arrow relative to the longest arrow. Small forces stay visible."""
+    """Return the length of an arrow relative to the longest arrow. It is at least `LEAST`, so that the arrows of small
+    forces are visible."""
     return max(Rational(round(60 * size), 60), LEAST)
 
 
