@@ -689,7 +689,7 @@ class Connections:
         beside = line.through[1 if k == 0 else -2]
         assert isinstance(pulled, Location)
         x, y = (other - place).components
-        if isinstance(beside, Pulley):  # the string leaves a pulley with a radius beside its centre
+        if isinstance(beside, Pulley):  # the string leaves this pulley at the rim
             x, y = (ZERO, y) if is_zero_direction(abs(x) - beside.radius) else (x, ZERO)
         if is_zero_direction(x):
             return Location((ZERO, ONE if self.number(y) > 0 else -ONE))
