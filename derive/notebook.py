@@ -67,7 +67,7 @@ class Answer:
 
 @dataclass(frozen=True)
 class Drawn:
-    """A drawing as SVG text, made from the problem as it was when it was opened."""
+    """A drawing as SVG text; it shows the problem as it was when `open_problem` read it."""
 
     svg: str
 

@@ -106,9 +106,9 @@ def _alike_together(terms: Iterable[Expr]) -> list[Expr]:
 
 
 def _by_directions(value: Expr) -> tuple[Expr, list[Expr]] | None:
-    """Split k u - k l u/|u| into the part without a direction u/|u| and the terms with a direction.
+    """Split a sum such as k u - k l u/|u| into the part without a direction u/|u| and the terms with a direction.
 
-    The result is None if there is no such direction, or if the value is not a polynomial in the directions.
+    The result is None if there is no direction, or if the value is not a polynomial in the directions.
 
     With s = u/|u|, which is 1 or -1, |u| is s u and s^2 is 1, so only the first power of each s is left.
     """
@@ -223,8 +223,8 @@ def _common_number(numbers: Sequence[Expr]) -> Expr | None:
 
 
 def _gathered(value: Expr, letters: Sequence[Symbol]) -> list[tuple[tuple[int, ...], Coefficient]]:
-    """The result of `coefficients`, or of SymPy if that raises `Outside`; empty if the value is not a polynomial in
-    these symbols."""
+    """The result of `coefficients`, or of SymPy if `coefficients` raises `Outside`; empty if the value is not a
+    polynomial in these symbols."""
     try:
         return coefficients(value, letters)
     except Outside:
@@ -272,8 +272,8 @@ def _with_its_rates(coefficient: Coefficient, rates: list[tuple[Symbol, int]], h
 
 
 def _with_one(product: Expr) -> Expr:
-    """Divide a sum by the symbols of the denominator if they are one of its terms: (1 + r^2/p^2) r_dot^2, the square of
-    a velocity plus a correction, not (p^2 + r^2) r_dot^2/p^2."""
+    """Divide a sum by the symbols of the denominator if their product is one of its terms: (1 + r^2/p^2) r_dot^2, not
+    (p^2 + r^2) r_dot^2/p^2."""
     above, below = product.as_numer_denom()
     sums = [part for part in Mul.make_args(above) if part.is_Add]
     number, letters = below.as_coeff_Mul()

@@ -1,4 +1,5 @@
-"""Partial derivatives of sums, products, whole powers, sines and cosines; SymPy differentiates the other functions.
+"""Partial derivatives of sums, products, integer powers, sines, cosines and absolute values; SymPy differentiates the
+other functions.
 
 The derivative with respect to the time includes the derivatives of prescribed functions of the time.
 The derivative of a distance |u| along a line is u/|u| times the derivative of u, where u is not zero.

@@ -64,7 +64,7 @@ def encoded(expr: Any, name: Callable[[Dummy], str] | None = None) -> list[Any]:
 
 @lru_cache(maxsize=4096)
 def _assumptions(symbol: Symbol) -> dict[str, bool]:
-    """Return assumptions with which SymPy makes an equal symbol, because SymPy does not record which ones were
+    """Return assumptions with which SymPy makes an equal symbol, because SymPy does not record which assumptions were
     written."""
     usual: tuple[dict[str, bool], ...] = ({}, {"real": True}, {"positive": True}, {"nonnegative": True})
     for assumptions in usual:
@@ -154,8 +154,8 @@ def as_data(value: Any, classes: Mapping[str, Any]) -> Any:
 
 
 def from_data(data: Any, classes: Mapping[str, Any]) -> Any:
-    """Return the value that `as_data` encoded, with tuples in place of lists. A record of a class that is not in
-    `classes` is not built."""
+    """Return the value that `as_data` encoded, with tuples in place of lists. Raises `KeyError` for a record of a class
+    that is not in `classes`."""
     if isinstance(data, list):
         return tuple(from_data(each, classes) for each in data)
     if not isinstance(data, dict):

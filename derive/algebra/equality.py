@@ -84,8 +84,8 @@ LEAST_SURE_FIRST = (Grade.REFUTED, Grade.SAMPLED, Grade.APPROXIMATION, Grade.DEF
 
 
 class Compared(StrEnum):
-    """What is compared: two lines of a calculation, or the result with a second route, a check or a simulated
-    motion."""
+    """What is compared, if anything: two lines of a calculation, or the result with a second route, a check or a
+    simulated motion."""
 
     LINES = "lines"
     ROUTE = "route"
@@ -119,7 +119,7 @@ class Verdict:
 def equal(left: Any, right: Any, nonzero: Sequence[Expr] = ()) -> Verdict:
     """Compare two scalars, two matrices entry by entry, or two relations.
 
-    The grade of a matrix is the grade of its least certain entry. Relations count as equal if they are shown to be
+    The grade of a matrix is the grade of its least certain entry. Relations count as equal if they are found to be
     equivalent. `nonzero` lists factors that may be divided out: factors of an equation are known not to vanish, and
     factors of an inequality are known to be positive.
     """
@@ -457,7 +457,7 @@ def _without_factors(expr: Expr, known: Sequence[Expr]) -> Expr:
 
 
 def _without_factor(expr: Expr, known: Expr) -> Expr:
-    """The expression without any whole power of a factor that is known to be positive or not to vanish."""
+    """The expression without the integer powers of a factor that is known to be positive or not to vanish."""
     left: list[Expr] = []
     for factor in Mul.make_args(together(expr)):
         base, power = factor.as_base_exp()

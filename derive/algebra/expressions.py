@@ -159,7 +159,7 @@ class Cross(VectorNode):
 
 class CarriedRate(VectorNode):
     """The rate dA/dt in space of a vector A. The components of A are along axes that rotate with the angular velocity
-    omega. Arguments: A, omega, and the coordinates that move; without coordinates, A changes in the body only where it
+    omega. Arguments: A, omega, and the coordinates that move; without coordinates, A changes in the body only if it
     contains the time.
 
     The value is the rate of the components plus the rate of the rotated vector. The second rate is found by
@@ -195,8 +195,8 @@ def _rotation_onto_z(n: Matrix) -> Matrix:
 
 
 class BodyRate(VectorNode):
-    """dA/dt as seen in the body. Arguments: A, and the coordinates that move; without coordinates, A changes only where
-    it contains the time."""
+    """dA/dt as seen in the body. Arguments: A, and the coordinates that move; without coordinates, A changes only if it
+    contains the time."""
 
     def _evaluated(self, a: Matrix, *moving: Symbol) -> ImmutableMatrix:
         return column(*(explicit(TimeRate(component, *moving)) for component in a))
@@ -440,7 +440,7 @@ def bound(expr: Value, values: Mapping[Any, Any]) -> Value:
 
 
 def with_known(value: Expr, known: Mapping[Symbol, Expr], moving: Sequence[Symbol]) -> Expr:
-    """Substitute known coordinates and rates, the constant ones first: a root of r**2 + z**2 becomes a positive r
+    """Substitute known coordinates and rates, the constant ones first: with z = 0, the root of r**2 + z**2 becomes r
     before a formula replaces r."""
     return value.xreplace(constant_ones(known, moving)).xreplace(dict(known))
 

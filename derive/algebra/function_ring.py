@@ -1,9 +1,9 @@
 """Polynomials in symbols and angles, and in roots, absolute values, exponentials and other functions.
 
-Roots and absolute values are split into those of their factors, as far as the signs of the factors allow it. A root or
-an absolute value becomes a new letter, which is a variable of the ring with a relation, r^q = p or |p|^2 = p^2. A power
-with a sum as its exponent becomes a product, exp(u + v) = exp u exp v. For a function without a rule in this module,
-only one property is used: equal arguments give equal values.
+A root or an absolute value of a product is split into the roots or absolute values of the factors, as far as the signs
+of the factors allow it. Each becomes a new letter, which is a variable of the ring with a relation, r^q = p or
+|p|^2 = p^2. A power with a sum as its exponent becomes a product, exp(u + v) = exp u exp v. For a function without a
+rule in this module, only one property is used: equal arguments give equal values.
 
 The new letters may depend on one another, so a form with terms may still be zero. A form without terms is zero,
 provided that it contains no division by zero.

@@ -92,7 +92,7 @@ def _with_plus_first(product: Product) -> Product:
 
 
 def _turned(base: Expr, power: int) -> Product:
-    """The factor by which a product must be multiplied to replace the base b of this power by -b."""
+    """The factor (-1)^n (-b)^n/b^n, equal to 1: multiplied by it, a product with b^n contains (-b)^n instead."""
     return Product(S.NegativeOne**power, {base: -power, -base: power})
 
 

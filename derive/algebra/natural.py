@@ -232,8 +232,11 @@ def compared(left: Expr, mark: str, right: Expr, takes_roots: bool = True) -> Re
 def _relation(
     value: Relation, known: Mapping[Expr, Expr], quantities: Mapping[Symbol, Expr], is_motion: bool
 ) -> Shortened:
-    """Rewrite both sides; divide an equation whose right side is zero, and a relation with two nonzero sides, by common
-    factors, except an equation of motion with two nonzero sides."""
+    """Rewrite both sides, but only the right side of an equation that gives a symbol.
+
+    An equation whose right side is zero, and a relation with two nonzero sides, are divided by common factors. An
+    equation of motion with two nonzero sides is not divided.
+    """
     used = tuple(quantities)
     if value.operator == "=" and value.left.is_Symbol and value.left not in {*known, *value.right.free_symbols}:
         return Shortened(Relation(value.left, "=", _written(value.right, known)), used)

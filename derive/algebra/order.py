@@ -1,7 +1,7 @@
-"""Assumed relations between symbols, l < r_0 or v_0^2 < g R, and their consequences for signs and for sample values.
+"""Assumed relations between symbols, such as l < r_0 or v_0^2 < g R, and their consequences for signs and samples.
 
-A symbol is replaced by its value from the relation, r_0 = l + u with an amount u > 0. The sign of a polynomial in l and
-r_0 can then often be read from its coefficients.
+A symbol is replaced by its value from the relation: r_0 = l + u, with an amount u > 0. The sign of a polynomial in l
+and r_0 can then often be read from its coefficients.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ class Order:
         return Order(positive, {**replaced, letter: value}, amounts)
 
     def put_in(self, expr: Expr) -> Expr:
-        """The expression with all replaced symbols substituted by their values."""
+        """The expression with the values of all replaced symbols substituted."""
         return expr.xreplace(dict(self.replaced)) if self.replaced else expr
 
     def touches(self, expr: Expr) -> bool:

@@ -60,7 +60,8 @@ class OrderedRoot(ScalarNode):
 
 
 def root_in_order(coefficients: Sequence[Any], number: int) -> Any:
-    """The root at this place: a root in floats, improved by Newton's method to the precision of mpmath."""
+    """The root at this place in ascending order: a floating-point root, improved by Newton's method to the precision of
+    mpmath."""
     from numpy import roots
 
     mp = mpmath.mp

@@ -46,7 +46,7 @@ class Prescribed(Symbol):
 
     @classmethod
     def class_key(cls) -> tuple[Any, ...]:
-        return Symbol.class_key()  # type: ignore[no-any-return]  # in sums and products, in order with other symbols
+        return Symbol.class_key()  # type: ignore[no-any-return]  # sorted among the other symbols in sums and products
 
     @property
     def free_symbols(self) -> set[Symbol]:

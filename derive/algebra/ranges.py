@@ -64,7 +64,7 @@ _POSITIVE: ContextVar[tuple[Expr, ...]] = ContextVar("positive", default=())
 
 @contextmanager
 def own_meaning() -> Iterator[None]:
-    """Make no assumptions of positivity at the start of the `with` block, and restore the earlier ones after it."""
+    """Forget all assumptions of positivity for the `with` block, and restore them after it."""
     token = _POSITIVE.set(())
     try:
         yield
@@ -140,7 +140,8 @@ def _fits(letter: Any, number: Expr) -> bool:
 
 
 def without_abs(value: Any) -> Any:
-    """Remove absolute values whose argument has a known sign by the ranges of its symbols or the assumed relations."""
+    """Remove each absolute value if the ranges of symbols or the assumed relations determine the sign of its
+    argument."""
     known = _KNOWN.get()
     if not hasattr(value, "atoms") or not (value.free_symbols & known.keys() or known_order().touches(value)):
         return value
@@ -173,14 +174,14 @@ def _drawn_out(root: Pow) -> Expr | None:
 
 
 def sign_within(expr: Expr) -> int | None:
-    """The sign, 1 or -1, of all values inside the ranges of the symbols for which the assumed relations hold; None if
-    no common sign is known. The ends of the ranges do not count."""
+    """The common sign, 1 or -1, of the values of an expression at all points that are inside the ranges of the symbols
+    and satisfy the assumed relations; None if no common sign is known. The ends of the ranges do not count."""
     signs = [_sign_of_factor(factor) for factor in Mul.make_args(expr)]
     return None if None in signs else prod(sign for sign in signs if sign)
 
 
 def strict_sign_within(expr: Expr) -> int | None:
-    """As `sign_within`, but the ends that belong to the ranges count."""
+    """As `sign_within`, but the ends that belong to the ranges also count."""
     sign = sign_within(expr)
     if sign is None:
         return None
@@ -320,7 +321,8 @@ def ends_within(expr: Expr) -> tuple[Expr, Expr] | None:
 
 
 def _ends(expr: Expr) -> tuple[Expr, Expr] | None:
-    """The bounds of a sum of multiples of terms that `_between` bounds; None if they are unknown."""
+    """The bounds of a sum of numbers and of multiples of expressions with bounds (`_between`); None if they are
+    unknown."""
     least: Expr = Integer(0)
     greatest: Expr = Integer(0)
     for term in Add.make_args(expr):

@@ -1,6 +1,6 @@
 """Points at which two expressions are compared, and the values of the expressions at these points.
 
-A point gives each symbol a random number; the numbers have several orders of magnitude. The seed is computed from the
+A point gives each symbol a random number; the numbers are of several orders of magnitude. The seed is computed from the
 expressions, so each run has the same points for the same expressions. A difference counts only if more digits confirm
 it; a difference that shrinks as digits are added counts as zero.
 """
@@ -45,7 +45,7 @@ DIGITS = 50
 WORKING = (60, 160, 420)  # precisions in digits, tried in this order until a comparison is decided and confirmed
 SPARE = 20  # working digits that may be lost by rounding, cancellation and large arguments
 
-NEGLIGIBLE = 1e-25  # an entry of a matrix of ordinary numbers below this size is a rounding error
+NEGLIGIBLE = 1e-25  # in a matrix of ordinary numbers, a smaller entry is a rounding error
 RANKS_TRIED = 8  # the most points at which the rank of a matrix is tried
 
 ORDINARY = (0,)
@@ -374,7 +374,7 @@ class Values:
         return bool({"<": x < 0, "<=": x <= 0, ">": x > 0, ">=": x >= 0}[condition.rel_op])
 
     def _by_sympy(self, expr: Expr) -> Any:
-        """Evaluate a function by SymPy if this module has no rule for it."""
+        """Evaluate an expression with SymPy, because this module has no rule for it."""
         letters = letters_of(expr)
         if not letters <= self.known.keys() or expr.count_ops() > 200:
             raise NoNumber(expr)

@@ -89,7 +89,7 @@ class Ring:
         return self.function(expr)
 
     def function(self, expr: Expr) -> Form:
-        """The form of an expression that is not a sum, product or whole power."""
+        """The form of an expression that is not a number, symbol, sum, product or integer power."""
         raise Outside
 
     def inverse(self, base: Expr) -> Form:

@@ -208,8 +208,8 @@ def _has_roots(value: Expr) -> bool:
 
 
 def _denested(value: Expr) -> Expr:
-    """Simplify nested roots, as the root of the square: (8 sqrt(2) - 11) sqrt(146 + 103 sqrt(2))/14 becomes
-    sqrt(2 - sqrt(2))/2."""
+    """Simplify a numerical factor with nested roots by taking the root of its square: (8 sqrt(2) - 11) sqrt(146 + 103
+    sqrt(2))/14 becomes sqrt(2 - sqrt(2))/2."""
     number, letters = value.as_independent(*value.free_symbols, as_Add=False) if value.free_symbols else (value, 1)
     nested = [f for f in Mul.make_args(number) if f.is_Pow and f.exp.is_Rational and f.base.atoms(Pow)]
     if not nested or number.is_Add or any(abs(f.exp) != Rational(1, 2) for f in nested):

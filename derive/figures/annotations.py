@@ -142,8 +142,8 @@ def _along_sight(label: Any, spot: Spot, comes: bool, towards: Spot = (-0.7, 0.7
 
 @dataclass(frozen=True)
 class AxisOfRotation(Mark):
-    """The axis through a point along a direction. It extends beyond the body; only its start is left out if the body
-    would hide it.
+    """The axis through a point along a direction. It extends beyond the body at both ends; the part before the body is
+    left out if the body would hide it.
 
     With a rate, a rotation arrow surrounds the axis near its far end, and the label is next to this arrow. The arrow is
     right-handed if the rate is positive.
@@ -171,7 +171,8 @@ class AxisOfRotation(Mark):
         return [line, *_circling(ring, plus(NOUGHT, along, sense), RING * paper.reach, self.label, paper)]
 
     def _start(self, paper: Paper, near: Vector, along: Vector) -> Vector:
-        """Return the start of the line, so that the line does not seem to leave the body through a front edge."""
+        """Return the start of the line. If the part before the body would be behind the body, the line starts at the
+        body, because otherwise it would seem to leave the body through a front edge."""
         start = plus(near, along, -PAST * paper.reach)
         (x, y), (u, v) = paper.spots(near, start)
         is_behind = dot(along, paper.stance.eye) > 0 and is_within(
@@ -180,8 +181,8 @@ class AxisOfRotation(Mark):
         return near if is_behind else start
 
     def _to_clear(self, paper: Paper, ring: Vector, along: Vector, radius: float) -> float:
-        """Return how far the rotation arrow moves along the axis, so that it is outside the outline of the bodies;
-        0 if no tried distance is enough."""
+        """Return how far the rotation arrow must move along the axis to be outside the outline of the bodies; 0 if no
+        tried distance is enough."""
         outline = hull(paper.spots(*paper.fixed))
         tried = [PAST * paper.reach * step / 4 for step in range(9)]
         for off in tried:
@@ -383,7 +384,7 @@ class PositiveRotation(_Single):
 class AppliedForce(Arrow):
     """A given force on a part of a system: an arrow of a fixed length.
 
-    clear   the distance from the point of action to the start of the arrow, or to its tip if it pushes, in points
+    clear   the distance from the point of application to the start of the arrow, or to its tip if it pushes, in points
     """
 
     clear: float = 0.0
@@ -445,7 +446,7 @@ class Cone(Arrow):
 
 @dataclass(frozen=True)
 class Weight(Arrow):
-    """A weight at its point of action.
+    """A weight at its point of application.
 
     A weight does not affect the choice of the view, because it is visible in every view that is tried. Its label may be
     anywhere next to the shaft of the arrow, because the space below the tip is often occupied.

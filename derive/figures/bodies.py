@@ -260,7 +260,7 @@ def _of_parts(parts: Sequence[Any], whole: Point, named: bool, in_plane: bool) -
 
 
 def _hollow(body: Body, point: Point, aside: Position, named: bool, in_plane: bool) -> list[Mark]:
-    """Return the marks of a removed part, if it can be drawn."""
+    """Return the marks of a removed part; an empty list if it cannot be drawn."""
     boundary, pose = body.boundary, _pose(point)
     if isinstance(boundary, Faces) and in_plane:
         return [Hole(mark) for mark in in_space(boundary, pose, words_of(body)) if isinstance(mark, Surface)]

@@ -25,13 +25,14 @@ from derive.figures.marks import Branch, Diagram
 STEPS = 160  # number of steps of a branch between two changes
 GRID = 2000  # number of steps of the parameter, and of the coordinate in the second route
 HALVINGS = 80
-TRIED = (0.11, 0.37, 0.68, 0.93)  # parts of an interval of the parameter at which the second route is used
-REAL = 1e-6  # greatest imaginary part of a value that is real within the precision of floating point, relative to 1
+TRIED = (0.11, 0.37, 0.68, 0.93)  # the second route is used at these fractions of an interval of the parameter
+REAL = 1e-6  # a value counts as real if its imaginary part is at most this fraction of 1 plus the size of its real part
 CLOSE = 1e-5  # greatest distance of a zero of the slope from its branch, relative to the vertical axis
-NEAR, DIGITS = 5, 40  # an equilibrium is compared with points at 10^-NEAR of the range, with DIGITS digits
+# The energy at an equilibrium is compared with the energy at a distance of 10^-NEAR of the range, with DIGITS digits.
+NEAR, DIGITS = 5, 40
 SHRUNK = 1e-6  # at a zero, the slope is smaller than this fraction of the slope beside the zero; at a pole it is larger
 # The second route also counts zeros that are beyond an end of the vertical axis by at most these fractions of its
-# length. If the problem does not state the ends of this axis, the whole length is added to the fractions.
+# length. If the problem does not state the ends of this axis, each fraction is increased by 1.
 WIDENED = 0.0731, 0.0917
 EDGE = 1e-5  # zeros this close to an end of the coordinate's range are not counted; relative to the vertical axis
 FULL_TURN = 2 * exact_pi
@@ -81,7 +82,7 @@ def bifurcations_of(
     """Return the lines of a diagram for these numbers; raise `Rejected` if no equilibrium changes within the ends.
 
     axis       the ends of the vertical axis; by default the axis has room for all equilibria
-    is_angle   whether two values of the coordinate that differ by a full turn are the same
+    is_angle   whether two values of the coordinate that differ by a full turn mean the same position
     """
     states = [_state(branch, parameter, numbers) for branch in diagram.branches]
     places = [_real(branch.place.xreplace(dict(numbers)), parameter) for branch in diagram.branches]
@@ -261,7 +262,7 @@ def _confirm(
 ) -> None:
     """Compare the branches with the potential energy, for a few values of the parameter between the changes.
 
-    Letters on which the branches do not depend have trial numbers.
+    Symbols without a given number get trial numbers, because the branches do not depend on these symbols.
     """
     q = diagram.coordinate
     energy = diagram.energy.xreplace(dict(numbers))

@@ -87,7 +87,7 @@ PAST = Rational(3, 2)  # the drawn length of a plane beyond the bodies on it, re
 ROUND = Rational(3, 5)  # angle between the vertical and the line from the centre of a circle to a body on the circle
 EXACT = 1e-6
 SMALL = 0.08  # a component of the direction of a plane counts as zero if its size is at most this number
-FAR = Rational(8, 5)  # the coordinate of a wire is drawn up to this multiple of its value in the drawing
+FAR = Rational(8, 5)  # a wire is drawn up to this multiple of the value of its coordinate in the drawing
 
 Sort = TypeVar("Sort", bound=Connection)
 
@@ -167,7 +167,7 @@ class Connections:
         return Rational(1, 4) * min(others, key=str) if others and is_alone and q in components else None
 
     def _turned(self, known: Mapping[Symbol, Any]) -> dict[Symbol, Any]:
-        """Values of the angles through which bodies have rolled, from the lengths that they have rolled."""
+        """Values of the angles through which bodies have rolled, from the distances that they have rolled."""
         found: dict[Symbol, Any] = {}
         for each in self.system.constraints:
             slopes = {q: tidied(diff(each.residual, rate(q))) for q in each.coordinates} if each.in_rates else {}
@@ -426,7 +426,8 @@ class Connections:
     def has_bare_origin(self, plane: Plane) -> bool:
         """Whether a coordinate is measured along a fixed level line from the origin, and nothing is drawn there.
 
-        With a fixed end of a spring, a string or a rod, the origin is usually a position of equilibrium.
+        If a spring, a string or a rod has a fixed end, the origin is usually an equilibrium position, so the result is
+        False.
         """
         if plane.of is not None or isinstance(plane.moves, Location) or self.start:
             return False
@@ -520,7 +521,7 @@ class Connections:
             corners, sort = (low, high, high + inwards, low + inwards), WedgeMark
         else:
             height = self._floor_under(plane.of)
-            # If the top of the face is not above the floor, the wedge is drawn above it without its true height.
+            # If the top of the face is not above the floor, the wedge cannot be drawn on this floor.
             if height is not None and self.number(high.components[1] - height) > SMALL:
                 low = low + tidied((height - low.components[1]) / y) * (high - low)
             corners, sort = (low, high, Location((high.components[0], low.components[1]))), WedgeMark
@@ -688,7 +689,7 @@ class Connections:
         beside = line.through[1 if k == 0 else -2]
         assert isinstance(pulled, Location)
         x, y = (other - place).components
-        if isinstance(beside, Pulley):  # the string leaves a pulley with a radius beside its centre
+        if isinstance(beside, Pulley):  # the string leaves this pulley at the rim
             x, y = (ZERO, y) if is_zero_direction(abs(x) - beside.radius) else (x, ZERO)
         if is_zero_direction(x):
             return Location((ZERO, ONE if self.number(y) > 0 else -ONE))

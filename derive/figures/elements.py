@@ -82,7 +82,7 @@ def spring_mark(start: Any, end: Any, label: Any = None) -> Mark:
 
 
 def rope(*along: Any, label: Any = None) -> Mark:
-    """A taut string through points and round wheels: `rope(first, pulley, second)`.
+    """A taut string through points and around wheels: `rope(first, pulley, second)`.
 
     At each wheel the string is on the side that its bend requires.
     """
@@ -230,7 +230,7 @@ def way(
 
 
 def gravity_mark(label: Any = None, in_space: bool = False) -> Mark:
-    """The gravitational acceleration: an arrow downwards next to all parts."""
+    """The gravitational acceleration: a downward arrow to the upper right of all other parts."""
     return GravityMark(towards("down", 3 if in_space else 2), label=name_of(None, label or scalar("g")))
 
 

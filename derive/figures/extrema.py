@@ -91,7 +91,8 @@ def zeros(expr: Expr, variable: Symbol, lower: float, upper: float) -> tuple[flo
     f = lambdify([variable], expr, "math")
     size = max(abs(y) for _, y in points)
     first, *inner, last = points
-    inner = [(x, y) for x, y in inner if abs(y) > NEAR_ZERO * size]  # a zero at such a point is between its neighbours
+    # A zero at an omitted point is found between its neighbours.
+    inner = [(x, y) for x, y in inner if abs(y) > NEAR_ZERO * size]
     found = [_narrowed(f, a, b) for (a, y), (b, z) in pairwise([first, *inner]) if y * z < 0]
     (a, y), (b, z) = [first, *inner][-1], last
     if abs(z) <= NEAR_ZERO * size:

@@ -60,7 +60,8 @@ OFF = Rational(1, 30)  # distance between a rod and the arrow of a force along i
 APART = 5.0  # the distance between the arrows of two forces on the same line, in points
 ALONG = 1.8  # distance between a surface and the arrow of a force along it, on the side of the body, in points
 # A round body whose weight and normal force are on one line: its drawn size in points, and the lengths of its longest
-# and of its shortest arrow, in units of FORCE points. So the weight ends above the contact, and friction is visible.
+# and of its shortest arrow, in units of FORCE points. With these lengths the weight ends above the contact, and the
+# friction is visible.
 STANDING, SHORT, SHORTEST = 47.0, Rational(12, 25), Rational(7, 20)
 ROPE = 110.0  # the drawn length of a whole rope, whose pieces are drawn alone, in points
 FOOT = 30.0  # half the length of the piece of a surface under a body, in points
@@ -291,7 +292,7 @@ def _diagram(system: System, alone: BodyAlone, shares: Sequence[Rational], scene
 
 def _stands(scene: Connections, alone: BodyAlone) -> bool:
     """Whether the weight and a normal force of a round body are on one line through its centre. The normal force is
-    then drawn as a push with its tip at the contact, because its torque depends on its point of action."""
+    then drawn as a push with its tip at the contact, because its torque depends on its point of application."""
     of = alone.of
     if not scene.system.weights or not isinstance(of, PlacedBody):
         return False
@@ -318,16 +319,16 @@ def _is_below(drawn: _Drawn, of: PlacedBody, scene: Connections) -> bool:
 
 
 def _offset(drawn: _Drawn, of: PlacedBody, scene: Connections) -> tuple[float, float]:
-    """Return the horizontal distance of the point of action from the centre of mass, and the height of the point above
-    the centre.
+    """Return the horizontal distance of the point of application from the centre of mass, and the height of the point
+    above the centre.
     """
     *level, up = (scene.number(c) for c in (drawn.at - of.centre).components)
     return hypot(*level), up
 
 
 def _acting(system: System, of: Any) -> list[PointForce]:
-    """Return the forces of connections on a body. If there are any, the normal force of a fixed plane that the body
-    touches is added, if no equation contains this force."""
+    """Return the forces of connections on a body. If there are any, a normal force that no equation contains is added:
+    the force of a fixed plane on which the coordinates keep the body."""
     named = [force for each in connections_of(system, Connection) for force in each.on(of)]
     named += _drawn_pulls(system, of)
     return [*named, *_unnamed_normals(system, of)] if named else []
@@ -419,7 +420,8 @@ def _magnitudes(drawn: Sequence[_Drawn], scene: Connections) -> list[float] | No
 
 
 def _share(size: float) -> Rational:
-    """Return the length of an arrow relative to the longest arrow. Small forces stay visible."""
+    """Return the length of an arrow relative to the longest arrow. It is at least `LEAST`, so that the arrows of small
+    forces are visible."""
     return max(Rational(round(60 * size), 60), LEAST)
 
 
@@ -622,7 +624,7 @@ def _forces(system: System, of: Any, acting: Sequence[PointForce], found: Mappin
 
 
 def _is_on_axle(system: System, of: Any, acting: Sequence[PointForce]) -> bool:
-    """Whether a body is on an axle, like a pulley, so that the force of the axle is vertical."""
+    """Whether a body is on a fixed axle, as a pulley is, and the force of the axle is vertical."""
     if not isinstance(of, PlacedBody) or not of.is_plane or not is_fixed(system, of.centre):
         return False
     if any(force.direction[0] != 0 for force in acting):

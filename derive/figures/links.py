@@ -1,6 +1,6 @@
 """Links: lines from a fixed or known point to a moving point, and their angles, from the formulas of the positions.
 
-A link is the line along which polar coordinates are measured; it does not show a physical part. Numerical samples
+A link is the line along which polar coordinates are measured; it need not be a physical part. Numerical samples
 exclude most pairs of points that are not links; algebra decides about the remaining pairs.
 """
 
@@ -100,7 +100,8 @@ def _rank(system: System, start: Location, known: list[Location]) -> tuple[int, 
 
 
 def _without(place: Location, q: Symbol) -> Location | None:
-    """Return the terms of a position without q, if the terms with q contain sines or cosines; otherwise None."""
+    """Return the terms of a position that do not contain q, if the other terms contain sines or cosines; otherwise
+    None."""
     parts = [expand(c).as_independent(q, as_Add=True) for c in place.components]
     if any(rest != 0 and not rest.has(sin, cos) for _, rest in parts):
         return None
@@ -108,7 +109,7 @@ def _without(place: Location, q: Symbol) -> Location | None:
 
 
 def _link(system: System, start: Location, end: Location) -> Link | None:
-    """Return the link between two points, if an angle or time changes its direction but not its length; otherwise
+    """Return the link between two points, if its direction but not its length depends on an angle or on time; otherwise
     None."""
     square = Add(*(c**2 for c in (end - start).components))
     turning = {q for q in moving_in(system, square) if system.coordinates.get(q) != "length"}

@@ -22,7 +22,7 @@ from derive.steps.record import current_run
 
 Position: TypeAlias = Any  # a column of three expressions, or of two in a plane
 InWords: TypeAlias = tuple[str, dict[str, Any]]  # the name of a phrase, and the values of its placeholders
-LAST = 99  # the layer of marks that are drawn last, because they are placed next to all other marks
+LAST = 99  # the layer of marks that are drawn last, because they are placed beyond all other marks
 SPACE, PLANE = "space", "plane"
 SENSES = ("clockwise", "counterclockwise")
 
@@ -82,7 +82,7 @@ class Mark:
 
 @dataclass(frozen=True, kw_only=True)
 class Surface(Mark):
-    """A mark that determines the size of a drawing; the surfaces of bodies also hide the marks behind them.
+    """A mark that determines the size of a drawing; the surfaces of bodies also hide the surfaces behind them.
 
     name       the id of the body in the phrases, such as "cone"; empty if the words for another surface include this
                one
@@ -174,7 +174,7 @@ class Drawing:
     forces_on     the mass of the body whose free-body diagram this is; None in any other drawing
     mode          the normal mode that the drawing shows; None in any other drawing
     seen_from     the azimuth and the elevation of the view in space, in degrees; None if the camera chooses the view
-    body_size     the size of the body in a force diagram, in points; None if the drawing fits its width
+    body_size     the size of the body in a force diagram, in points; None if the drawing has its usual width
     polhodes      the curves of a free rotation that the drawing shows; None in any other drawing
     """
 
@@ -239,7 +239,7 @@ class Further:
 
 @dataclass(frozen=True)
 class Outline:
-    """A surface in the plane of a path, where `expr` vanishes.
+    """A surface in the plane of a path: the points at which `expr` vanishes.
 
     plane     the symbols of the two coordinates in `expr`
     corners   the coordinates of two opposite corners of a bounded surface: left, below, right, above

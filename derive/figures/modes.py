@@ -160,7 +160,7 @@ def draw_modes(
 ) -> list[Drawing]:
     """Draw each normal mode of a system in a plane.
 
-    steps   the established steps; the steps of the shapes of modes are drawn
+    steps   the established steps; the mode shapes among them are drawn
     named   positions of further parts, as for `sketch`
     like    the name of the sketch of the system; the numbers of this sketch are also used here
 

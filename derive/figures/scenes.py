@@ -57,8 +57,8 @@ def drawing(
     """Return a drawing of these marks; the drawing is recorded for the problem.
 
     key      the name of the drawing, for `drawings:` in the problem
-    marks    marks or lists of marks; solids hide the marks behind them, and arrows, lines and labels are drawn over all
-             solids
+    marks    marks or lists of marks; solids hide the solids behind them, and arrows, lines and labels are drawn over
+             all solids
     view     "space" (seen from the front and a little from above, z upwards) or "plane" (x to the right, y upwards);
              by default "plane" if a position has two components
     values   numbers or proportions for symbols, used if the problem gives no numbers: `{x: l/4}`

@@ -42,11 +42,11 @@ from derive.mechanics.model.system import Central, Particle, System
 __all__ = ["sketch"]
 
 ZERO = Integer(0)
-FAR = Rational(8, 5)  # the coordinate of a curve is drawn up to this multiple of its value in the drawing
+FAR = Rational(8, 5)  # a curve is drawn up to this multiple of the value of its coordinate in the drawing
 ECCENTRICITY = Rational(1, 2)
 WEIGHT = Rational(2, 5)  # length of the arrow of a weight, relative to the size of the drawing
-BROADSIDE = 23 * pi / 36  # angle at which a rotating vertical plane faces the viewer
-ON_A_TABLE = 17 * pi / 36  # angle of two rotating horizontal axes at which all axes are drawn well apart
+BROADSIDE = 23 * pi / 36  # rotation angle at which a rotating vertical plane faces the viewer
+ON_A_TABLE = 17 * pi / 36  # rotation angle of two horizontal axes at which all axes are well apart in the drawing
 ALONE = (ParticleMark, PointMark, ConnectionMark, LengthMark, DistanceMark, FieldMark, GravityMark)
 UNDER_FLOOR = 16.0  # the distance from the middle of a block on a floor to the lower side of the floor, in points
 OVER_LABEL = 9.0  # the height of the label of a spring, in points
@@ -509,7 +509,7 @@ class _Scene:
     # --- forces ---
 
     def _fields(self) -> Iterable[Mark]:
-        """Yield the arrows of uniform electric and magnetic fields, next to all other marks. Arrows of different
+        """Yield the arrows of uniform electric and magnetic fields, beyond all other marks. Arrows of different
         directions start at one point."""
         shown: list[Sequence[Expr]] = []
         fields = [field for each in self.system.charges for field in (each.electric, each.magnetic)]

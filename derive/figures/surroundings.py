@@ -229,7 +229,8 @@ class SurfacePiece(Surface):
 
     normal         the direction from the surface to the particle
     is_two_sided   whether the surface is a rail, which passes through the particle and has no hatches
-    below          how far below `at` a surface is drawn that is not a rail, in points: the radius of a drawn particle
+    below          how far below `at` the surface is drawn, in points, by default the radius of a particle; a rail is
+                   drawn at `at`
     half           half the length of the piece, in points
     is_fixed       whether the surface is fixed ground, with hatches
     """
@@ -455,7 +456,7 @@ class GravityMark(Mark):
 
 @dataclass(frozen=True)
 class FieldMark(Mark):
-    """The arrow of a uniform field next to all other marks.
+    """The arrow of a uniform field, beyond all other marks.
 
     before   the number of parallel field arrows above this arrow
     rises    whether a field has a vertical component, so that the arrows need room above their start

@@ -49,7 +49,7 @@ class Moment:
 
     at        the values of coordinates
     rates     the rates of coordinates
-    pushes    pairs: the components of a given impulse, and the point of action of this impulse
+    pushes    pairs: the components of a given impulse, and the point of application of this impulse
     meeting   the points of impact on bodies
     flight    the symbols of the Cartesian coordinates of a flight that follows, whose axes start at the origin
     """

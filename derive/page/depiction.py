@@ -334,7 +334,7 @@ def letters_not_drawn(problem: Problem, drawings: Sequence[m.Recorded]) -> list[
 
 
 def _with_values(problem: Problem, placement: Placement) -> dict[str, Place | None]:
-    """Return the place of each value of a drawing, by the name of its symbol."""
+    """Return the place in the file of each value of a drawing, by the name of its symbol."""
     is_for_parts = any(part.cases == placement.key for part in problem.parts)
     cases = () if is_for_parts else placement.cases
     return {**placement.names, **{number.symbol.name: number.place for case in cases for number in case}}
@@ -515,7 +515,7 @@ def _polhodes(
     ratios, _ = _moments(problem, drawing, placement)
     if missing := sorted({s.name for ratio in ratios for s in ratio.free_symbols}):
         message = f"the drawing `{drawing.key}` needs a number for {', '.join(f'`{name}`' for name in missing)}"
-        help_line = "the values of a drawing of polhodes contain only letters of the moments of inertia"
+        help_line = "under `values` of this drawing, use only symbols of the moments of inertia"
         raise Rejected(Complaint("drawing", message, placement.place if placement else None, help=help_line))
     order = order_of([float(ratio) for ratio in ratios])
     assert order is not None

@@ -218,7 +218,7 @@ class Formulas:
     def _in_givens(self, value: Any, depth: int = DEEPEST) -> Iterator[Any]:
         """Yield the expression with the symbols of results replaced by their values, for combinations of these values.
 
-        depth   how often symbols are replaced at most
+        depth   the greatest number of successive replacements
         """
         symbols = [symbol for symbol in self.results if symbol in explicit(value).free_symbols]
         if not symbols or not depth:

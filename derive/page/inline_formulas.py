@@ -1,4 +1,4 @@
-"""Displays without need: a short formula that is quoted and to which nothing refers can be in its sentence."""
+"""Formulas that need no display: a short quoted formula to which nothing refers can be in its sentence."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ from derive.steps.step import Step
 
 
 def in_words(document: Document, derivation: Derivation, worded: Collection[str]) -> dict[str, bool]:
-    """Return the keys of the quoted steps whose display the page does not need, with whether the sentence names the
-    symbol of the step: another line or sentence uses it, or the sentence is the author's.
+    """Return the keys of the quoted steps that need no display. The value of a key is true if the sentence must name
+    the symbol of the step, because the page uses the symbol elsewhere or because the author wrote the sentence.
 
     worded  the keys of the steps that the problem rewords
     """

@@ -74,7 +74,7 @@ def _letters_with_numbers(shown: Sequence[Inline]) -> Iterator[Symbol]:
 
 
 def _is_in_words(each: Measured, text: str) -> bool:
-    """Return whether the text has the number with its unit in words, as in `a mass of 2 kg`."""
+    """Return whether the text contains the number with its unit, as in `a mass of 2 kg`."""
     unit = re.escape(each.unit.replace("^2", "²").replace("^3", "³"))
     unit = "(°|deg(rees?)?)" if each.unit in IN_DEGREES else unit
     number = re.escape(f"{float(each.number):.12g}")

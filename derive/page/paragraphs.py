@@ -1,4 +1,4 @@
-"""Short paragraphs: a remark of a line or two begins the paragraph directly after it."""
+"""Short paragraphs: a remark of one or two lines is joined with the paragraph directly after it."""
 
 from __future__ import annotations
 

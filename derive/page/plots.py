@@ -44,7 +44,8 @@ MOST_MARKED, MOST_IN_TIME = 6, 3  # a curve with more extrema has no marks; the 
 NEAR = 1e-6
 MOST_TOGETHER = 4  # greatest number of curves in one panel; they differ in the style of their lines
 KEPT = 1 / 3  # length of the part of a curve after its range, on which the curve is constant, divided by the range
-# For a test whether a curve depends on a number: the factor of the number, and the places in the range.
+# To test whether a curve depends on a number, the number is multiplied by a factor, and values of the curve are
+# compared at places given as fractions of the range.
 CHANGED, SHARES = 1.31, (0.23, 0.59, 0.87)
 FLATTEST = 1 / 6  # least size of a readable curve, divided by the size of all curves in the panel
 

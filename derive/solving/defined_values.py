@@ -15,7 +15,8 @@ from derive.errors import Complaint, Rejected
 def check_defined(verb: str, called: str, where: str, value: Any, put: Callable[[Any], Any]) -> None:
     """Reject a result that has no real value after symbols are replaced.
 
-    verb     the verb that replaces the symbols; `called` is the name of the result
+    verb     the verb that replaces the symbols
+    called   the name of the result
     where    the substitution in words: `alpha = pi/2`
     value    the result before the substitution
     put      a function that replaces the symbols in an expression

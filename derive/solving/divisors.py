@@ -16,15 +16,15 @@ from derive.steps.step import is_zero
 
 
 def may_vanish(*values: Expr) -> Relation | None:
-    """The condition that the factors of these values that may vanish are not zero; None if there are no such
-    factors."""
+    """The condition that none of these values vanishes; it contains only the factors that may vanish. None if there are
+    no such factors."""
     factors = [f.as_base_exp()[0] for value in values for f in Mul.make_args(factored(tidied(value)))]
     unsure = [f for f in dict.fromkeys(factors) if sign_known(f) is None and not f.is_nonzero]
     return Relation(Mul(*unsure), "!=", Integer(0)) if unsure else None
 
 
 def told_of_divisors(values: Iterable[Expr]) -> dict[str, tuple[Relation, Relation]]:
-    """The condition, for a sentence, that the factors of the denominators that may vanish are not zero.
+    """The condition, for a sentence, that no denominator vanishes; it contains only the factors that may vanish.
 
     The result is empty if there are no such factors.
     """

@@ -27,7 +27,7 @@ LONGEST = 20  # greatest length of the value of an unknown that is written in te
 class Isolated:
     """The equations that give an unknown after the earlier unknowns are found.
 
-    equations   the indices of these equations, and of those that make other unknowns in them zero
+    equations   the indices of these equations, and of the equations which show that other unknowns in them are zero
     eliminated  the other unknowns of these equations that are not found earlier
     earlier     the unknowns of these equations that are found earlier
     value       the unknown in terms of the earlier unknowns, if one equation gives it and this form is short
@@ -45,8 +45,8 @@ def isolated_in_order(residuals: Sequence[Expr], unknowns: Sequence[Symbol]) -> 
     residuals   the equations, linear in the unknowns: residual = 0
     unknowns    the unknowns, in the order in which they should be found
 
-    Unknowns that are zero are left out, and so are unknowns that a few equations do not give without a division by a
-    value that might vanish.
+    Unknowns that are zero are left out. An unknown is also left out if no set of at most `MOST` equations determines it
+    with a determinant that is known not to vanish.
     """
     slopes = [{u: c for u in unknowns if (c := tidied(derivative(row, u))) != 0} for row in residuals]
     found: dict[Symbol, Isolated] = {}
@@ -74,11 +74,11 @@ def isolated_in_order(residuals: Sequence[Expr], unknowns: Sequence[Symbol]) -> 
 
 @dataclass(frozen=True)
 class Substitution:
-    """One equation, solved for an unknown that is then eliminated from the others.
+    """One equation, solved for an unknown that is then eliminated from the other equations.
 
     equation   the index of the equation
     unknown    the unknown that is eliminated
-    value      this unknown in terms of the others, with the earlier substitutions made
+    value      this unknown in terms of the other unknowns, with the earlier substitutions made
     """
 
     equation: int
@@ -91,7 +91,7 @@ def substitutions(residuals: Sequence[Expr], eliminated: Sequence[Symbol]) -> tu
 
     residuals   the equations, one more than the eliminated unknowns
 
-    Return nothing if no short substitutions are found.
+    The result is empty if no short substitutions are found.
     """
     rows, left = dict(enumerate(residuals)), list(eliminated)
     found: list[Substitution] = []
@@ -118,8 +118,8 @@ def substitutions(residuals: Sequence[Expr], eliminated: Sequence[Symbol]) -> tu
 def _fewest(
     slopes: Sequence[dict[Symbol, Expr]], known: set[Symbol], unknowns: Sequence[Symbol], residuals: Sequence[Expr]
 ) -> tuple[int, ...]:
-    """Return the smallest set of coupled equations that determine as many new unknowns; an empty set if none is
-    found."""
+    """Return the smallest set of coupled equations that determines as many new unknowns as it has equations; an empty
+    set if none is found."""
     first = {i: [unknowns.index(u) for u in row if u not in known] for i, row in enumerate(slopes)}
     left = sorted((i for i in first if first[i]), key=lambda i: (min(first[i]), length(residuals[i])))
     for count in range(1, min(len(left), MOST) + 1):

@@ -111,7 +111,7 @@ class Factor:
 
     @cached_property
     def needs(self) -> tuple[Expr, ...]:
-        """Expressions that must be positive, so that the roots omega are real and distinct."""
+        """Expressions that must be positive for real and distinct roots omega."""
         if self.is_free:
             return ()
         a, b, *rest = self.coefficients
@@ -135,9 +135,10 @@ class CharacteristicRoot:
     value     for a conservative system, lambda = omega^2; for a gyroscopic system, the frequency or the rate of growth.
               For a damped system, the rate of decay: b/2a for a quadratic factor and b/a for a linear factor
     sign      1 if the motion oscillates, 0 if it is free, -1 if it grows; None if this is unknown. For a damped system:
-              1 if the motion is underdamped, 0 if critically damped, -1 if overdamped; the sign of a rate of decay b/a
+              1 if the motion is underdamped, 0 if critically damped, -1 if overdamped; the sign of b/a for a linear
+              factor
     columns   the mode shapes of a conservative system, orthogonal with respect to M; empty if the root has no formula
-    turn      1 if the frequency is a root of the factor, -1 if minus the frequency is one; 0 if this is unknown
+    turn      1 if the frequency is a root of the factor, -1 if minus the frequency is a root; 0 if this is unknown
     """
 
     value: Expr

@@ -38,7 +38,7 @@ PORTRAIT = 0.85  # height divided by width of a phase portrait
 LOWEST = 0.03
 DIAGRAM = 0.6  # height divided by width of a bifurcation diagram
 FLATTEST, STEEPEST = 0.25, 1.4  # limits of height divided by width, for a path whose axes have the same scale
-NEAR_ZERO = 0.25  # a curve above zero whose distance from zero is a smaller part of its height has zero on its axis
+NEAR_ZERO = 0.25  # the axis of a positive curve begins at zero if its least value is below this part of its height
 FEWEST = 3  # least number of ticks, if smaller steps can give it
 AT_TICK = 1e-5  # greatest distance of a place from its tick, divided by the distance of the outermost ticks
 USUAL = (-2, 4)  # numbers at an axis have no factor 10^n if the power of ten of the greatest number is in this range
@@ -56,7 +56,7 @@ class Trace:
 
     points   the curve, in the units of the axes
     turns    the extrema: the point, whether it is a minimum, and the forms of the name of its place on the horizontal
-             axis, the shortest last; there is none if the place has no symbol and a tick already shows it
+             axis, the shortest last; there is no name if the place has no symbol and a tick already shows it
     name     the name of the curve; empty if the panel has no other curve
     """
 

@@ -9,7 +9,7 @@ def _rendered(solution: Solution) -> str:
     from derive.render.printing.markdown_page import MarkdownPage
 
     page = MarkdownPage(solution.document, solution.words, solution.notation)
-    written = f"<!-- {WRITTEN} from {solution.problem.path}; an edit here is lost when it is written again. -->"
+    written = f"<!-- {WRITTEN} from {solution.problem.path}; an edit here is lost when the file is written again. -->"
     pieces = [piece if isinstance(piece, str) else page.drawing(piece) for piece in page.pieces()]
     return "\n\n".join([written, *pieces]) + "\n"
 

@@ -111,7 +111,7 @@ class Fenced:
 
 @dataclass(frozen=True)
 class Bracketed:
-    """An antiderivative in brackets between limits: [F]."""
+    """An antiderivative in brackets with limits after them: [F]."""
 
     inside: Layout
     lower: Layout

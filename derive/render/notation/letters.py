@@ -1,7 +1,7 @@
 """The meaning of each symbol on a page, and errors for symbols of a problem that have two meanings.
 
 Steps introduce symbols for results, components, entries, coordinates, their rates, and variables of integration.
-Two symbols are equal if they look the same in print: `z_C` equals the component `r_C_z`, but a bold `I` is not `I`.
+Two symbols count as equal if they look the same in print: `z_C` and the component `r_C_z`, but not a bold `I` and `I`.
 """
 
 from __future__ import annotations

@@ -213,9 +213,9 @@ class Notation:
         return row(number, *(within(each, Binding.OPEN) for each in behind)) if letters else number
 
     def _is_letter_before_functions(self, letters: list[Expr]) -> bool:
-        """Return whether the factors are one letter without dots, or such a letter and functions if it is a length or
-        has no known dimension. Divided by 2, these factors are written a/2 or a/2 sin x, and other factors 1/2 M a^2 or
-        1/2 x_dot."""
+        """Return whether the factors are one letter without dots, or such a letter and functions if the letter is a
+        length or has no known dimension. Divided by 2, these factors are written a/2 or a/2 sin x, and other factors
+        1/2 M a^2 or 1/2 x_dot."""
         first, *others = (self.layout(letter) for letter in letters)
         is_function = all(isinstance(other, Applied) for other in others)
         dimension = self.known_dimensions.get(letters[0])

@@ -217,7 +217,8 @@ def _cyclic(factors: list[Expr], dimension_of: Callable[[Any], Dimension | None]
 def rank_of_factor(factor: Expr, dimension_of: Callable[[Any], Dimension | None]) -> tuple[int, int, int, str]:
     """Return the rank by which factors are sorted: first symbols in the order of `Place`, then functions.
 
-    Functions are in the Greek order of their angles, and the sine of an angle precedes its cosine: sin a cos a sin b.
+    Functions are in the order of their angles in the Greek alphabet, and the sine of an angle precedes its cosine:
+    sin a cos a sin b.
     """
     is_root = isinstance(factor, ex.Root) or isinstance(factor, Pow) and factor.exp.is_Rational and factor.exp.q == 2
     base = factor.base if isinstance(factor, Pow) and factor.exp.is_Rational else factor

@@ -1,7 +1,7 @@
-"""The division of words in documents that are not in English, by the dictionaries of Pyphen.
+"""Hyphenation of documents that are not in English, with the dictionaries of Pyphen.
 
-TeX divides a word by the patterns of its language, and the engine that derive installs has the English ones only. The
-words of the document with their divisions are therefore written into the document.
+TeX hyphenates words by the patterns of their language, and the engine that derive installs has only the English
+patterns. The words of the document with their possible hyphens are therefore written into the document.
 """
 
 from __future__ import annotations
@@ -11,14 +11,14 @@ from collections.abc import Iterator
 
 from derive.render.notation.latex import escaped
 
-SHORTEST = 5  # letters; shorter words are not divided
+SHORTEST = 5  # letters; shorter words are not hyphenated
 _ACCENTED = {escaped(letter): letter for letter in "äöüßáàâéèêëíìîïóòôúùûçñæœÄÖÜÁÀÂÉÈÊËÍÌÎÏÓÒÔÚÙÛÇÑÆŒ"}
 _ACCENT = re.compile("|".join(map(re.escape, sorted(_ACCENTED, key=len, reverse=True))))
 _WORD = re.compile(rf"(?<![\\\w])[^\W\d_]{{{SHORTEST},}}")
 
 
 def divided_words(tex: str, language: str) -> str:
-    """Return the words of a document in LaTeX with a hyphen at each place where they may be divided.
+    """Return the words of a document in LaTeX with a hyphen at each place where a line may end.
 
     The language is a code such as `de`. The result is empty if Pyphen has no dictionary for it.
     """

@@ -79,7 +79,7 @@ class Passage:
     after: tuple[Blocks, ...] = ()
 
 
-NO_WORDS = r"\hyphenation{}"  # a template that is not in English has it where the divided words belong
+NO_WORDS = r"\hyphenation{}"  # in a template that is not in English, the place of the hyphenated words
 NOT_TYPESET = Fragments(*[Tex("")] * 5)
 
 
@@ -100,7 +100,7 @@ def problem_latex(document: Document, words: Phrases, notation: Notation, templa
 
 
 def whole_latex(templates: Templates, template: str, facts: Mapping[str, Any]) -> Tex:
-    """Return a complete LaTeX document, with the division of its words if it is not in English."""
+    """Return a complete LaTeX document, with the hyphenation of its words if it is not in English."""
     tex = filled_template(templates, template, facts)
     if NO_WORDS not in tex:
         return tex

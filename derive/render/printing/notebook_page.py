@@ -14,7 +14,7 @@ from derive.render.formats import Solution
 from derive.render.printing.markdown_page import MarkdownPage
 
 _OPENING = """\
-# Needs derive and the course: run it in the folder that has {path}, or below.
+# This notebook needs derive and the course: run it in the folder that contains {path}, or below.
 from derive.notebook import open_problem
 
 problem = open_problem({id})"""
