@@ -242,8 +242,8 @@ def establish(
 
 
 def _witnessed(quantity: Quantity, judged: Judged) -> Quantity:
-    """Add evidence from the motion of the described system, if there is a test for it; reject a result that contradicts
-    this motion."""
+    """Add evidence from the motion of the described system, if the step can be tested on it; reject a result that
+    contradicts this motion."""
     found = {fact for each in quantity.ancestors() for fact in each.facts if isinstance(fact, Witness)}
     by_kind = {kind: [fact for fact in found if type(fact) is kind] for kind in {type(fact) for fact in found}}
     if any(len(facts) > 1 for facts in by_kind.values()):

@@ -1,8 +1,8 @@
 """The record of one run of a script: the quantities that the script has established, and the coordinates that it has
 named.
 
-A symbol denotes one quantity in a run, or a general quantity and cases of it. Only the symbol
-of a coordinate or of its rate may have several values, for example at different instants.
+A symbol denotes one quantity in a run, or a general quantity and cases of it. Only the symbol of a coordinate or of its
+rate may have several values, for example at different instants.
 """
 
 from __future__ import annotations

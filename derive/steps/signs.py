@@ -127,8 +127,8 @@ def _is_square_that_lasts(base: Expr, power: Expr) -> bool:
 
 
 def _is_positive_by_means(total: Expr) -> bool:
-    """Whether a sum is positive because each negative term is at most twice the geometric mean of two positive terms,
-    as in a^2 - 2 a b + b^2 + c.
+    """Whether a sum is positive because no negative term is greater in magnitude than twice the geometric mean of two
+    positive terms, as in a^2 - 2 a b + b^2 + c.
 
     At least one positive term must be left over.
     """

@@ -1,6 +1,6 @@
 """The Newton-Euler equations, numerically: the accelerations and multipliers of a described system in any state.
 
-With the Jacobians J of positions and their accelerations c at constant rates, virtual work gives
+With the Jacobians J of positions, and the accelerations c of these positions at constant rates, virtual work gives
 
     sum of W J^T J a + sum of W J^T c = sum of J^T F + A^T lambda,    A a + b = 0,
 

@@ -72,7 +72,7 @@ FAR, SOON = Rational(10) ** 30, Rational(1, 10**6)  # a number for infinity, and
 AHEAD = [
     *(Rational(n, 8) for n in range(1, 57)),
     *(Rational(10) ** n for n in range(1, 20)),
-]  # distances from the start; also divisors of a start that is not negative
+]  # distances from the start; for a coordinate that is never negative, also divisors of its value at the start
 
 
 def has_sense(facts: Judged, fact: SignedRate) -> bool:

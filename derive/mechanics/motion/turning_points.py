@@ -157,7 +157,7 @@ def common_condition(of: Quantity, arrivals: Sequence[Arrival]) -> Relation | No
 def _latest_speeds(*quantities: Quantity) -> list[Quantity]:
     """Return the squared rates from conservation of energy from which these results were derived.
 
-    A squared rate of an earlier motion, which leads to the start of this one, is left out.
+    A squared rate of an earlier motion, which leads to the start of a later motion, is left out.
     """
     found = {each.key: each for of in quantities for each in of.ancestors() if each.fact(ByEnergy)}.values()
     return [each for each in found if not any(other is not each and other.rests_on(each) for other in found)]

@@ -264,7 +264,7 @@ def _letter_of_value(given: Expr, value: Expr, lagrangian: Quantity, of: Quantit
 
 
 def _determinant_about(about: About, found: Expr) -> Expr:
-    """Return the determinant of d'Alembert's principle to first order, for displacements e^(s t), s^2 = -omega^2.
+    """Return the determinant of d'Alembert's equations to first order, for displacements e^(s t) with s^2 = -omega^2.
 
     The unknown of a cyclic coordinate is the rate of this coordinate, so the column of this coordinate has one factor s
     less. Common powers of s are divided out.

@@ -107,7 +107,8 @@ def solution(
     case         `underdamped`, `critically_damped` or `overdamped`, if the symbols leave the case open
 
     The steps that lead to the motion are the characteristic equation, its roots and the general motion with two
-    constants; for an oscillation without damping, only the general motion.
+    constants; for an oscillation without damping, only the general motion. An equation of first order or with c = 0 has
+    no such steps.
     Second route: the trial e^(s t) is substituted into the equation, which gives the characteristic equation. Check:
     the motion is substituted back into the equation, and has the given value and rate at t = 0.
     Outcomes: oscillates (without damping), underdamped, critically_damped, overdamped, runs_away (a free motion grows,
@@ -184,7 +185,7 @@ def _by_powers(motion: Expr) -> Expr:
 
 
 def free_motion(linear: LinearCoefficients, first: Expr, initial: Expr, case: str | None) -> Expr:
-    """Return the free motion with the given initial value and rate; the step assumes the condition of the case."""
+    """Return the free motion with the given initial value and rate, and assume the condition of the case, if any."""
     sort, condition = _sort(linear, case, None)
     if condition is not None:
         assume(condition)
