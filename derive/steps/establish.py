@@ -283,7 +283,7 @@ def _check_told(key: str, told: Mapping[str, tuple[Any, Any]]) -> None:
         if not verdict:
             raise refused(key, f"its sentence has a wrong `{role}`", formula, otherwise, verdict)
         if isinstance(formula, Relation) and not explicit(formula).free_symbols:
-            message = f"`{key}`: its sentence gives {formula} as a condition, but this condition has no letter"
+            message = f"`{key}`: its sentence gives {formula} as a condition, but this condition contains no symbol"
             raise Unverified(Complaint("unverified", message))
 
 

@@ -200,7 +200,7 @@ def undecided(value: Any) -> Doubt:
         is_constant = isinstance(each, Add) and moving.isdisjoint(each.free_symbols)
         if is_constant and each.count_ops() <= SHORT and sign_known(each) is None:
             relation = " < ".join(sorted(map(str, sides_without_minus(each)), key=lambda side: (len(side), side)))
-            return Doubt(f"whether {relation} is not known", f"{DECIDES} {relation}")
+            return Doubt(f"it is not known whether {relation}", f"{DECIDES} {relation}")
     return Doubt("numerically the result does not always agree with the sentence")
 
 

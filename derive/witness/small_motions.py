@@ -249,7 +249,7 @@ def _squares_of(near: Neighbourhood) -> NDArray[np.complex128] | None:
 
 
 def damped(claim: Claim) -> Verdict | None:
-    """Test whether some small displacement has the stated rate or frequency."""
+    """Test whether some small displacement decays at the stated rate, or oscillates with the stated frequency."""
     around = _around(claim)
     if around is None:
         return None

@@ -302,7 +302,7 @@ def _departure(lost: Quantity, letter: Any) -> Departure:
     speed = ByEnergy.behind(lost.parents[0], letter_of(lost.value.left))
     if speed is None or not any(each.fact(ForceOf) for each in lost.ancestors()):
         message = f"`flight`: the speed is unknown, since `{lost.key}` was found without conservation of energy"
-        raise Rejected(Complaint("wrong-argument", message, help="substitute a result of `speed` in the force"))
+        raise Rejected(Complaint("wrong-argument", message, help="substitute a result of `speed` into the force"))
     found = Departure(lost, speed, None if letter is None else _checked_letter(letter, letter_of(lost.value.left)))
     assert found.flyer.point
     return found
@@ -762,7 +762,7 @@ def _time_to(known: InFlight, target: Plane) -> Expr | None:
         help_line = "the free side is on the left of `along`; state with `assume:` which side the particle is on"
         raise Rejected(Complaint("not-decided", message, help=help_line))
     if side == 0 and (towards in (0, -1) or bend in (0, 1)):
-        message = "`lands`: the particle departs on the plane, and does not rise above it and come back"
+        message = "`lands`: the particle departs on the plane, and does not rise above it or does not come back"
         raise Rejected(Complaint("contradiction", message, help="give a plane that the particle does not depart from"))
     inside = tidied(v**2 - 4 * a * h)
     if bend == -1:

@@ -273,7 +273,7 @@ def _vanishes_at(held: Expr, unknown: Expr, start: Expr) -> bool:
 
 def _unsolvable_contact(force: Quantity, unknown: Expr) -> Rejected:
     letter = letter_of(unknown)
-    factors = f"factors of unknown sign that contain {letter} in another form than {unknown}"
+    factors = f"factors of unknown sign that contain {letter} in a form other than {unknown}"
     message = f"`leaves_contact`: `{force.key}` has {factors}"
     help_line = f"give the coordinate the range in which it moves, `{letter}: angle in (0, pi/2)`"
     return Rejected(Complaint("no-contact", message, help=help_line))

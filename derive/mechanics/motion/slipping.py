@@ -191,7 +191,7 @@ def _along_motion(contact: Friction, unknown: Expr, speed: Quantity, key: str) -
     at_start = [tidied(contact.excess(side).xreplace({motion.q: motion.start})) for side in (1, -1)]
     signs = [sign_known(each) for each in at_start]
     if 0 in signs:
-        message = f"`slips`: at the start of the motion `{contact.friction.key}` has its largest value already"
+        message = f"`slips`: at the start of the motion `{contact.friction.key}` already has its largest possible value"
         raise Rejected(Complaint("no-contact", message, help="give the motion another start"))
     if 1 in signs:
         return _at_once(motion, 1 if signs[0] == 1 else -1, key)

@@ -72,7 +72,7 @@ def arrivals(
 ) -> list[Arrival]:
     """Return how motions come to the places at which a result is evaluated.
 
-    of, others   the result, and other results that are substituted in it
+    of, others   the result, and other results that are substituted into it
     places       pairs of a coordinate, or a function of a coordinate, and the constant value of this expression at the
                  place
     limit        a function that maps the squared rate f(q) to the limit of f at the place; by default f is evaluated at
@@ -118,7 +118,7 @@ def _arrival(
 
 
 def words_of(arrivals: Sequence[Arrival]) -> dict[str, str]:
-    """Return the value of `lasts` for a sentence with the condition under which the motion comes to these places."""
+    """Return the word `lasts` for a sentence that states when the motion comes to these places, if there is one."""
     lasting = next((each.lasts for each in arrivals if each.reached is not None and each.lasts), "")
     return {"lasts": lasting} if lasting else {}
 

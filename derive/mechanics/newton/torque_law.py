@@ -77,7 +77,7 @@ def torque_law(
     system   particles and bodies in a plane, and the forces on them
     q        a coordinate that rotates one body
     about    "contact" for a point of contact; the angular momentum about this point also has the term M r x v of the
-             centre of mass. By default, the point is the fixed axis of the body, or else its centre of mass
+             centre of mass. By default, torques are about the fixed axis of the body, or else about its centre of mass
     at_rest  whether the system is at rest, so that the torques add up to zero. The torques are then about the point
              with the most unknown forces, if the coordinates let only this body rotate about such a point
 

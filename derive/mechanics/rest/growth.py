@@ -24,7 +24,9 @@ from derive.mechanics.rest.facts import matter_behind
 from derive.steps.step import Quantity
 
 DIGITS = 75
-SMALL = 10  # a growth rate, a gyroscopic force or an eigenvalue of M below 10^-SMALL of the largest counts as zero
+# A growth rate counts as zero below 10^-SMALL of the largest exponent, and a gyroscopic force or an eigenvalue of M
+# below 10^-SMALL of the largest entry of its matrix.
+SMALL = 10
 FEW = 3  # number of sets of numbers that are tried if there are no gyroscopic forces
 ELSEWHERE = Rational(3, 8)  # value of a coordinate that the energy does not contain
 SIZES = (Rational(17, 23), Rational(2300, 7), Rational(3, 71))  # values of symbols that the energy does not contain

@@ -333,7 +333,7 @@ def _constancy(rate: Any, in_body: Quantity | None) -> str:
 
 
 def _rates_worked(momentum: Quantity, omega: Quantity, in_body: Quantity | None) -> list[Form]:
-    """Return a list with one line, the two terms of the rate: in components, or by symbols if the rate in the body is
+    """Return a list with one line, the terms of the rate: in components, or by symbols if the rate in the body is
     given."""
     if in_body is not None:
         seen = in_body.step.chain[0].expr

@@ -43,8 +43,8 @@ ZERO = Integer(0)
 
 @dataclass(frozen=True, eq=False)
 class About:
-    """A potential energy of one coordinate `q`, the matter that has this energy, and the value of `q` at rest or in
-    steady motion.
+    """A potential energy of one coordinate `q`, the mass points and forces to which it belongs, and the value of `q` at
+    rest or in steady motion.
 
     rates     the rates of the cyclic coordinates in the steady motion
     momenta   symbols with their values in the steady motion: for each cyclic momentum, its symbol or, if a value of the

@@ -263,7 +263,7 @@ def _sort(linear: LinearCoefficients, case: str | None, equation: Quantity | Non
             message = f"{key}: the damping is negative, so the oscillation grows, and no case of `solution` applies"
             raise Rejected(Complaint("open-case", message, help="check the sign of the damping"))
         return "runs_away", None
-    if (known or case) == "critically_damped" and not is_zero(linear.discriminant):  # zero by given numbers only
+    if (known or case) == "critically_damped" and not is_zero(linear.discriminant):  # zero for the given numbers only
         message = f"{key} is critically damped only if {linear.discriminant} = 0"
         raise Rejected(Complaint("open-case", message, help="substitute this condition first, with `put_in`"))
     if known is not None:
