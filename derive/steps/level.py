@@ -40,7 +40,7 @@ class Display:
     only_explains     whether the step only explains the steps that use it, so that the author's words may replace it
     result_again      up to this level, a step directly after a step of the same kind shows only its result
     each_worked_out   whether a step shows all lines of the level even if an earlier step of the same kind is shown;
-                      otherwise it then shows only its lines of the level `brief` and its result
+                      otherwise such a step shows only its lines of the level `brief` and its result
     abbreviates       whether the symbol of the step may replace the square root that is its value in later steps
     names_formula     whether the sentence names the formula, so that a line within a text needs no left side
     repeats           the key of the equation that the step repeats, if any

@@ -118,7 +118,8 @@ def _arrival(
 
 
 def words_of(arrivals: Sequence[Arrival]) -> dict[str, str]:
-    """Return the word `lasts` for a sentence that states when the motion comes to these places, if there is one."""
+    """Return the word `lasts` for a sentence that states when the motion comes to these places; empty if nothing has to
+    last."""
     lasting = next((each.lasts for each in arrivals if each.reached is not None and each.lasts), "")
     return {"lasts": lasting} if lasting else {}
 

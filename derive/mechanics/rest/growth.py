@@ -1,7 +1,8 @@
 """Decide numerically whether displacements from an equilibrium grow, from the exponents of the linearised motion.
 
 For small motions, the virtual work of m a - F along each coordinate is linear in displacements, rates and
-accelerations. Finite differences give the matrices M, C and K; exp(s t) is a solution if det(M s^2 + C s + K) = 0.
+accelerations. Finite differences give the matrices M, C and K; a motion proportional to exp(s t) is possible if
+det(M s^2 + C s + K) = 0.
 Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.1 (extended by forces that depend on the rates).
 """
 
