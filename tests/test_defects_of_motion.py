@@ -209,7 +209,7 @@ REFUSED: dict[str, list[tuple[str, int, str]]] = {
     "proj_fake2": [("contradicts-motion", 11, "the described motion from this start has a different speed")],
     "res_put": [("no-value", 11, "for Omega = sqrt(k)/sqrt(m), the denominator Omega**2*m - k of `s` vanishes")],
     "roll_wrong_contact": [("no-contact", 8, "always away from the surface, since its distance from the surface is R")],
-    "satellite_stability_unverified": [("unverified", 32, "whether l < r_0 is not known")],
+    "satellite_stability_unverified": [("unverified", 32, "it is not known whether l < r_0")],
     "shadow": [("letter-clash", 9, "`p_x` is already a symbol of this problem")],
     "singular_q": [("singular-coordinates", 11, "the mass matrix has no inverse there")],
     "sph_lin": [("singular-coordinates", 12, "the mass matrix has no inverse there")],

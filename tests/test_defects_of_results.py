@@ -425,7 +425,7 @@ def test_a_satellite_is_stable_along_the_radius(tmp_path: Path) -> None:
 def test_what_is_not_known_is_named_with_the_way_to_state_it(tmp_path: Path) -> None:
     (found,) = complaints(tmp_path, edited(SATELLITE, ("  assume: [l < r_0]\n", "")))
     assert found.message == (
-        "`stability`: the sentence for this result could not be confirmed: whether l < r_0 is not known"
+        "`stability`: the sentence for this result could not be confirmed: it is not known whether l < r_0"
     )
     assert found.help == "state it under `given:`, as `assume: [l < r_0]`"
 

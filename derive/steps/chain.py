@@ -49,7 +49,8 @@ def bindings_of(quantities: Sequence[Quantity]) -> dict[Any, Any]:
 
 
 def left_side_evidence(key: str, symbol: Any, first: Form, bindings: Mapping[Any, Any]) -> list[Evidence]:
-    """Check that the left side, if it is not only a name, equals the first line, if this is not a relation."""
+    """Check that the left side equals the first line. A left side that is only a name is not checked, and nothing is
+    checked if the first line is a relation."""
     is_name = symbol is None or isinstance(symbol, Symbol | MatrixSymbol | MatrixBase)
     if is_name or isinstance(first.expr, Relation):
         return []

@@ -117,8 +117,8 @@ def sign_is(wanted: int | None, of: Callable[[Judged], Expr] = lambda facts: fac
 def has_sign(value: Expr, wanted: int | None) -> bool:
     """Whether the sign of a value is known and equals `wanted`; if `wanted` is None, whether the sign is unknown.
 
-    Trial numbers must confirm the sign, but they are not enough: (a - b)^2 vanishes where a = b, and no trial point may
-    have a = b.
+    Trial numbers must confirm the sign, but they are not enough: (a - b)^2 vanishes where a = b, but perhaps
+    at no trial point.
     """
     return sign_known(value) == wanted and (wanted is None or sign_found(value) == wanted)
 
@@ -183,8 +183,8 @@ def says_what_it_divides_by(facts: Judged, outcome: str) -> bool:
 
 
 def given_as_the_condition_has_it(facts: Judged, outcome: str) -> bool:
-    """Whether the sentence states the given number of the symbol, up to rounding, and whether this number satisfies the
-    condition."""
+    """Whether the sentence correctly states the given number of the symbol, up to rounding, and whether this number
+    satisfies the condition."""
     condition = facts.inputs.get("condition")
     if condition is None:
         return "seen" not in facts.words

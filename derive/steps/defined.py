@@ -27,7 +27,7 @@ def define(formulas: Iterable[tuple[Symbol, Expr]]) -> None:
 
 
 def _quantity(symbol: Symbol, formula: Expr, before: Iterable[Quantity]) -> Quantity:
-    """A quantity that the author defines by a formula in the letters of the problem.
+    """A quantity that the author defines by a formula in the symbols of the problem.
 
     Source: none needed: a definition.
     """

@@ -89,7 +89,7 @@ def returned_quantities(value: Any, place: Place | None = None) -> list[Quantity
 
 
 def returned_groups(value: Any, place: Place | None = None) -> dict[str, tuple[str, ...]]:
-    """Return the keys of the steps by name, if a script returned a dictionary; otherwise an empty one."""
+    """Return the keys of the steps by name, if a script returned a dictionary; otherwise an empty dictionary."""
     if not isinstance(value, dict):
         return {}
     return {str(name): tuple(q.key for q in returned_quantities(each, place)) for name, each in value.items()}

@@ -242,8 +242,8 @@ def establish(
 
 
 def _witnessed(quantity: Quantity, judged: Judged) -> Quantity:
-    """Add evidence from the motion of the described system, if there is a test for it; reject a result that contradicts
-    this motion."""
+    """Add evidence from the motion of the described system, if the step can be tested on it; reject a result that
+    contradicts this motion."""
     found = {fact for each in quantity.ancestors() for fact in each.facts if isinstance(fact, Witness)}
     by_kind = {kind: [fact for fact in found if type(fact) is kind] for kind in {type(fact) for fact in found}}
     if any(len(facts) > 1 for facts in by_kind.values()):
@@ -283,7 +283,7 @@ def _check_told(key: str, told: Mapping[str, tuple[Any, Any]]) -> None:
         if not verdict:
             raise refused(key, f"its sentence has a wrong `{role}`", formula, otherwise, verdict)
         if isinstance(formula, Relation) and not explicit(formula).free_symbols:
-            message = f"`{key}`: its sentence gives {formula} as a condition, but this condition has no letter"
+            message = f"`{key}`: its sentence gives {formula} as a condition, but this condition contains no symbol"
             raise Unverified(Complaint("unverified", message))
 
 

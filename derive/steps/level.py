@@ -38,9 +38,9 @@ class Display:
     told_along        whether the sentence of the step before may state the result of this step
     first_only        whether only the first of several steps of the same rule is shown
     only_explains     whether the step only explains the steps that use it, so that the author's words may replace it
-    result_again      up to this level, only the result is shown directly after a step of the same kind
-    each_worked_out   whether all lines of the level are shown even after a step of the same kind; otherwise only the
-                      lines of the level `brief` are shown then
+    result_again      up to this level, a step directly after a step of the same kind shows only its result
+    each_worked_out   whether a step shows all lines of the level even if an earlier step of the same kind is shown;
+                      otherwise such a step shows only its lines of the level `brief` and its result
     abbreviates       whether the symbol of the step may replace the square root that is its value in later steps
     names_formula     whether the sentence names the formula, so that a line within a text needs no left side
     repeats           the key of the equation that the step repeats, if any

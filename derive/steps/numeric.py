@@ -109,17 +109,17 @@ def value_of(
 ) -> Quantity | None:
     """The value of an answer in a unit, rounded to significant figures.
 
-    The result is None if there is no number to state: letters remain, or the value is not real, for example.
+    The result is None if there is no number to state, for example if symbols remain or the value is not real.
 
-    answer    any quantity; in a relation with a single letter on its left side, the right side gets the number
+    answer    any quantity; in a relation with a single symbol on its left side, the right side gets the number
     amounts   symbol -> its number with a unit
     unit      the name of the unit
     factor    the value of this unit in SI units
     more      other units for the same value, each with its factor
     case      the name of the case with these numbers, if there are several cases
 
-    Check: the expression, evaluated again from the numbers of its letters, with extra digits against cancellation.
-    For a condition on a letter with a given number, the step states whether this number satisfies the condition. A
+    Check: the expression, evaluated again from the numbers of its symbols, with extra digits against cancellation.
+    For a condition on a symbol with a given number, the step states whether this number satisfies the condition. A
     period that is known as a series gets its number from the integral that the series approximates.
     Outcomes: measured (numbers were substituted), exact; integrated, for a period whose number is an integral; minimum
     or maximum, for the value of a function at zero slope.
@@ -412,22 +412,22 @@ def comparison_of(condition: Quantity, amounts: Mapping[Symbol, Amount], key: st
 
 
 def coefficient_of(answer: Quantity, figures: int, of_vectors: bool = False) -> Quantity | None:
-    """Round the irrational number in front of the letters: sqrt(2 - sqrt(2)) omega becomes 0.7654 omega.
+    """Round the irrational number in front of the symbols: sqrt(2 - sqrt(2)) omega becomes 0.7654 omega.
 
     The result is None if there is no such number, or if its size is easy to see.
 
-    answer       a quantity, usually a scalar with letters
+    answer       a quantity, usually a scalar with symbols
     figures      the number of significant figures
     of_vectors   whether products of roots and pi are also rounded, and vectors whose components are numbers times
-                 letters
+                 symbols
 
-    Check: the answer divided by its letters, evaluated again as for `value_of`.
+    Check: the answer divided by its symbols, evaluated again as for `value_of`.
     Outcomes: exact.
     Source: as `value_of`.
     """
     value = answer.value
     if answer.step.chain[-1].because == NATURAL:
-        return None  # sqrt(2 - sqrt(2)) omega_0 has other letters than its value
+        return None  # sqrt(2 - sqrt(2)) omega_0 contains symbols that its value does not contain
     if isinstance(value, Relation) or not value.free_symbols or (isinstance(value, MatrixBase) and not of_vectors):
         return None
     common, rest = factored_matrix(value) if isinstance(value, MatrixBase) else (value, Integer(1))

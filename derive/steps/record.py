@@ -1,8 +1,8 @@
 """The record of one run of a script: the quantities that the script has established, and the coordinates that it has
 named.
 
-A symbol denotes one quantity in a run, or a general quantity and cases of it. Only the symbol
-of a coordinate or of its rate may have several values, for example at different instants.
+A symbol denotes one quantity in a run, or a general quantity and cases of it. Only the symbol of a coordinate or of its
+rate may have several values, for example at different instants.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ class Run:
     is_natural    whether results may be written with quantities of `define:` and usual ones such as omega_0
     numbers       the numbers that the problem gives for its symbols
     places        the place in a file where each given is written
-    letters       letters of the problem for givens, coordinates, forces and definitions; results must not use them
+    letters       the symbols of the givens, coordinates, forces and definitions; results must not use these symbols
     memory        earlier calls of verbs
     call          the call of a verb that is running
     """
@@ -79,7 +79,7 @@ class Run:
     call: Call | None = None
 
 
-# other textbook letters for a result, if the problem uses the usual letter for another quantity
+# other textbook symbols for a result, if the problem uses the usual symbol for another quantity
 OTHER_LETTERS: Mapping[str, tuple[str, ...]] = {
     "T": ("K",),
     "U": ("V",),
@@ -148,7 +148,7 @@ def question(answered: Callable[..., A]) -> Callable[..., A]:
 
 @question
 def is_taken(name: str) -> bool:
-    """Whether the problem or an earlier result uses this letter."""
+    """Whether the problem or an earlier result uses the symbol with this name."""
     run = current_run.get()
     if run is None:
         return False
@@ -172,10 +172,10 @@ def results_of(*rules: str) -> tuple[Quantity, ...]:
 
 
 def letter_of_limit(symbol: Any, letter: Symbol, to: Any) -> Any:
-    """Return a symbol for the limit of a result: omega_2_lim if a letter goes to a finite value, omega_2_infty if it
-    goes to infinity.
+    """Return a symbol for the limit of a result: omega_2_lim if the symbol `letter` goes to a finite value,
+    omega_2_infty if it goes to infinity.
 
-    If this symbol is taken, the returned symbol also contains the letter that goes to the limit.
+    If this symbol is taken, the returned symbol also contains the name of `letter`.
     """
     if isinstance(symbol, MatrixBase):
         return symbol.applyfunc(lambda each: letter_of_limit(each, letter, to))
@@ -204,8 +204,8 @@ def coordinate_named(symbol: Symbol, kind: str) -> None:
 
 @question
 def free_letter(name: str, *indices: str) -> str:
-    """Return the usual symbol of a result or, if the problem already uses it, a symbol with another textbook letter. If
-    the problem uses all of these, return the usual symbol.
+    """Return the usual symbol of a result or, if the problem already uses it, another textbook symbol. If the problem
+    uses all of these, return the usual symbol.
 
     name      the usual symbol, with its own index
     indices   further indices with which the symbol must also be free
@@ -223,7 +223,7 @@ def free_letter(name: str, *indices: str) -> str:
 
 @question
 def given_letters() -> set[str]:
-    """Return the letters of the problem for givens, coordinates, forces and definitions."""
+    """Return the names of the symbols of the givens, coordinates, forces and definitions of the problem."""
     run = current_run.get()
     return set(run.letters) if run is not None else set()
 
@@ -319,7 +319,7 @@ def _is_its_value(defined: Quantity, symbol: Any, value: Any) -> bool:
 
 @question
 def may_use_quantities() -> bool:
-    """Whether results may be written in quantities other than the letters of the problem."""
+    """Whether results may be written in quantities under `define:` and usual ones such as omega_0."""
     run = current_run.get()
     return run is None or run.is_natural
 

@@ -73,7 +73,7 @@ class Theorem:
     """A theorem in its general form. A page above the level `brief` states it before the first step that uses it.
 
     formula   what the theorem states, as a relation or an expression
-    source    the book and the section that state it
+    source    the book and the section that state the theorem
     letters   further symbols that the phrase names, with their names in the phrase
     """
 
@@ -107,17 +107,17 @@ class Quote:
 class Rule:
     """A law that makes steps.
 
-    name        the topic, usually the folder of the verb, and the default key of a step: "lagrange.lagrangian"
-    source      the book and the section that state it
-    outcomes    outcome -> the predicate that must be true of the result
-    evidence    claim -> ROUTE or CHECK, for each second derivation of the result. A route uses other physics, so it
-                reveals a wrong law; a check reveals an error of algebra. The claim TRIALS is tested by the predicate of
-                the outcome, at trial numbers. A rule without evidence is a definition
-    statements  predicates that must be true of the sentence for every outcome
-    named       role -> the predicate of an object that only the sentence names
-    shown       how a page shows the steps of this rule
-    quotes      the theorems that the steps of this rule use
-    names_value whether the symbol of a result may replace its value in later results
+    name         the topic, usually the folder of the verb, and the default key of a step: "lagrange.lagrangian"
+    source       the book and the section that state the law
+    outcomes     outcome -> the predicate that must be true of the result
+    evidence     claim -> ROUTE or CHECK, for each second derivation of the result. A route uses other physics, so it
+                 reveals a wrong law; a check reveals an error of algebra. The claim TRIALS is tested by the predicate
+                 of the outcome, at trial numbers. A rule without evidence is a definition
+    statements   predicates that must be true of the sentence for every outcome
+    named        role -> the predicate of an object that only the sentence names
+    shown        how a page shows the steps of this rule
+    quotes       the theorems that the steps of this rule use
+    names_value  whether the symbol of a result may replace its value in later results
     """
 
     name: str

@@ -127,8 +127,8 @@ def _is_square_that_lasts(base: Expr, power: Expr) -> bool:
 
 
 def _is_positive_by_means(total: Expr) -> bool:
-    """Whether a sum is positive because each negative term is at most twice the geometric mean of two positive terms,
-    as in a^2 - 2 a b + b^2 + c.
+    """Whether a sum is positive because no negative term is greater in magnitude than twice the geometric mean of two
+    positive terms, as in a^2 - 2 a b + b^2 + c.
 
     At least one positive term must be left over.
     """
@@ -200,7 +200,7 @@ def undecided(value: Any) -> Doubt:
         is_constant = isinstance(each, Add) and moving.isdisjoint(each.free_symbols)
         if is_constant and each.count_ops() <= SHORT and sign_known(each) is None:
             relation = " < ".join(sorted(map(str, sides_without_minus(each)), key=lambda side: (len(side), side)))
-            return Doubt(f"whether {relation} is not known", f"{DECIDES} {relation}")
+            return Doubt(f"it is not known whether {relation}", f"{DECIDES} {relation}")
     return Doubt("numerically the result does not always agree with the sentence")
 
 

@@ -1,4 +1,4 @@
-"""A step that makes a statement about a motion, with all data that the witness needs to test it."""
+"""A step that makes a statement about a motion, with all data that the witness needs to test this statement."""
 
 from __future__ import annotations
 

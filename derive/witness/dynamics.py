@@ -1,6 +1,6 @@
 """The Newton-Euler equations, numerically: the accelerations and multipliers of a described system in any state.
 
-With the Jacobians J of positions and their accelerations c at constant rates, virtual work gives
+With the Jacobians J of positions, and the accelerations c of these positions at constant rates, virtual work gives
 
     sum of W J^T J a + sum of W J^T c = sum of J^T F + A^T lambda,    A a + b = 0,
 
@@ -40,7 +40,7 @@ from derive.witness.geometry import (
 from derive.witness.tape import Compiled, Tape
 
 NEAR = 1e-4  # greatest step for second derivatives of a given Lagrangian, which may be singular at a nearby speed
-LEAST = 1e-12  # a row of the equations with smaller entries counts as zero
+LEAST = 1e-12  # a row of the equations whose entries are all smaller counts as zero
 RANK = 1e-9  # singular values below this number, for entries of order one, count as zero
 Found = TypeVar("Found")
 

@@ -3,7 +3,8 @@
     M (v - v_before) = sum of J^T K + A^T k,    n . (v_end - v_start) = -e n . (v_end - v_start)_before,    A v + b = 0
 
 M is the mass matrix, and v are the rates. J is the Jacobian of a point with the impulse K. A v + b = 0 are the
-constraints, and k are their impulses. n is the direction of the impulse of a collision, and e is the restitution.
+constraints, and k are their impulses. n is the direction of the impulse of a collision, and e is the
+coefficient of restitution.
 
 Source: Routh, *Dynamics of a System of Rigid Bodies*, elementary part, sections 87 and 179.
 """
@@ -85,9 +86,9 @@ def _given_share(of: Impact, trial: Trial, state: State) -> Reals:
 
 
 def _equations(of: Impact, trial: Trial, state: State) -> tuple[Reals, Reals, Reals, Reals, list[Symbol]]:
-    """The mass matrix, and four arrays with an entry for each unknown impulse: the change of the momenta, the row that
-    gives the speed along the impulse (here equal to this change), the required speed after the impact, and the
-    symbol."""
+    """The mass matrix, and four arrays with an entry for each unknown impulse: the change of the momenta per unit of
+    the impulse, the row that gives the speed along the impulse (here equal to this change), the required speed after
+    the impact, and the symbol."""
     matrix, _ = trial.dynamics.inertia(state)
     at = trial.dynamics.placed(state)
     places = iter(at.forces[len(of.impulses) :])

@@ -1,4 +1,4 @@
-"""Whether a particle of the description moves in the same way as a given position.
+"""Whether some part of the described system moves in the same way as a given position.
 
 Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 4.9 (velocities in a rigid body).
 """

@@ -28,9 +28,10 @@ LONG = 12.0  # usual duration of a simulated motion, with masses, lengths and g 
 CALLS = 6000  # largest number of evaluations of the accelerations in one motion
 MOMENTS, WATCHED = 12, 80  # least number of integration steps: without an event, and with an event, which may be short
 CLEAR = 0.1  # margin by which a condition must be satisfied, because a short event might not be detected
-FOLLOWED = 1e-5  # accuracy to which a simulated motion and a formula agree
+FOLLOWED = 1e-5  # accuracy to which a simulated motion and a formula must agree
 MANY = 6  # number of sets of numbers that are tried
-# A motion begins at this fraction of the way from its given start, because this start may be an equilibrium.
+# A motion begins at this fraction of the way from its given start to the stated place, because the start may be an
+# equilibrium.
 NUDGE = 2e-3
 Event = Callable[[State], float]
 

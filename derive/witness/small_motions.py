@@ -27,7 +27,8 @@ from derive.witness.tape import NotComputable
 from derive.witness.trial import Contradiction, Given, Trial
 
 SMALL = 1e-3  # step of the finite differences for the derivatives; their error is of the order of SMALL**4
-# Re s, or |s|**2, counts as zero below this fraction of the largest |s|, or |s|**2.
+# Re s counts as zero below this fraction of the largest |s|; |s|**2 counts as zero below this fraction of its largest
+# value.
 SURE = 1e-3
 FREQUENCY = 1e-5  # relative accuracy of squared frequencies
 STAYS = 1e-7  # accuracy of an acceleration if all numbers are of order one
@@ -154,9 +155,9 @@ UNSTABLE = frozenset(["unstable", "unstable_along"])
 
 
 def stability(claim: Claim) -> Verdict | None:
-    """Test the stability that the step states: no small displacement may grow at a stable equilibrium, and some small
-    displacement must grow at an unstable equilibrium, unless an eigenvalue is zero, so that the linear motion does not
-    decide."""
+    """Test the stability that the step states. At a stable equilibrium, no small displacement may grow. At an unstable
+    equilibrium, some small displacement must grow; this is not required if an eigenvalue is zero, because the linear
+    motion does not decide then."""
     inputs = claim.judged.inputs
     if "coordinates" not in inputs or "place" not in inputs:
         return None
@@ -248,7 +249,7 @@ def _squares_of(near: Neighbourhood) -> NDArray[np.complex128] | None:
 
 
 def damped(claim: Claim) -> Verdict | None:
-    """Test whether some small displacement has the stated rate or frequency."""
+    """Test whether some small displacement decays at the stated rate, or oscillates with the stated frequency."""
     around = _around(claim)
     if around is None:
         return None

@@ -192,7 +192,7 @@ def test_the_dumbbell_leaves_the_wall_at_two_thirds_of_the_height() -> None:
 
 def test_contact_is_told_only_where_the_force_is_known_to_push() -> None:
     q, phi = theta.symbol, symbols("phi", real=True)
-    with pytest.raises(Rejected, match="factors of unknown sign that contain phi in another form than"):
+    with pytest.raises(Rejected, match="factors of unknown sign that contain phi in a form other than"):
         leaves_contact(given(m * g * (3 * cos(phi) - 2) * sin(phi)), cos(phi), Integer(1))
     with pytest.raises(Rejected, match="not known to be positive"):
         leaves_contact(given(-m * g * (3 * cos(q) - 2) * sin(q)), cos(q), Integer(1))
@@ -284,7 +284,7 @@ def test_a_coordinate_has_a_range_in_yaml(tmp_path: Path) -> None:
 
 def test_without_its_range_the_message_says_what_to_write(tmp_path: Path) -> None:
     (message,) = messages(tmp_path, edited(DUMBBELL, ("q: 'angle in (0, pi/2)'}", "q: angle}")))
-    assert "factors of unknown sign with q outside cos(q)" in message
+    assert "factors of unknown sign that contain q in a form other than cos(q)" in message
 
 
 def test_open_ends_and_positive_kinds_are_read(tmp_path: Path) -> None:

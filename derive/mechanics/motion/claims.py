@@ -68,11 +68,11 @@ def moves_off(wanted: int | None) -> Predicate:
 
 
 TWO_AMPLITUDES = Rational(4, 5), Rational(1, 4)
-FAR, SOON = Rational(10) ** 30, Rational(1, 10**6)  # a number for infinity, and a small change of a coordinate
+FAR, SOON = Rational(10) ** 30, Rational(1, 10**6)  # a number in place of infinity, and a small change of a coordinate
 AHEAD = [
     *(Rational(n, 8) for n in range(1, 57)),
     *(Rational(10) ** n for n in range(1, 20)),
-]  # distances from the start; also divisors of a start that is not negative
+]  # distances from the start; for a coordinate that is never negative, also divisors of its value at the start
 
 
 def has_sense(facts: Judged, fact: SignedRate) -> bool:
@@ -258,7 +258,8 @@ def steady(facts: Judged, fact: Steady) -> bool:
 
 
 def friction_and_normal_of_one_contact(facts: Judged, outcome: str) -> bool:
-    """Whether the two forces act at one place at right angles, and the coefficient belongs to this contact."""
+    """Whether the two forces act at one place, perpendicular to each other, and the coefficient is that of the
+    contact."""
     friction, normal = (_constraint_of(facts.quantities[role]) for role in ("friction", "normal"))
     if friction is None or normal is None or friction.limit is None:
         return False

@@ -39,7 +39,7 @@ RATE_UNDER = Rule(
 
 
 def rate_under(quantity: Quantity, equations: Sequence[Quantity], key: str | None = None) -> Quantity:
-    """Rate of change of a quantity along every motion that obeys the equations, dQ/dt.
+    """Rate of change dQ/dt of a quantity along every motion that obeys the equations.
 
     quantity    a scalar Q in coordinates and their rates; the unit of the result is the unit of Q per second
     equations   equations of motion that are linear in the highest rates, one for each highest rate
@@ -47,8 +47,9 @@ def rate_under(quantity: Quantity, equations: Sequence[Quantity], key: str | Non
     For each equation whose factor is not zero, a step derives the product of the equation and the factor. If there are
     several products, another step adds them.
     Second route: differentiate Q as a function of time and substitute the highest rates from the equations. If Q
-    belongs to a rotating body, also sum the contributions of the particles of the body. Checks: subtract the sum of the
-    products from dQ/dt without substituting the highest rates, and integrate one motion numerically.
+    belongs to a rotating body, also sum the contributions of the particles of the body, and derive dQ/dt from the
+    torque along arbitrary body axes. Checks: subtract the sum of the products from dQ/dt without substituting the
+    highest rates, and integrate one motion numerically.
     Outcomes: conserved (the rate is zero), changes.
     Errors: the equations do not determine the highest rates; dQ/dt contains rates of higher order than the equations.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.7.

@@ -201,7 +201,8 @@ def _check_one_coordinate(energy: Quantity, value: Expr, q: Coordinate) -> None:
     if others or depends_on_time(value) or not value.has(q.rate):
         what = others[0].name if others else "the time t" if depends_on_time(value) else f"no rate of {q.symbol.name}"
         message = (
-            f"`speed_from_energy` needs an energy of only {q.symbol.name} and its rate, but `{energy.key}` has {what}"
+            f"`speed_from_energy` needs an energy that contains only {q.symbol.name} and its rate, "
+            f"but `{energy.key}` contains {what}"
         )
         help_line = None
         if others:

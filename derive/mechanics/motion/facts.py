@@ -15,8 +15,8 @@ from derive.steps.step import Fact, Quantity
 
 @dataclass(frozen=True)
 class Steady(Fact):
-    """A steady motion: constant values of coordinates, constant rates of cyclic coordinates, and expressions that
-    vanish in this motion, which are its conditions."""
+    """A steady motion: constant values of coordinates, constant rates of cyclic coordinates, and its conditions, which
+    are expressions that vanish in this motion."""
 
     missing = "is not the condition of a steady motion, as `steady_motion` yields it"
     lagrangian: Quantity
@@ -93,8 +93,7 @@ class InFlight(Fact):
     """The free motion of a particle or a body after it left a surface, or after its string went slack.
 
     path           the components, in m, of the place of the particle, or of the centre of mass of the body, as
-    functions
-                   of the time since the departure
+                   functions of the time since the departure
     matter         the mass points of the system and the forces on them, including the force of the lost constraint
     point          the mass that flies, at its place as a function of the coordinates
     noun           "particle" or "body"

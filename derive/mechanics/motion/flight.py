@@ -223,7 +223,7 @@ class Departure:
 
     @cached_property
     def square(self) -> Expr:
-        """The squared speed with which the constraint force vanishes at the place of the departure."""
+        """The squared speed for which the constraint force vanishes at the place of the departure."""
         mark = mark_for(rate(self.q) ** 2)
         whole = explicit(self.original.value).xreplace({**self.held_rates, **self.held})
         force = with_unknown(whole, rate(self.q) ** 2, mark)
@@ -302,7 +302,7 @@ def _departure(lost: Quantity, letter: Any) -> Departure:
     speed = ByEnergy.behind(lost.parents[0], letter_of(lost.value.left))
     if speed is None or not any(each.fact(ForceOf) for each in lost.ancestors()):
         message = f"`flight`: the speed is unknown, since `{lost.key}` was found without conservation of energy"
-        raise Rejected(Complaint("wrong-argument", message, help="substitute a result of `speed` in the force"))
+        raise Rejected(Complaint("wrong-argument", message, help="substitute a result of `speed` into the force"))
     found = Departure(lost, speed, None if letter is None else _checked_letter(letter, letter_of(lost.value.left)))
     assert found.flyer.point
     return found
@@ -403,7 +403,7 @@ def free_flight(lost: Quantity, at: Any = None, key: str = "flight") -> tuple[Qu
     the particle was. For a body that rolled, a third step, `flight_spin`, has the constant angular velocity, in rad/s.
     It is assumed that contact is lost, and that a rolling body rolls until it departs. No other force than its weight
     may act on the particle or body that flies.
-    Second route: Lagrange's equations for the coordinates of the system, with the constraint force zero. Checks:
+    Second route: Lagrange's equations for the coordinates of the place, without the forces of the lost contact. Checks:
     Newton's second law, and the place and velocity at the departure, by conservation of energy. Witness: the motion of
     the described system is followed until the force vanishes, and then without the constraint.
     Outcomes: uniform (no force along this axis), falls (a constant force along this axis).
@@ -554,8 +554,8 @@ def _spin(departure: Departure, speed: Quantity, turn: Symbol, key: str) -> Quan
     """Angular velocity of a body in free flight. The weight has no torque about the centre of mass, so the angular
     velocity at the departure remains.
 
-    Second route: the velocity of the particle at the contact vanishes while the body rolls. Check: without the
-    friction, the equation of motion of the angle has no torque.
+    Second route: the point of the body at the contact has no velocity while the body rolls. Check: the equation of
+    motion of the angle contains no torque if the forces of the lost contact are zero.
     Outcomes: steady.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, section 7.7.
     """
@@ -612,7 +612,7 @@ def _noughts(count: int) -> ImmutableDenseMatrix:
 
 
 def _residuals(departure: Departure, path: Sequence[Expr]) -> list[Expr]:
-    """Return the residuals of Lagrange's equations without the constraint force, for a motion along a path.
+    """Return the residuals of Lagrange's equations without the forces of the lost contact, for a motion along a path.
 
     The rates and accelerations of the coordinates follow from the velocity and the acceleration along the path.
     """
@@ -641,11 +641,11 @@ def landing(flight: Sequence[Quantity], on: Surface | None = None, key: str = "l
     flight   the two components of the flight, from `free_flight`
     on       a fixed plane; by default the circle of the motion before the flight
 
-    The distance from the plane is a polynomial of degree 2 in the time; the flight ends at the first time after the
-    departure at which this distance vanishes. For the circle, the squared distance from the centre minus the squared
-    radius is t^3 (a t + b). The factor t^3 is due to the departure, where the particle is on the circle, moves along
-    the circle, and needs no constraint force. If a t + b has no zero at a positive time, the particle does not meet the
-    circle again.
+    The distance from the plane is a polynomial of degree 2 or less in the time; the flight ends at the first time after
+    the departure at which this distance vanishes. For the circle, the squared distance from the centre minus the
+    squared radius is t^3 (a t + b). The factor t^3 is due to the departure, where the particle is on the circle, moves
+    along the circle, and needs no constraint force. If a t + b has no zero at a positive time, the particle does not
+    meet the circle again.
     Second route: the place satisfies the equation of the path, which does not contain the time; the speed also follows
     from the derivatives of the components. Check: at the end the particle is on the plane or the circle, and before the
     end it is on the free side. Witness: the free flight of the described system is followed to the landing.
@@ -762,7 +762,7 @@ def _time_to(known: InFlight, target: Plane) -> Expr | None:
         help_line = "the free side is on the left of `along`; state with `assume:` which side the particle is on"
         raise Rejected(Complaint("not-decided", message, help=help_line))
     if side == 0 and (towards in (0, -1) or bend in (0, 1)):
-        message = "`lands`: the particle departs on the plane, and does not rise above it and come back"
+        message = "`lands`: the particle departs on the plane, and does not rise above it or does not come back"
         raise Rejected(Complaint("contradiction", message, help="give a plane that the particle does not depart from"))
     inside = tidied(v**2 - 4 * a * h)
     if bend == -1:

@@ -181,7 +181,7 @@ def _enforcer(force: Quantity) -> str:
 
 
 def _friction_beside(force: Quantity) -> Constraint | None:
-    """Return the constraint of the friction without slipping at the contact of a normal force; None without friction.
+    """Return the constraint that friction enforces at the contact of a normal force; None without such a constraint.
 
     Errors: this friction has a coefficient, so the body slips before N vanishes.
     """
@@ -253,7 +253,7 @@ def _turns_back(force: Quantity, unknown: Expr, ends: tuple[Expr, Expr], squared
 
 
 def _held(value: Expr, unknown: Expr) -> tuple[Expr, Expr]:
-    """Split off factors known to be positive: sin(theta) (a cos(theta) - b) gives the sine and the bracket.
+    """Split off factors known to be positive: sin(theta) (a cos(theta) - b) gives sin(theta) and a cos(theta) - b.
 
     Factors that contain the unknown are split off too, such as 1/sqrt(b^2 + x^2) on a parabola.
     """
@@ -273,7 +273,7 @@ def _vanishes_at(held: Expr, unknown: Expr, start: Expr) -> bool:
 
 def _unsolvable_contact(force: Quantity, unknown: Expr) -> Rejected:
     letter = letter_of(unknown)
-    factors = f"factors of unknown sign that contain {letter} in another form than {unknown}"
+    factors = f"factors of unknown sign that contain {letter} in a form other than {unknown}"
     message = f"`leaves_contact`: `{force.key}` has {factors}"
     help_line = f"give the coordinate the range in which it moves, `{letter}: angle in (0, pi/2)`"
     return Rejected(Complaint("no-contact", message, help=help_line))

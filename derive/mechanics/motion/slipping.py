@@ -77,9 +77,9 @@ def slips(friction: Quantity, normal: Quantity, letter: Symbol | Expr, key: str 
     result is then the first place with |F| = mu_s N that the motion reaches. In other cases the result is the condition
     |F| <= mu_s N. If the sign of F depends on the symbols, there is one condition for each direction of F, F <= mu_s N
     and -F <= mu_s N. The sentence states the direction of the slip if this direction is known.
-    Check: at random numbers, the result and the relation of F and mu_s N before it was solved are both true or both
-    false. Along a motion, |F| < mu_s N from the start to the place, and |F| > mu_s N just beyond the place. Witness:
-    the motion of the described system.
+    Check: for random numbers, the result and the unsolved relation between F and mu_s N are both true or both false.
+    Along a motion, |F| < mu_s N from the start to the place, and |F| > mu_s N just beyond the place. Witness: the
+    condition is tested in states of the described system, or the motion is followed until the body begins to slip.
     Outcomes: sticks (the condition depends on the symbols), always (it is always true), cannot (it is never true);
     needs_none (F = 0); slips (the first place with |F| = mu_s N), slips_squared (the same, found after squaring),
     at_once (at the start |F| > mu_s N), stays (the motion reaches no place with |F| = mu_s N).
@@ -191,7 +191,7 @@ def _along_motion(contact: Friction, unknown: Expr, speed: Quantity, key: str) -
     at_start = [tidied(contact.excess(side).xreplace({motion.q: motion.start})) for side in (1, -1)]
     signs = [sign_known(each) for each in at_start]
     if 0 in signs:
-        message = f"`slips`: at the start of the motion `{contact.friction.key}` has its largest value already"
+        message = f"`slips`: at the start of the motion `{contact.friction.key}` already has its largest possible value"
         raise Rejected(Complaint("no-contact", message, help="give the motion another start"))
     if 1 in signs:
         return _at_once(motion, 1 if signs[0] == 1 else -1, key)

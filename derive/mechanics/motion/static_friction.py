@@ -22,7 +22,7 @@ from derive.solving.unknowns import mark_for
 from derive.steps.signs import sign_known
 from derive.steps.step import Form, Quantity
 
-POINTS = 40  # sets of numbers
+POINTS = 40  # number of sets of random numbers for the symbols
 
 
 @dataclass(frozen=True)
@@ -114,7 +114,7 @@ def solved_line(contact: Friction, result: Relation, excess: Expr) -> Form:
     """Return the line with the solved relation, which is equivalent to the line before."""
     alone, solved = result.sides
     if alone == contact.limit.coefficient:
-        # The lines differ by the factor N > 0, so the factors of N together are positive.
+        # The lines differ by the factor N > 0, so no factor of N is zero.
         pushing = Mul.make_args(contact.N)
         bases = [each.as_base_exp()[0] for each in pushing if not each.is_number]
         return Form(result, "solved", nonzero=(*pushing, *bases, *(each.expand() for each in pushing if each.is_Pow)))
@@ -149,7 +149,7 @@ def _without_tangents(value: Expr) -> Expr:
 
 
 def numbers_for(letters: set[Symbol], of: Expr) -> Iterator[Mapping[Symbol, Expr]]:
-    """Yield sets of numbers for the symbols that satisfy the assumed relations between these symbols."""
+    """Yield sets of numbers for the symbols. Each set satisfies the assumed relations between these symbols."""
     kept = [each for each in known_order().positive if each.free_symbols <= letters]
     tried = islice(points(letters, seed_of(of)), POINTS * (1 if not kept else 25))
     return islice((point for point in tried if all(value_at(each, point) > 0 for each in kept)), POINTS)

@@ -72,7 +72,7 @@ def arrivals(
 ) -> list[Arrival]:
     """Return how motions come to the places at which a result is evaluated.
 
-    of, others   the result, and other results that are substituted in it
+    of, others   the result, and other results that are substituted into it
     places       pairs of a coordinate, or a function of a coordinate, and the constant value of this expression at the
                  place
     limit        a function that maps the squared rate f(q) to the limit of f at the place; by default f is evaluated at
@@ -118,7 +118,8 @@ def _arrival(
 
 
 def words_of(arrivals: Sequence[Arrival]) -> dict[str, str]:
-    """Return the value of `lasts` for a sentence with the condition under which the motion comes to these places."""
+    """Return the word `lasts` for a sentence that states when the motion comes to these places; empty if nothing has to
+    last."""
     lasting = next((each.lasts for each in arrivals if each.reached is not None and each.lasts), "")
     return {"lasts": lasting} if lasting else {}
 
@@ -157,7 +158,7 @@ def common_condition(of: Quantity, arrivals: Sequence[Arrival]) -> Relation | No
 def _latest_speeds(*quantities: Quantity) -> list[Quantity]:
     """Return the squared rates from conservation of energy from which these results were derived.
 
-    A squared rate of an earlier motion, which leads to the start of this one, is left out.
+    A squared rate of an earlier motion, which leads to the start of a later motion, is left out.
     """
     found = {each.key: each for of in quantities for each in of.ancestors() if each.fact(ByEnergy)}.values()
     return [each for each in found if not any(other is not each and other.rests_on(each) for other in found)]

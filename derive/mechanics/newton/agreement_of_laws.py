@@ -27,8 +27,8 @@ AGREEMENT_OF_LAWS = Rule(
 
 
 def agreement_of_laws(newton: Quantity, lagrange: Sequence[Quantity], key: str | None = None) -> Quantity:
-    """Newton's law of one body again, as a sum of Lagrange's equations. Each of these equations is multiplied by the
-    change of its coordinate in a displacement in which only this body moves.
+    """Newton's law of one body, derived again as a sum of Lagrange's equations. Each of these equations is multiplied
+    by the change of its coordinate in a displacement in which only this body moves.
 
     newton    the law from `second_law` or `torque_law`
     lagrange  Lagrange's equations, one for each coordinate

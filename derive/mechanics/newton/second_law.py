@@ -49,7 +49,7 @@ def second_law(system: System, q: Coordinate, key: str | None = None, at_rest: b
     at_rest  whether the system is at rest, so that the forces add up to zero
 
     Second route: Lagrange's equations, for a displacement in which only this body moves.
-    Outcomes: alone (the system has one mass), of_several (the mass of this body differs from all others), alike
+    Outcomes: alone (the system has one mass), of_several (the mass of this body differs from all other masses), alike
     (another body has the same mass); for bodies at rest, alone_at_rest, of_several_at_rest, alike_at_rest.
     Errors: a body moves in space; the coordinates do not let one body move with q while all others stay at rest; q
     rotates the body.

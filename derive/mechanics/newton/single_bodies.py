@@ -1,4 +1,4 @@
-"""Single particles and bodies of a system: displacements in which nothing else moves, and the forces on the body.
+"""Single particles and bodies of a system: displacements in which only one of them moves, and the forces on it.
 
 Suppose that the coordinates allow one body to move along a direction while all other bodies stay at rest. Then Newton's
 second law for this body along this direction contains only forces that the description names. The forces that the

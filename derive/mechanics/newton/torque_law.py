@@ -77,10 +77,9 @@ def torque_law(
     system   particles and bodies in a plane, and the forces on them
     q        a coordinate that rotates one body
     about    "contact" for a point of contact; the angular momentum about this point also has the term M r x v of the
-             centre of mass. By default, the point is the fixed axis of the body, or else its centre of mass
+             centre of mass. By default, torques are about the fixed axis of the body, or else about its centre of mass
     at_rest  whether the system is at rest, so that the torques add up to zero. The torques are then about the point
-    with
-             the most unknown forces, if the coordinates let only this body rotate about such a point
+             with the most unknown forces, if the coordinates let only this body rotate about such a point
 
     Second route: Lagrange's equations, for a rotation in which only this body moves.
     Outcomes: as `second_law`.
@@ -194,8 +193,8 @@ def _resting_point(body: Alone) -> Vector | None:
 
 
 def _moment_of_the_centre(body: Alone, point: About) -> Expr:
-    """The term M r x a of the rate of change of the angular momentum, counterclockwise; zero if the moment of inertia
-    is about the point itself."""
+    """The term M r x a of the rate of change of the angular momentum, positive counterclockwise; zero if the moment of
+    inertia is about the point itself."""
     if point.word == "axis" and is_about_the_point(body.part):
         return ZERO
     x, y = arm(body.centre, point.place)

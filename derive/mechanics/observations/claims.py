@@ -679,7 +679,7 @@ def is_only_condition(of: Quantity) -> bool:
 
 def holds_everywhere(facts: Judged) -> bool:
     """Whether the condition of equilibrium holds at all positions tried for the stated value, but not for twice this
-    value. The condition must be that of the only coordinate."""
+    value. The energy behind the condition must depend on one coordinate only."""
     place, condition = facts.result, explicit(facts.quantities["of"].value.residual)
     if not is_only_condition(facts.quantities["of"]):
         return False

@@ -87,7 +87,7 @@ def independent(view: View) -> Observed:
 def _may_be_free(view: View, of: Quantity) -> bool:
     """Whether it is worth saying on which symbols an answer does not depend.
 
-    An answer for a special case holds only for the substituted values.
+    An answer for a special case is left out, because it holds only for the substituted values.
     """
     kept = {*view.of_kind("angular momentum")} & explicit(of.value).free_symbols
     if (of.step.rule, of.step.outcome) == ("answers.put_in", "values") or kept:

@@ -40,7 +40,7 @@ MOST = 2  # greatest number of observations in a problem, if the author does not
 class Observation:
     """A kind of observation.
 
-    name    the name by which an author chooses it
+    name    the name by which an author chooses this kind
     found   a function that yields the steps of this kind about the answers of a part
     at_end  whether the page states an observation of this kind in the last part that has one, not in the first
     """

@@ -232,8 +232,8 @@ def runs_away(facts: Judged) -> bool:
 
 
 def kinetic_energy_is_positive(facts: Judged) -> bool:
-    """Whether the kinetic energy is not negative for a few sets of trial numbers. A minimum of U is stable only if the
-    kinetic energy is never negative.
+    """Whether the kinetic energy at equilibrium is never negative, for a few sets of trial numbers. If it can be
+    negative, a minimum of U need not be stable.
 
     If the mass points and forces are unknown, the result is true.
     """
@@ -368,7 +368,9 @@ def level_as_told(facts: Judged) -> bool:
     return told is not None and told.operator == "!=" and same_equation(told.residual, open_)
 
 
-DIGITS_LEFT = 10**40  # largest accepted ratio of an energy to a difference of energies, which have 60 digits or more
+# Largest accepted ratio of an energy to a difference of energies. Energies are computed to 60 digits or more, so 20
+# digits of the difference remain.
+DIGITS_LEFT = 10**40
 
 
 def is_its_derivative(facts: Judged, outcome: str) -> bool:

@@ -133,7 +133,7 @@ def _followed(motion: Motion, start: Sequence[float]) -> list[float] | None:
 
 
 def _solved(matrix: list[list[Any]], right: list[Any]) -> list[Any] | None:
-    """Solve A x = b by elimination, with the largest entry as pivot; None if A is singular."""
+    """Solve A x = b by elimination, with the largest entry of each column as pivot; return None if A is singular."""
     count = len(right)
     rows = [[*row, b] for row, b in zip(matrix, right, strict=True)]
     for k in range(count):

@@ -1,7 +1,8 @@
 """Decide numerically whether displacements from an equilibrium grow, from the exponents of the linearised motion.
 
 For small motions, the virtual work of m a - F along each coordinate is linear in displacements, rates and
-accelerations. Finite differences give the matrices M, C and K; exp(s t) is a solution if det(M s^2 + C s + K) = 0.
+accelerations. Finite differences give the matrices M, C and K; a motion proportional to exp(s t) is possible if
+det(M s^2 + C s + K) = 0.
 Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.1 (extended by forces that depend on the rates).
 """
 
@@ -24,7 +25,9 @@ from derive.mechanics.rest.facts import matter_behind
 from derive.steps.step import Quantity
 
 DIGITS = 75
-SMALL = 10  # a growth rate, a gyroscopic force or an eigenvalue of M below 10^-SMALL of the largest counts as zero
+# A growth rate counts as zero below 10^-SMALL of the largest exponent, and a gyroscopic force or an eigenvalue of M
+# below 10^-SMALL of the largest entry of its matrix.
+SMALL = 10
 FEW = 3  # number of sets of numbers that are tried if there are no gyroscopic forces
 ELSEWHERE = Rational(3, 8)  # value of a coordinate that the energy does not contain
 SIZES = (Rational(17, 23), Rational(2300, 7), Rational(3, 71))  # values of symbols that the energy does not contain

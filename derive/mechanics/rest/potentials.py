@@ -78,7 +78,9 @@ def _coefficient(value: Expr, q: Symbol, place: Expr, order: int) -> Expr:
 def _check_lasts(verb: str, potential: Quantity, q: Symbol) -> None:
     """Reject a potential that changes with time: its shape does not determine equilibria."""
     require_constant(
-        verb, "potential energy except for its coordinate", potential.value.xreplace({q: Dummy("q", real=True)})
+        verb,
+        "potential energy at each value of its coordinate",
+        potential.value.xreplace({q: Dummy("q", real=True)}),
     )
 
 

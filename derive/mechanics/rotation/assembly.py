@@ -427,7 +427,7 @@ TENSOR_OF_PART = Rule(
 
 def _tensor_of_part(body: Composite, part: PlacedPart, point: Point, symbol: str, key: str) -> Quantity:
     """Inertia tensor of one part about a point of the whole body, R I R^T + m (d.d 1 - d d). If R is 1 and d is zero,
-    this is the step that derives I, the tensor of the part about its centre of mass.
+    the result is the step that derives I, the tensor of the part about its centre of mass.
 
     body    the whole composite body
     part    one of the parts of the whole body; R is the rotation of the part, and d is the displacement of its centre

@@ -244,7 +244,7 @@ def across(facts: Judged) -> Any:
 
 
 def turns(wanted: str) -> Predicate:
-    """Judge whether the word is "left" if and only if the component of the result along the axis is known to be
+    """Judge whether `wanted` is "left" if and only if the component of the result along the axis is known to be
     negative."""
 
     def is_so(facts: Judged) -> bool:

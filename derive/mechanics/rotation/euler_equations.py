@@ -1,4 +1,4 @@
-"""Euler's equations for a body whose principal moments of inertia are known, free or with a torque.
+"""Euler's equations, with or without a torque, for a body whose principal moments of inertia are known.
 
 Components are along the principal axes of the body, which rotate with it. The rate of L in space and Euler's equations
 have a second route that uses the accelerations of the particles of the body instead of its tensor.
@@ -261,7 +261,7 @@ RATE_IN_SPACE = Rule(
 def rate_in_space(
     momentum: Quantity, omega: Quantity, in_body: Quantity | None = None, key: str = "momentum_rate"
 ) -> Quantity:
-    """Rate of change in space of a vector with given body components, dL/dt = (dL/dt)_body + omega x L.
+    """Rate of change of the angular momentum in space, dL/dt = (dL/dt)_body + omega x L.
 
     momentum   angular momentum L, vector (3), kg m^2/s, body axes
     omega      angular velocity of the body, vector (3), 1/s, body axes
@@ -333,7 +333,7 @@ def _constancy(rate: Any, in_body: Quantity | None) -> str:
 
 
 def _rates_worked(momentum: Quantity, omega: Quantity, in_body: Quantity | None) -> list[Form]:
-    """Return a list with one line, the two terms of the rate: in components, or by symbols if the rate in the body is
+    """Return a list with one line, the terms of the rate: in components, or by symbols if the rate in the body is
     given."""
     if in_body is not None:
         seen = in_body.step.chain[0].expr

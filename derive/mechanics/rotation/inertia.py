@@ -81,9 +81,9 @@ def inertia_tensor(
     point is on this axis, steps derive only the two distinct entries that symmetry leaves. If three mirror planes
     through the point are normal to the axes, steps derive only the moments. For a composite body, the tensors of its
     parts are added instead.
-    Second route: the moment about any axis n is the sum of m |n x r|^2 over equimomental particles, which have the
-    same centre of mass as the body. For a body defined by a position map, the sum is numerical, over the cells of the
-    body.
+    Second route: the moment about any axis n is the sum of m |n x r|^2 over equimomental particles. For a body defined
+    by a position map, the sum is numerical, over the cells of the body. Checks: these particles or cells have the
+    centre of mass of the body; except for a position map, the tensor is also equal to the integral that defines it.
     Outcomes: isotropic (the same about every axis), two_equal (diagonal, two moments equal), diagonal, generic; round
     or round_isotropic, if steps derive only two entries.
     Errors: the body has no such point or no such coordinates.

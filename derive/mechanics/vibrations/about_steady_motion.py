@@ -43,8 +43,8 @@ ZERO = Integer(0)
 
 @dataclass(frozen=True, eq=False)
 class About:
-    """A potential energy of one coordinate `q`, the matter that has this energy, and the value of `q` at rest or in
-    steady motion.
+    """A potential energy of one coordinate `q`, the mass points and forces to which it belongs, and the value of `q` at
+    rest or in steady motion.
 
     rates     the rates of the cyclic coordinates in the steady motion
     momenta   symbols with their values in the steady motion: for each cyclic momentum, its symbol or, if a value of the
@@ -264,7 +264,7 @@ def _letter_of_value(given: Expr, value: Expr, lagrangian: Quantity, of: Quantit
 
 
 def _determinant_about(about: About, found: Expr) -> Expr:
-    """Return the determinant of d'Alembert's principle to first order, for displacements e^(s t), s^2 = -omega^2.
+    """Return the determinant of d'Alembert's equations to first order, for displacements e^(s t) with s^2 = -omega^2.
 
     The unknown of a cyclic coordinate is the rate of this coordinate, so the column of this coordinate has one factor s
     less. Common powers of s are divided out.

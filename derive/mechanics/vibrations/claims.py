@@ -106,8 +106,8 @@ def are_exponents(wanted: str) -> Predicate:
 
 
 def is_general_motion(facts: Judged) -> bool:
-    """Whether the motion satisfies a q_ddot + b q_dot + c q = f(t) for all values of its two constants, and the
-    constants can fulfil all initial values."""
+    """Whether the motion satisfies a q_ddot + b q_dot + c q = f(t) for all values of its two constants, and any initial
+    values determine these constants."""
     a, b, c = facts.inputs["linear"]
     motion, constants = explicit(facts.result).right, facts.inputs["constants"]
     first = diff(motion, TIME)
@@ -117,7 +117,8 @@ def is_general_motion(facts: Judged) -> bool:
 
 
 def is_driving_term(changes: bool) -> Naming:
-    """Check that the term is f(t) in the equation of motion. It must depend on the time if and only if `changes`."""
+    """Check that the term is f(t) in the equation of motion. It must change with time if and only if `changes` is
+    true."""
 
     def is_so(facts: Judged, term: Any) -> bool:
         return bool(term == facts.inputs["driven"]) and term != 0 and depends_on_time(term) == changes

@@ -191,7 +191,7 @@ def _frequency(equations: DampedModes, own: Quantity, root: CharacteristicRoot, 
     name = free_letter(f"{'gamma' if turned < 0 else 'omega'}{number}")
 
     def motion(found: Expr) -> tuple[Expr, Expr]:
-        """Substitute e^(-beta t) cos(omega t), or a hyperbolic cosine, into a eta_ddot + b eta_dot + c eta."""
+        """Substitute e^(-beta t) cos(w t), or e^(-beta t) cosh(w t) if the motion is overdamped, into the equation."""
         w = stand_in("w", positive=True)
         course = exp(-own.value * T) * (cos(w * T) if turned > 0 else (exp(w * T) + exp(-w * T)) / 2)
         left = (a * diff(course, T, 2) + b * diff(course, T) + c * course) / exp(-own.value * T)
@@ -240,7 +240,7 @@ def _shape(
     linear = equations.linear
 
     def moving(found: MatrixBase) -> tuple[MatrixBase, MatrixBase]:
-        """Check that the residuals are multiples of the factor, so the equations hold at the roots of the factor."""
+        """Check that the residuals are multiples of the factor of the determinant, so they vanish at its roots."""
         letter = Symbol("s_trial")
         course = exp(letter * T)
         left = [(value / course).expand() for value in equations.with_motion([a * course for a in found])]

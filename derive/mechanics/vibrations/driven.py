@@ -191,7 +191,7 @@ def quality_factor(equation: Quantity, q: Coordinate, symbol: str = "Q", key: st
 
     Second route: with the driving force F cos(omega_0 t), where omega_0 = sqrt(c/a), the motion
     q = Q (F/c) sin(omega_0 t) satisfies the equation. Also, Q is 2 pi times the energy of this oscillation, divided by
-    the energy that the damping takes in one period.
+    the energy that the damping dissipates in one period.
     Outcomes: oscillates (Q > 1/2: the free motion oscillates), critical (Q = 1/2), creeps (Q < 1/2), depends (the
     symbols leave open whether Q > 1/2).
     Errors: the equation is not linear with constant coefficients, or has no damping or no restoring force.

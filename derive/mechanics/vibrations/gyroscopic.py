@@ -311,8 +311,8 @@ def _outcome(column: Sequence[Expr], root: CharacteristicRoot) -> str:
 def linear_stability(
     linear: Sequence[Quantity], letter: Expr | None = None, key: str = "stability"
 ) -> Quantity | tuple[Quantity, ...]:
-    """Stability of an equilibrium with gyroscopic forces: the potential energy has a minimum, or all omega^2 are real,
-    positive and distinct.
+    """Stability of an equilibrium with gyroscopic forces. The equilibrium is stable if the potential energy has a
+    minimum, or if all omega^2 are real, positive and distinct.
 
     linear   all equations of the system, as `linearised` yields them
     letter   the symbol that a condition is solved for, if possible; by default the symbol that occurs as a square, if

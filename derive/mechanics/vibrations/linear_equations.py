@@ -32,7 +32,7 @@ class Equations(Generic[Kind]):
     block     the indices of the coordinates of the group
     letter    the symbol of the unknown in the characteristic equation
     start     the beginning of all keys
-    before    the count of the modes of other coordinates that come first in the numbering
+    before    the number of modes of other coordinates; these modes come first in the numbering
     number    the end of the key of the characteristic equation
     """
 

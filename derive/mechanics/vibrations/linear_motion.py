@@ -107,7 +107,8 @@ def solution(
     case         `underdamped`, `critically_damped` or `overdamped`, if the symbols leave the case open
 
     The steps that lead to the motion are the characteristic equation, its roots and the general motion with two
-    constants; for an oscillation without damping, only the general motion.
+    constants; for an oscillation without damping, only the general motion. An equation of first order or with c = 0 has
+    no such steps.
     Second route: the trial e^(s t) is substituted into the equation, which gives the characteristic equation. Check:
     the motion is substituted back into the equation, and has the given value and rate at t = 0.
     Outcomes: oscillates (without damping), underdamped, critically_damped, overdamped, runs_away (a free motion grows,
@@ -184,7 +185,7 @@ def _by_powers(motion: Expr) -> Expr:
 
 
 def free_motion(linear: LinearCoefficients, first: Expr, initial: Expr, case: str | None) -> Expr:
-    """Return the free motion with the given initial value and rate; the step assumes the condition of the case."""
+    """Return the free motion with the given initial value and rate, and assume the condition of the case, if any."""
     sort, condition = _sort(linear, case, None)
     if condition is not None:
         assume(condition)
@@ -262,7 +263,7 @@ def _sort(linear: LinearCoefficients, case: str | None, equation: Quantity | Non
             message = f"{key}: the damping is negative, so the oscillation grows, and no case of `solution` applies"
             raise Rejected(Complaint("open-case", message, help="check the sign of the damping"))
         return "runs_away", None
-    if (known or case) == "critically_damped" and not is_zero(linear.discriminant):  # zero by given numbers only
+    if (known or case) == "critically_damped" and not is_zero(linear.discriminant):  # zero for the given numbers only
         message = f"{key} is critically damped only if {linear.discriminant} = 0"
         raise Rejected(Complaint("open-case", message, help="substitute this condition first, with `put_in`"))
     if known is not None:

@@ -80,8 +80,8 @@ def normal_modes(linear: Sequence[Quantity], symbol: str | None = None, key: str
     For a shape: in_phase, opposite, alone (the other coordinate is at rest), generic, uniform (free motion), departing
     (growing), any_of_several (repeated).
     With drag: the characteristic equation has the outcome several (several coordinates) or one (one coordinate).
-    Errors: the roots have no closed form, and numbers do not help; with drag the modes do not separate; there are too
-    many coordinates or too many symbols.
+    Errors: an equation is missing; a driving force acts; the roots have no closed form, and numbers do not help; with
+    drag the modes do not separate; there are too many coordinates or too many symbols.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 6.2 and 6.3.
     """
     together = together_for("normal_modes", linear)
@@ -437,7 +437,7 @@ BEATS = Rule(
 def beats(slow: Quantity, fast: Quantity, symbol: str = "omega_beat", key: str = "beats") -> Quantity:
     """Frequency of the beats of two oscillations of the same amplitude, omega_beat = omega_2 - omega_1.
 
-    slow, fast   the angular frequencies of two modes, 1/s; in any order if the symbols determine the greater one
+    slow, fast   the angular frequencies of two modes, 1/s; in any order if it is known which is greater
 
     The sum of the oscillations is cos(omega_1 t) + cos(omega_2 t) = 2 cos((omega_2 - omega_1) t/2)
     cos((omega_1 + omega_2) t/2). The amplitude of this product rises and falls with the frequency omega_2 - omega_1.
