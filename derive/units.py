@@ -116,7 +116,8 @@ def read_unit(text: str, place: Place | None = None) -> Unit:
 
 @dataclass(frozen=True)
 class Misfit:
-    """The reason why a unit does not measure a quantity: an error code, the end of the message, and a help line."""
+    """The reason why a unit does not measure a quantity: an error code, the end of the message, and perhaps a help
+    line."""
 
     code: str
     why: str

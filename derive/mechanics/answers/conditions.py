@@ -73,7 +73,7 @@ def where(
 
     of        a scalar, any unit
     mark      the comparison sign: one of =, !=, <, >, <=, >=
-    bound     the bound, of the same unit; 0, or another quantity
+    bound     the bound, of the same unit: an expression such as 0, or another quantity
     letter    the unknown: a letter, a rate, or an expression such as `cos(theta)`. Apart from positive factors,
               quantity minus bound must be linear in the unknown or in its square. For a sum or product such as 2b, the
               relation is solved for one of the letters in it

@@ -106,9 +106,8 @@ def limiting_case(
     solved = _solved_for(of)
     if isinstance(of.value, Relation) and solved is None:
         if symbol is not None:
-            raise Rejected(
-                Complaint("wrong-argument", f"`{of.key}` is an equation, so its limit has no symbol of its own")
-            )
+            message = f"`{of.key}` is a relation that is not solved for a letter, so its limit has no symbol of its own"
+            raise Rejected(Complaint("wrong-argument", message))
         return equation_in_limit(of, letter, to, order, key)
     value = explicit(of.value.right if solved is not None else of.value)
     name = _name(of) if solved is None else solved
@@ -261,8 +260,8 @@ def _energy_by_terms(found: Any, value: Any, of: Quantity) -> Any:
 
 
 def _as_written(value: Expr, x: Symbol, place: Expr) -> Expr:
-    """Write a product with a polynomial in ascending powers, with the leading term as a factor: 2 pi sqrt(l/g) (1 +
-    A^2/16). Return any other value unchanged."""
+    """Write a polynomial in x in ascending powers, with the leading term as a factor: 2 pi sqrt(l/g) (1 + A^2/16).
+    Return a sum, and any other value, unchanged."""
     if place != 0 or x not in value.free_symbols or value.is_Add or not value.is_polynomial(x):
         return value
     try:

@@ -215,7 +215,9 @@ class Impact:
         letters = [m.letter for m in self.meetings]
         if len(set(letters)) < len(letters):
             message = "two impulses of this impact have the same symbol"
-            raise Rejected(Complaint("letter-clash", message, help="give each impulse a symbol, `impulse: K_2`"))
+            raise Rejected(
+                Complaint("letter-clash", message, help="give each impulse a different symbol, such as `impulse: K_2`")
+            )
 
     def _check_material_points(self, acts: Sequence[Impulse | Collision]) -> None:
         """If no body is stated for an impulse or for an end of a collision, require that the place is at rest, or moves
@@ -338,7 +340,11 @@ class Impact:
         as_given = tuple(c / size for c in as_given)
         one = self._meeting(gap, act.restitution, act.letter, what, (start, end, as_given), act.given[1])
         if one is None:
-            raise Rejected(Complaint("nothing-happens", "nothing moves along the normal of this collision"))
+            raise Rejected(
+                Complaint(
+                    "nothing-happens", "the two places of this collision have no relative motion along its normal"
+                )
+            )
         if not self.impulses:
             self._check_approach(-self.earlier(TimeRate(gap, *self.moving)))
         return [one]

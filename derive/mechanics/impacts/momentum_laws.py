@@ -265,7 +265,8 @@ def _velocity(body: Alone) -> Vector:
 
 
 def _by_lagrange(found: Relation, impact: Impact, balance: Balance) -> tuple[Expr, Expr]:
-    """Return the law, and the sum of the jumps of the momenta p = dT/dq_dot that must equal it."""
+    """Return the difference of the sides of the law, and the equal sum over the coordinates: the change of a coordinate
+    times the difference of the sides of Lagrange's equation, integrated over the impact."""
     with unrecorded():
         kinetic, kinds = kinetic_energy_of(impact.system), impact.system.coordinates
         of = {s: momentum_jump(impact, kinetic, Coordinate(s, kinds[s])) for s in balance.changes}

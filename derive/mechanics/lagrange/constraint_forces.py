@@ -112,7 +112,7 @@ class _Problem:
         return found
 
     def _is_in_forces(self, q: Symbol) -> bool:
-        """Whether the derivative of the Lagrangian by q contains a coordinate or a rate."""
+        """Whether the derivative of the Lagrangian with respect to q contains a coordinate or a rate."""
         slope = derivative(explicit(self.lagrangian.value), q)
         return not slope.free_symbols.isdisjoint([*self.moving, *map(rate, self.moving)])
 
@@ -198,7 +198,7 @@ def multipliers(*equations: Quantity, keeping: Sequence[Coordinate] = ()) -> tup
             Complaint(
                 "wrong-argument",
                 message,
-                help=Spelled("add `constraint(f, force=...)`", "write it under `constraints`"),
+                help=Spelled("add `constraint(f, force=...)`", "write a constraint and its force under `constraints`"),
             )
         )
     return _steps(problem, [each.force for each in problem.constraints])

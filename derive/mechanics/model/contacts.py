@@ -256,7 +256,7 @@ def _contact(of: Any, on: Any) -> Contact:
     surface = on if isinstance(on, Surface) else _surface_of(on)
     at, body = end_of(of) if is_end(of) else (None, None)
     if at is None or body is None and (surface.of is None or coordinates_in(ImmutableDenseMatrix(at.components))):
-        message = "`contact` needs a particle, a round body or a point of a body"
+        message = "`contact` needs a particle, a round body, a point of a body, or a fixed place on a carried surface"
         help_line = Spelled('give a point of the body: `rod.place_of("end")`', "give a point of the body: `rod.end`")
         raise Rejected(Complaint("wrong-argument", message, help=help_line))
     if isinstance(of, PlacedBody):
@@ -435,7 +435,7 @@ def _way_of_slip(slip: Location) -> Location:
 
 
 def _check_rubbing(touch: Contact, along: Location, is_free: bool) -> None:
-    """Check that the velocity of slip has the direction of the given unit vector."""
+    """Check that the velocity of slip is parallel to the given unit vector and, if `is_free`, has its direction."""
     rubbing = Location(tuple(velocity_of_particle(touch.of, touch.at, touch.surface.ground, touch.foot)))
     rubbing = rubbing - dot(touch.normal, rubbing) * touch.normal
     speed = tidied(dot(along, rubbing))

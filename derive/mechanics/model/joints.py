@@ -72,6 +72,7 @@ def pin(of: Any, to: Any, force: str = "R") -> tuple[Pin | Constraint, ...]:
 
 def weld(of: Any, to: Any, force: str = "R", torque: str = "C") -> tuple[Pin | Constraint, ...]:
     """A rigid joint of two bodies in a plane: a hinge, with a couple that keeps the angle between the bodies constant.
+
     of, to   points of bodies, as for `pin`
     force    the symbol of the force on `of`, as for `pin`
     torque   the symbol of the couple on `of`, N m

@@ -251,7 +251,7 @@ def _check_rope(line: Any, particle: Any, tension: str) -> None:
     """Require each piece of a rope to move along itself, with the speed of the particle that has the mass of the
     rope."""
     if not hasattr(particle, "mass") or not is_end(particle):
-        raise Rejected(Complaint("wrong-argument", "`mass_of` names the particle that has the mass of the rope"))
+        raise Rejected(Complaint("wrong-argument", "`mass_of` must be the particle that has the mass of the rope"))
     if tension:
         message = f"the tension of a rope with mass is not the same everywhere, so `{tension}` does not appear"
         raise Rejected(Complaint("not-an-unknown", message, help="leave out `tension`"))
@@ -264,8 +264,8 @@ def _check_rope(line: Any, particle: Any, tension: str) -> None:
         message = "the speed of the rope differs from the speed of the particle that has its mass"
         raise Rejected(Complaint("which-body", message, help="put the particle at an end of the rope"))
     if not is_zero(own.components[-1]):
-        message = "the particle that has the mass of the rope moves up or down, but its weight is not the rope's"
-        help_line = "put the particle at a constant height; gravity acts on each piece of the rope"
+        message = "the particle that has the mass of the rope must stay at a constant height, but it moves up or down"
+        help_line = "put the particle at an end of constant height; gravity acts on each piece of the rope"
         raise Rejected(Complaint("which-body", message, help=help_line))
 
 
@@ -457,7 +457,8 @@ def wound_string(end: Any, on: Any, tension: str = "T", over: Sequence[Any] = ()
         message = "`wound_string` needs, in a plane, an end and one round body, or no end and two round bodies"
         raise Rejected(Complaint("wrong-argument", message))
     if not all(is_end(each) or isinstance(each, Pulley) for each in other):
-        raise Rejected(Complaint("wrong-argument", "a string runs over pulleys or places, from a place or a body"))
+        message = "`end` and `over` of a `wound_string` must be particles, points of bodies, places or pulleys"
+        raise Rejected(Complaint("wrong-argument", message))
     wound = [Rim((), each.hub, radius_of(each), each) for each in rims]
     pieces = _pieces([*wound[1:], *other, wound[0]])
     require_bodies("wound_string", [end_of(each) for each in other if not isinstance(each, Pulley)])
