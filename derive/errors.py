@@ -165,8 +165,8 @@ def _most_slips(letters: int) -> int:
 
 
 def _slips(written: str, meant: str) -> int:
-    """Count the letters that are wrong, missing or too many; a name with the same letters in another order has one
-    slip."""
+    """Count the letters that are wrong, missing or too many; the same letters in another order count as one wrong
+    letter."""
     import difflib
 
     if sorted(written) == sorted(meant):

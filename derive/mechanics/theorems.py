@@ -59,7 +59,7 @@ def _of_multipliers(name: str, multiplier: Symbol, constraint: Symbol, along: An
     """Return the theorem about Lagrange's equation with constraints. The right side is one term of a sum over all
     constraints.
 
-    along     the coordinate or the rate by which the constraint is differentiated
+    along     the coordinate or the rate with respect to which the constraint is differentiated
     further   whether the phrase also names the force of a constraint between rates
     """
     letters = (("coordinate", q), ("multiplier", multiplier), ("constraint", constraint))

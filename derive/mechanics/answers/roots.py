@@ -1,4 +1,4 @@
-"""Roots of a polynomial equation in one letter: linear, quadratic, and of higher degree where it factors.
+"""Roots of a polynomial equation in one letter: linear, quadratic, or of higher degree if it factors.
 
 For a positive unknown only the roots that can be positive are kept. If a root is real or positive only for some values
 of the symbols, the page states the condition next to the root.
@@ -80,7 +80,7 @@ def roots(
                separate step follows for each root, the smaller in absolute value first. If there is a single root or no
                real root, the same step is returned for each key
     keys       keys of the steps; by default the letter, or theta_root for `cos(theta)`, with _1, _2 for several roots;
-               with `together`, this key with _1 and _2
+               with `together`, the value of `together` with _1 and _2
     key        the beginning of the default keys, in place of the letter
     symbols    the letters of the roots; by default the unknown, with _1, _2 for several roots of an unknown that is a
                letter

@@ -265,8 +265,8 @@ def _velocity(body: Alone) -> Vector:
 
 
 def _by_lagrange(found: Relation, impact: Impact, balance: Balance) -> tuple[Expr, Expr]:
-    """Return the difference of the sides of the law, and the equal sum over the coordinates: the change of a coordinate
-    times the difference of the sides of Lagrange's equation, integrated over the impact."""
+    """Return left minus right side of the law, and the same for Lagrange's equations, integrated over the impact, each
+    times the change of its coordinate, and added up."""
     with unrecorded():
         kinetic, kinds = kinetic_energy_of(impact.system), impact.system.coordinates
         of = {s: momentum_jump(impact, kinetic, Coordinate(s, kinds[s])) for s in balance.changes}

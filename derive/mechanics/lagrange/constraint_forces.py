@@ -144,7 +144,7 @@ def _problem(verb: str, equations: Sequence[Quantity], keeping: Sequence[Coordin
         message = f"`{verb}` needs one equation of motion for each coordinate, but {what}"
         raise Rejected(Complaint("wrong-argument", message, help=help_line))
     if len(problem.unknowns) > MOST:
-        message = f"`{verb}` solves for {MOST} accelerations and forces at most, but there are {len(problem.unknowns)}"
+        message = f"`{verb}` solves for at most {MOST} accelerations and forces, but there are {len(problem.unknowns)}"
         raise Rejected(Complaint("too-hard", message))
     return problem
 

@@ -225,9 +225,9 @@ def _check_moves_with_its_material(surface: Surface) -> None:
     if all(is_zero(tidied(c)) for c in moving):
         return
     who = "the rotating axes that are given for it" if surface.of is None else "the body that carries it"
-    what = "`along` or `normal` has components in space, which must turn with the axes or the body, as in "
+    what = "`along` or `normal` is a vector in space, which must turn with the axes or the body, as in "
     help_line = (
-        f"{what}`along: [cos(theta), sin(theta)]`; the place `through` must move with it"
+        f"{what}`along: [cos(theta), sin(theta)]`; the place `through` must move with them"
         if isinstance(surface, Plane)
         else "its centre must be a place that moves with the body, such as a point of the body"
     )

@@ -63,7 +63,7 @@ class Line(Connection):
     through   one end, the pulleys or holes in order, and the other end; each is a place, or a pulley with a radius
     is_rod    whether the line is a rod, which can push as well as pull
     rope      the particle whose mass is distributed along the line; None for a line without mass
-    drawn     the symbol of the tension in force diagrams, if the coordinates keep the length
+    drawn     the symbol of the tension in force diagrams, if the coordinates keep the length constant
     pieces    the straight pieces, in order, if there is such a symbol; otherwise empty
     """
 
@@ -227,8 +227,8 @@ def string(
     mass_of      for a uniform rope: the particle that has the mass of the rope. All pieces of the rope must have the
                  speed of the particle, so that (1/2) M v^2 of the particle is the kinetic energy of the rope. The
                  height of the particle must be constant; gravity acts on each piece of the rope
-    drawn_tension   the symbol of the tension in force diagrams, if the coordinates keep the length of the string, so
-                 that no equation contains the tension; for a rope with mass, the tension at its bends
+    drawn_tension   the symbol of the tension in force diagrams, if the coordinates keep the length of the string
+                 constant, so that no equation contains the tension; for a rope with mass, the tension at its bends
 
     The tension is the same everywhere in a string without mass. The string pulls each end along the string, and each
     pulley along the two adjacent pieces of the string.
@@ -317,7 +317,7 @@ def _of_length(verb: str, ends: Sequence[Any], length: Any, letter: str) -> tupl
         message = f"`{verb}` with a force also needs its length"
         raise Rejected(Complaint("missing-key", message, help="give its `length`"))
     if kept is not None:
-        message = f"the coordinates keep the length {kept}, so the force `{letter}` does not appear"
+        message = f"the coordinates keep the length {kept} constant, so the force `{letter}` does not appear"
         help_line = "leave out the force, or give the end a coordinate along the string, so that the length can change"
         raise Rejected(Complaint("not-an-unknown", message, help=help_line))
     require_bodies(verb, [pair for piece in pieces for pair in zip((piece.start, piece.end), piece.of, strict=True)])
@@ -441,7 +441,7 @@ def _require_kept(verb: str, kept: Expr | None, whole: Expr | None) -> None:
 def wound_string(end: Any, on: Any, tension: str = "T", over: Sequence[Any] = ()) -> tuple[Line, Constraint]:
     """A string from an end to a round body, on which the string is wound or over which it runs without slipping.
 
-    end      a particle, a point of a body, or a place in space; None if the string is wound on two bodies
+    end      a particle, a point of a body, or a place without coordinates; None if the string is wound on two bodies
     on       a round body in a plane: a yo-yo, or a pulley with a moment of inertia; or two such bodies. The piece of
              string at a rim is horizontal or vertical
     tension  the symbol of the tension, N; positive if the string pulls

@@ -347,7 +347,7 @@ class System:
         for part in self.parts:
             for q in coordinates_in(ImmutableDenseMatrix(part.acts_by)):
                 if q not in self.coordinates:
-                    message = f"a force or constraint of this `System` depends on {q.name}, which no place depends on"
+                    message = f"a force or constraint of this `System` depends on {q.name}, but no place depends on it"
                     raise Rejected(Complaint("wrong-argument", message))
 
     @property
