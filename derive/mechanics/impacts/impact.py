@@ -231,7 +231,8 @@ class Impact:
                 asked += [(act, at.components) for at, of in ends if at is not None and of is None]
         for i in places_that_move_alone(self.system.described.description, [place for _, place in asked]):
             act, place = asked[i]
-            message = f"an impulse at ({', '.join(map(str, place))}) acts on no particle: the place moves with no body"
+            where = ", ".join(map(str, place))
+            message = f"an impulse at ({where}) acts on no particle: no body or particle moves with this place"
             help_line = "name the body on which the impulse acts, `of: rod`; for a collision both, `of: [ball, rod]`"
             raise WrongPart.of(act, Complaint("which-body", message, help=help_line))
 

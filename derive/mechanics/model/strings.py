@@ -48,7 +48,7 @@ class Pulley(Connection):
 
 @dataclass(frozen=True)
 class Rim(Pulley):
-    """The rim of a round body, which a string turns.
+    """The rim of a round body that a string turns.
 
     of   the body
     """
