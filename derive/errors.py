@@ -49,7 +49,7 @@ class Spelled(str):
 
 @dataclass(frozen=True)
 class Complaint:
-    """One error: a stable code, a message that can be read alone, a place, notes, and at most one help line.
+    """One error or warning: a stable code, a message that can be read alone, a place, notes, and at most one help line.
 
     argument   the wrong argument of a verb: in a file that calls the verb, the error is shown at this argument's key
     """
@@ -161,12 +161,12 @@ def nearest(name: str, candidates: Iterable[str]) -> str | None:
 
 
 def _most_slips(letters: int) -> int:
-    return max(letters // 3, int(letters > 1))  # one letter of `kgs` may be wrong, since `kg` may be meant
+    return max(letters // 3, int(letters > 1))  # `kgs` may mean `kg`, a name of two letters
 
 
 def _slips(written: str, meant: str) -> int:
-    """Count the letters that are wrong, missing or too many; a name with the same letters in another order has one
-    slip."""
+    """Count the letters that are wrong, missing or too many; the same letters in another order count as one wrong
+    letter."""
     import difflib
 
     if sorted(written) == sorted(meant):

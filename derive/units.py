@@ -116,7 +116,8 @@ def read_unit(text: str, place: Place | None = None) -> Unit:
 
 @dataclass(frozen=True)
 class Misfit:
-    """The reason why a unit does not measure a quantity: an error code, the end of the message, and a help line."""
+    """The reason why a unit does not measure a quantity: an error code, the end of the message, and perhaps a help
+    line."""
 
     code: str
     why: str
@@ -138,7 +139,7 @@ def misfit(unit: Unit, kind: str | None, dimension: Dimension) -> Misfit | None:
             f"write `{turns}` for turns, `{radians}` for radians",
         )
     if kind is None and (unit.angles or "Hz" in unit.names):
-        why = f"has no kind, so it is not known to be measured in `{unit.text}`"
+        why = f"has no kind, so `{unit.text}` may not be its unit"
         return Misfit("wrong-unit", why, "give it a `kind=` in the script")
     if unit.angles not in about_kind(kind).angles:
         return Misfit("wrong-unit", f"is {is_a}, which is not measured in `{unit.text}`")

@@ -56,9 +56,10 @@ ROTATING_AXES = Theorem(
 
 
 def _of_multipliers(name: str, multiplier: Symbol, constraint: Symbol, along: Any, further: bool = False) -> Theorem:
-    """Return the theorem about Lagrange's equation with constraints; the right side is summed over all constraints.
+    """Return the theorem about Lagrange's equation with constraints. The right side is one term of a sum over all
+    constraints.
 
-    along     the coordinate or the rate by which the constraint is differentiated
+    along     the coordinate or the rate with respect to which the constraint is differentiated
     further   whether the phrase also names the force of a constraint between rates
     """
     letters = (("coordinate", q), ("multiplier", multiplier), ("constraint", constraint))

@@ -289,9 +289,9 @@ def test_an_equation_of_motion_at_rest() -> None:
     ("wrong", "said"),
     [
         (lambda x, f: put_in(f, y=0), "does not contain y"),
-        (lambda x, f: put_in(f, x=0.5), "must be an expression"),
+        (lambda x, f: put_in(f, x=0.5), "must be an exact expression"),
         (lambda x, f: put_in(f, given(h, "other", symbol="zeta")), "substituting `other` would not change `f`"),
-        (lambda x, f: put_in(f, equation(x.symbol + x.rate, h)), "does not have a single letter"),
+        (lambda x, f: put_in(f, equation(x.symbol + x.rate, h)), "is not solved for a letter"),
         (lambda x, f: put_in(f, let("c", lambda: Relation(x.symbol, "<", h))), "is not an equation for a letter"),
         (lambda x, f: put_in(equation(x.symbol, h), {x: 2 * h}), "cannot hold"),
     ],

@@ -457,7 +457,7 @@ SLIDING = ("normal: N}", "normal: N, friction: {sliding: mu, direction: right}}"
         ([("x**2/(2*b)", "x**2/(2*b) + y/7")], "contains y, but a curve has a constant shape"),
         ([("x**2/(2*b)}", "x**2/(2*b), side: inside}")], "no side `inside`"),
         ([("x**2/(2*b)}", "x**2/(2*b), radius: b}")], "`radius` does not belong to a curve"),
-        ([("x**2/(2*b)}", "x**2/(2*b), velocity: [V, 0]}")], "a curve moves with the place `through`"),
+        ([("x**2/(2*b)}", "x**2/(2*b), velocity: [V, 0]}")], "a curve needs a plane of motion; it moves only"),
         ([("x**2/(2*b)}", "x**2/(2*b), through: [y, 0]}")], "moves with y, but no body carries it"),
         ([("at: [x, y]", "at: [x, x**2/(2*b)]")], "keep the body on the surface"),
         ([("x**2/(2*b)}", "x**2/(2*b), side: both}"), SLIDING], "may have either sign"),

@@ -177,7 +177,7 @@ def test_questions_about_impacts_that_do_not_fit() -> None:
         (lambda: Impact(system, collision(bullet, hit, (1, 0), 1), at={x: 0, theta: 0}, before={x: -v}), "move apart"),
         (
             lambda: Impact(system, collision(bullet, hit, (0, 1), 1), at={x: 0, theta: 0}, before={x: v}),
-            "nothing moves",
+            "no relative motion along its normal",
         ),
         (lambda: Impact(system, impulse((J, 0), hit), at={coordinate("z"): 0}), "nothing in this `Impact` moves"),
         (lambda: collision(bullet, hit, (), 1), "needs its normal"),

@@ -404,8 +404,9 @@ def slope_vanishes_by(facts: Judged, letter: Any) -> bool:
 
 def names_put_in(facts: Judged, value: Any) -> bool:
     """Whether the value is an equation whose left side has no minus sign, and the substitution of all stated values in
-    the original gives the result or an equivalent equation. The substitution is not compared if it also changes rates,
-    or if results are substituted too. For a rate with the opposite sign, `turned_first` judges the sign."""
+    the original gives the result or an equivalent equation. The result is not compared if other results are
+    substituted too, if rates are replaced too, if an expression such as cos(theta) is replaced, or if a value contains
+    a replaced symbol. For a rate with the opposite sign, `turned_first` judges the sign."""
     told = {v.left: v.right for role, v in facts.inputs.items() if role.rpartition("_")[0] == "value"}
     others = [role for role in facts.quantities if role.rpartition("_")[0] == "other"]
     if value.operator != "=" or value.left.could_extract_minus_sign():
@@ -509,7 +510,9 @@ def as_asked(facts: Judged, outcome: str) -> bool:
 
 
 def word_of_its_mark(facts: Judged, outcome: str) -> bool:
-    """Whether the word fits the comparison sign of the first line, such as "at most" for <=."""
+    """Whether the word fits the comparison sign of the first line, such as "at most" for <=, and quantity minus bound
+    is the solved difference. The sentence may call the quantity a radicand only if it is a
+    discriminant."""
     difference = explicit(facts.inputs["quantity"]) - explicit(facts.inputs["bound"])
     mark = str(facts.inputs["mark"])
     right_word = MARK_OF.get(facts.words["comparison"]) == mark

@@ -73,18 +73,18 @@ def where(
 
     of        a scalar, any unit
     mark      the comparison sign: one of =, !=, <, >, <=, >=
-    bound     the bound, of the same unit; 0, or another quantity
+    bound     the bound, of the same unit: an expression such as 0, or another quantity
     letter    the unknown: a letter, a rate, or an expression such as `cos(theta)`. Apart from positive factors,
               quantity minus bound must be linear in the unknown or in its square. For a sum or product such as 2b, the
               relation is solved for one of the letters in it
-    through   a pair: the same condition in other letters, for an intermediate line; the results that these letters
-              denote
+    through   a pair: the same condition in other letters, for an intermediate line, and the results that these
+              letters denote
     for_real  whether the quantity is a discriminant and the condition is for real roots
 
     Check: quantity minus bound is zero if the unknown equals the right side of the solved relation. If the sign of this
     difference is known for a greater unknown, it agrees with the comparison sign. If the original and the solved
-    relation differ by a factor of unknown sign, also random points: at each point both relations are true, or both are
-    false. A relation that holds for all values of the letters is tested at random points only.
+    relation differ by a factor of unknown sign, they are also compared at random points: at each point both relations
+    are true, or both are false. A relation that holds for all values of the letters is tested at random points only.
     A divisor of both sides of an equation must not vanish: the page states this condition if it is not known to hold.
     The sign of a divisor of an inequality must be known from the letters, their ranges or their numbers.
     Outcomes: solved, squared (solved for the square of the letter only); for all values of the letters: always, never,

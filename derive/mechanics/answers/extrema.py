@@ -53,9 +53,9 @@ def maximum(of: Quantity, letter: Letter, within: Ends = None, key: str = "maxim
     Check: the slope vanishes at the place; numerically, no value at other places is greater (less, for a minimum).
     Outcomes: greatest, or least for `minimum`; a condition follows if the extremum exists only for some values of the
     letters.
-    Errors: the result is not a value that depends on the letter; no place with zero slope has the required sign of the
-    curvature, or several places do and none is preferred; the places with zero slope have no closed form; the place is
-    at a time before the start.
+    Errors: the result is not a value that depends on the letter; no place with zero slope can be the extremum, or
+    several can and none is preferred; the places with zero slope have no closed form; the place is at a time before the
+    start.
     Source: Boas, *Mathematical Methods in the Physical Sciences*, section 4.8.
     """
     return _extremum(of, letter, within, key, "maximum", -1)
@@ -171,7 +171,7 @@ def _letter_of(of: Quantity) -> str | None:
 def _not_one(of: Quantity, x: Symbol, verb: str, count: int, elsewhere: bool) -> Rejected:
     """Return the error for no suitable place, or for more than one."""
     many = "no place" if not count else f"{count} places"
-    message = f"`{verb}`: `{of.key}` has {many} with zero slope and the curvature of a {verb}"
+    message = f"`{verb}`: `{of.key}` has {many} with zero slope where a {verb} is possible"
     help_line: str = Spelled("give the interval with `within=(..., ...)`", "give the interval, `within: [0, pi/2]`")
     if not count and elsewhere:
         message = f"`{verb}`: `{of.key}` is not stationary for any allowed {x.name}"

@@ -40,7 +40,7 @@ from derive.steps.subject import EVERYTHING
 
 __all__ = ["case_in_letters", "known_case", "limiting_case"]
 
-# Number of points to try; a number for infinity; a small relative step.
+# Number of points to try; a number in place of infinity; a small relative step.
 MANY, FAR, NEAR = 200, Integer(10) ** 40, Rational(1, 10**12)
 BORDERS = {"=": "", ">=": "min", "<=": "max"}  # comparison sign -> index of the bound: x_min for x >= f
 
@@ -84,7 +84,7 @@ def limiting_case(
 
     of       a scalar, a vector or a tensor, any unit. For an equation, or an inequality with >= or <=, that is solved
              for a letter, the limit of the right side is found. Any other equation is expanded by `equation_in_limit`
-    letter   the letter that goes to the limit, or a ratio such as h/R, whose first letter goes to the limit
+    letter   the letter that goes to the limit, or a ratio such as h/R that goes to the limit because h changes
     to       the limit: 0 for a small letter, SymPy's `oo` or `-oo` for a large letter, otherwise the value that it is
              near
     order    the highest power of the small quantity that is kept; by default only the leading term
@@ -106,9 +106,8 @@ def limiting_case(
     solved = _solved_for(of)
     if isinstance(of.value, Relation) and solved is None:
         if symbol is not None:
-            raise Rejected(
-                Complaint("wrong-argument", f"`{of.key}` is an equation, so its limit has no symbol of its own")
-            )
+            message = f"`{of.key}` is a relation that is not solved for a letter, so its limit has no symbol of its own"
+            raise Rejected(Complaint("wrong-argument", message))
         return equation_in_limit(of, letter, to, order, key)
     value = explicit(of.value.right if solved is not None else of.value)
     name = _name(of) if solved is None else solved
@@ -253,7 +252,7 @@ def _last_line(found: Any, series: Sequence[Series], x: Symbol, place: Expr, exa
 
 
 def _energy_by_terms(found: Any, value: Any, of: Quantity) -> Any:
-    """Write the limit of an energy as a sum of its terms, as the energy itself: m l^2 theta_dot^2/2 - m g l cos(theta).
+    """Write the limit of an energy as a sum of terms, like the energy itself: m l^2 theta_dot^2/2 - m g l cos(theta).
     A sum is treated as an energy if its limit contains the square of a rate."""
     if isinstance(found, Expr) and value.is_Add and any(found.has(rate(q) ** 2) for q in of.coordinates):
         return by_terms(found.expand())
@@ -261,8 +260,8 @@ def _energy_by_terms(found: Any, value: Any, of: Quantity) -> Any:
 
 
 def _as_written(value: Expr, x: Symbol, place: Expr) -> Expr:
-    """Write a product with a polynomial in ascending powers, with the leading term as a factor: 2 pi sqrt(l/g) (1 +
-    A^2/16). Return any other value unchanged."""
+    """Write a polynomial in x in ascending powers, with the leading term as a factor: 2 pi sqrt(l/g) (1 + A^2/16).
+    Return a sum, and any other value, unchanged."""
     if place != 0 or x not in value.free_symbols or value.is_Add or not value.is_polynomial(x):
         return value
     try:

@@ -1,4 +1,4 @@
-"""Roots of a polynomial equation in one letter: linear, quadratic, and of higher degree where it factors.
+"""Roots of a polynomial equation in one letter: linear, quadratic, or of higher degree if it factors.
 
 For a positive unknown only the roots that can be positive are kept. If a root is real or positive only for some values
 of the symbols, the page states the condition next to the root.
@@ -80,7 +80,7 @@ def roots(
                separate step follows for each root, the smaller in absolute value first. If there is a single root or no
                real root, the same step is returned for each key
     keys       keys of the steps; by default the letter, or theta_root for `cos(theta)`, with _1, _2 for several roots;
-               with `together`, this key with _1 and _2
+               with `together`, the value of `together` with _1 and _2
     key        the beginning of the default keys, in place of the letter
     symbols    the letters of the roots; by default the unknown, with _1, _2 for several roots of an unknown that is a
                letter
@@ -93,7 +93,7 @@ def roots(
     several (the first of several roots), following (a later root), none (no root is real), none_positive, none_reached
     (a sine or a cosine would be greater than 1 or less than -1); for both roots in one formula: two, none, double,
     conditional (the sign of b^2 - 4 a c depends on the symbols), opposite (one of each sign), linear.
-    Errors: the equation is not a polynomial in the letter, or it has a factor of a degree above two;
+    Errors: the equation is not a polynomial in the letter, or has a factor of a degree above two that cannot be split;
     no root is in the range of the unknown.
     Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1 and 3.8.2.
     """
@@ -365,7 +365,8 @@ def _not_doubled(polynomial: Poly) -> list[tuple[Poly, int]]:
 
 
 def _condition(root: RootOf, unknown: Expr) -> Relation | None:
-    """Return the condition for the root to be real or, if a positive root is required, to be positive."""
+    """Return the condition for the root to be real or, if a positive root is required, to be positive; None if
+    no condition is needed."""
     if len(root.coefficients) == 3 and sign_known(root.discriminant) is None and not _sum_of_squares(root):
         _, b, c = root.coefficients
         # If b is 0, the discriminant -4 a c vanishes only if a or c is 0; if c is 0, the root is 0.

@@ -232,7 +232,7 @@ def _replacements(quantity: Quantity, of: Quantity) -> list[Replacement]:
     except Rejected:
         target = None
     if target is None or left_over(value, target):
-        message = f"`put_in`: `{quantity.key}` does not have a single letter on its left side"
+        message = f"`put_in`: `{quantity.key}` is not solved for a letter"
         raise Rejected(
             Complaint(
                 "wrong-argument",
@@ -307,7 +307,7 @@ def _plain(of: Quantity, target: Expr, at: Any) -> Expr:
     if isinstance(at, int) and not isinstance(at, bool):
         return Integer(at)
     if not isinstance(at, Expr) or at.is_Float:
-        message = f"`put_in`: the value of {target} must be an expression"
+        message = f"`put_in`: the value of {target} must be an exact expression"
         raise Rejected(
             Complaint(
                 "wrong-argument",

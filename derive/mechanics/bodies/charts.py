@@ -134,7 +134,7 @@ class Chart:
 
 
 def _solved(slopes: Sequence[Sequence[float]], left: Sequence[float]) -> list[float] | None:
-    """The Newton step by least squares: Cramer's rule for the normal equations."""
+    """The Newton step by least squares: Cramer's rule for the normal equations; None if these are singular."""
     count = len(slopes[0])
     normal = [[sum(row[i] * row[j] for row in slopes) for j in range(count)] for i in range(count)]
     right = [sum(row[i] * x for row, x in zip(slopes, left, strict=True)) for i in range(count)]

@@ -155,7 +155,7 @@ def from_moments(
                    about the origin
 
     A Cholesky decomposition gives S = sum of D_k l_k l_k^T. For each k, a pair of particles with the total mass D_k/L^2
-    is at +-L l_k, where L^2 is the trace of S divided by the mass.
+    is at +-L l_k, where L^2 is the trace of S divided by the mass. The rest of the mass is at the centre of mass.
     Source: Routh, *Elementary Rigid Dynamics*, chapter 1.
     """
     left = Matrix(second) if second is not None else Matrix.diag(*about_origin) - mass * centre * centre.T

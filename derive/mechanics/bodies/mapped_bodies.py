@@ -232,7 +232,8 @@ def _check_map(name: str, count: int, position: Any, limits: Any, mass: Any, den
     if not all(isinstance(ends, tuple | list) and len(ends) == 2 for ends in limits.values()):
         raise Rejected(Complaint("wrong-argument", f"each variable of `{name}` needs a lower and an upper limit"))
     if len(position) not in ({3} if count == 3 else {2, 3}):
-        raise Rejected(Complaint("wrong-argument", f"`{name}` needs a place as (x, y, z)"))
+        components = "three" if count == 3 else "two or three"
+        raise Rejected(Complaint("wrong-argument", f"`{name}` needs a position with {components} components"))
     if mass is None and density is None:
         raise Rejected(Complaint("no-mass", f"`{name}` needs a mass or a density", help="add `mass=` or `density=`"))
 

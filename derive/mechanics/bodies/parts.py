@@ -21,7 +21,7 @@ NO_TURN = ImmutableDenseMatrix(eye(3))
 class PlacedPart:
     """A body as a part of a larger body.
 
-    body       the body that is a part
+    body       the part, as a body of its own
     of         the point of the part that stays fixed when the part is rotated
     position   the place of this point, in the axes of the larger body
     turn       rotation matrix; its columns are the axes of the part, by components along the axes of the larger body

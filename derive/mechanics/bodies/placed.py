@@ -50,7 +50,7 @@ class PlacedBody:
     def with_rim(self, centre: Location, radius: Expr) -> PlacedBody:
         """Return the body with the circle that bounds it; the centre of the circle must be fixed in the body."""
         if not self.is_plane:
-            raise Rejected(Complaint("wrong-argument", "a body can have a `rim` only in a plane of motion"))
+            raise Rejected(Complaint("wrong-argument", "a body can have a `rim` only if it moves in a plane"))
         x, y = (centre - self.at).components
         c, s = cos(self.turned), sin(self.turned)
         own = ImmutableDenseMatrix([tidied(x * c + y * s), tidied(y * c - x * s)])

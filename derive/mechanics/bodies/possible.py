@@ -97,7 +97,7 @@ SHARED = {"volume": "a volume", "area": "an area", "length": "a length"}  # what
 
 def check_parts(parts: Sequence[Any]) -> None:
     """Reject parts that no body can have: a hole that is not inside the body, holes that leave nothing of the body, and
-    a particle as a hole. Two holes, or two parts, must also not share a volume, an area or a length."""
+    a particle as a hole. Two holes, or two parts, must not share a volume, an area or a length either."""
     for part in parts:
         if part.sign < 0 and not hasattr(part.body, "parts") and not part.body.map()[1]:
             message = "a particle cannot be cut out of a body"

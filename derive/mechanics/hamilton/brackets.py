@@ -70,7 +70,7 @@ def poisson_bracket(
     {u(f), g}.
     Outcomes: conserved (g is the Hamiltonian, f does not contain the time and {f, g} = 0), zero ({f, g} = 0 in any
     other case), generic.
-    Errors: the coordinates are not given; f or g contains a rate.
+    Errors: the coordinates are not given; f or g is not a scalar, or contains a rate.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 9.5.
     """
     known = [of.needed(PhaseSpace) for of in (f, g) if isinstance(of, Quantity) and of.fact(PhaseSpace)]

@@ -47,9 +47,9 @@ def conserved(kind: str | None) -> Predicate:
 
 
 def seen_by_the_rest(constants: bool, driven: bool | None) -> Predicate:
-    """Judge whether the result uses constant momenta if and only if `constants` is true. If `driven` is
-    true, T must also differ from zero where all rates vanish, and the result must differ from U; if `driven` is false,
-    neither may differ."""
+    """Judge whether the result uses constant momenta if and only if `constants` is true. If `driven` is true, T must
+    also differ from zero where all rates vanish, and the result must differ from U. If `driven` is false, T must vanish
+    there, and the result must be U."""
 
     def is_so(facts: Judged) -> bool:
         kept = [role for role in facts.quantities if role.startswith("constant_")]

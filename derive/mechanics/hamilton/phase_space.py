@@ -129,7 +129,13 @@ def _solved(momenta_of: Mapping[Symbol, Expr], rates: Sequence[Symbol]) -> dict[
         below = tidied(part.det(method="berkowitz"))
         if below == 0:
             message = f"the momenta do not determine {names}"
-            raise Rejected(Complaint("singular", message, help="two coordinates describe the same motion"))
+            raise Rejected(
+                Complaint(
+                    "singular",
+                    message,
+                    help="perhaps two coordinates describe the same motion, or L does not contain a rate",
+                )
+            )
         above = part.adjugate() * wanted.extract(block, [0])
         solved = (by_one_square(tidied(explicit(top) / below)) for top in above)
         found.update(zip((rates[i] for i in block), solved, strict=True))

@@ -215,7 +215,9 @@ class Impact:
         letters = [m.letter for m in self.meetings]
         if len(set(letters)) < len(letters):
             message = "two impulses of this impact have the same symbol"
-            raise Rejected(Complaint("letter-clash", message, help="give each impulse a symbol, `impulse: K_2`"))
+            raise Rejected(
+                Complaint("letter-clash", message, help="give each impulse a different symbol, such as `impulse: K_2`")
+            )
 
     def _check_material_points(self, acts: Sequence[Impulse | Collision]) -> None:
         """If no body is stated for an impulse or for an end of a collision, require that the place is at rest, or moves
@@ -229,7 +231,8 @@ class Impact:
                 asked += [(act, at.components) for at, of in ends if at is not None and of is None]
         for i in places_that_move_alone(self.system.described.description, [place for _, place in asked]):
             act, place = asked[i]
-            message = f"an impulse at ({', '.join(map(str, place))}) acts on no particle: the place moves with no body"
+            where = ", ".join(map(str, place))
+            message = f"an impulse at ({where}) acts on no particle: no body or particle moves with this place"
             help_line = "name the body on which the impulse acts, `of: rod`; for a collision both, `of: [ball, rod]`"
             raise WrongPart.of(act, Complaint("which-body", message, help=help_line))
 
@@ -338,7 +341,11 @@ class Impact:
         as_given = tuple(c / size for c in as_given)
         one = self._meeting(gap, act.restitution, act.letter, what, (start, end, as_given), act.given[1])
         if one is None:
-            raise Rejected(Complaint("nothing-happens", "nothing moves along the normal of this collision"))
+            raise Rejected(
+                Complaint(
+                    "nothing-happens", "the two places of this collision have no relative motion along its normal"
+                )
+            )
         if not self.impulses:
             self._check_approach(-self.earlier(TimeRate(gap, *self.moving)))
         return [one]

@@ -219,7 +219,7 @@ def work_of_impulses(
     energy   the kinetic energy T just after the impact, J, from `energy_after`
     after    the rates just after the impact and the unknown impulses, from `rates_after`
 
-    Second route: the work of each impulse is J . (v + v_before)/2, where v is the velocity of its point of action.
+    Second route: the work of each impulse is J . (v + v_before)/2, where v is the velocity of its point of application.
     Outcomes: zero (T does not change), lost (T decreases), gained (T increases), generic (the sign is unknown).
     Source: Routh, *Dynamics of a System of Rigid Bodies*, elementary part, section 346.
     """
@@ -249,8 +249,8 @@ def work_of_impulses(
 
 
 def _impulses(impact: Impact, rates: Mapping[Symbol, Expr], wanted: Sequence[Symbol]) -> dict[Symbol, Expr]:
-    """Return the wanted impulses, which follow from the rates just after the impact by the momenta of the mass
-    points."""
+    """Return the wanted impulses: they follow from the momenta of the mass points just before and just after the
+    impact."""
     if not wanted:
         return {}
     matter, power = impact.system.matter, impact.power()

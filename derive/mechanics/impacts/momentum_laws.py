@@ -265,7 +265,8 @@ def _velocity(body: Alone) -> Vector:
 
 
 def _by_lagrange(found: Relation, impact: Impact, balance: Balance) -> tuple[Expr, Expr]:
-    """Return the law, and the sum of the jumps of the momenta p = dT/dq_dot that must equal it."""
+    """Return left minus right side of the law, and the same for Lagrange's equations, integrated over the impact, each
+    times the change of its coordinate, and added up."""
     with unrecorded():
         kinetic, kinds = kinetic_energy_of(impact.system), impact.system.coordinates
         of = {s: momentum_jump(impact, kinetic, Coordinate(s, kinds[s])) for s in balance.changes}

@@ -160,7 +160,8 @@ def letters_of(coordinates: Iterable[Coordinate]) -> dict[Symbol, str]:
 
 
 def kind_of_rate(kind: str) -> str:
-    """Return the kind of a rate: speed for a length, angular speed for an angle, torque for an angular momentum."""
+    """Return the kind of a rate: speed for a length, angular speed for an angle or a number, torque for an
+    angular momentum, and so on."""
     if kind in {"angle", "number", "angular momentum"}:
         return "torque" if kind == "angular momentum" else "angular speed"
     faster = kind_of_dimension(dimension_of_kind(kind) / dimension_of_kind("time"))

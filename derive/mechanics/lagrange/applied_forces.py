@@ -359,8 +359,8 @@ def _functions_told(constraints: Sequence[Constraint]) -> dict[str, tuple[Relati
     """Return the functions that vanish where the constraints hold, such as f_x = x - R sin(theta).
 
     The index of f is the index of a multiplier such as lambda_x, otherwise the number of the constraint; a single f has
-    no number. If the gradient of f does not have the length 1, the
-    multiplier of the force N is also stated, lambda = N/sqrt(1 + x^2/b^2).
+    no number. If the gradient of f does not have the length 1, the multiplier that belongs to the force N is also
+    stated, lambda = N/sqrt(1 + x^2/b^2).
     """
     found = {}
     for i, each in enumerate(constraints, 1):

@@ -204,7 +204,7 @@ def _rates_of(place: Any, system: Any) -> list[Expr]:
 
 def on_the_sides_that_are_assumed(facts: Judged) -> bool:
     """Whether the energy is not zero, and the page assumes u > 0 for each distance |u| that a step replaces by u.
-    The sentence must mention stretched springs exactly if such a distance is the length of a spring."""
+    The sentence must mention stretched springs if and only if such a distance is the length of a spring."""
     sides = [Relation(u, ">", 0) for u in facts.inputs["branches"]]
     of_springs = any(side in assumed_in_words() for side in sides)
     return lasts(facts) and set(sides) <= set(assumed()) and of_springs == (facts.words["seen"] == "stretched")

@@ -112,7 +112,7 @@ class _Problem:
         return found
 
     def _is_in_forces(self, q: Symbol) -> bool:
-        """Whether the derivative of the Lagrangian by q contains a coordinate or a rate."""
+        """Whether the derivative of the Lagrangian with respect to q contains a coordinate or a rate."""
         slope = derivative(explicit(self.lagrangian.value), q)
         return not slope.free_symbols.isdisjoint([*self.moving, *map(rate, self.moving)])
 
@@ -144,7 +144,7 @@ def _problem(verb: str, equations: Sequence[Quantity], keeping: Sequence[Coordin
         message = f"`{verb}` needs one equation of motion for each coordinate, but {what}"
         raise Rejected(Complaint("wrong-argument", message, help=help_line))
     if len(problem.unknowns) > MOST:
-        message = f"`{verb}` solves for {MOST} accelerations and forces at most, but there are {len(problem.unknowns)}"
+        message = f"`{verb}` solves for at most {MOST} accelerations and forces, but there are {len(problem.unknowns)}"
         raise Rejected(Complaint("too-hard", message))
     return problem
 
@@ -198,7 +198,7 @@ def multipliers(*equations: Quantity, keeping: Sequence[Coordinate] = ()) -> tup
             Complaint(
                 "wrong-argument",
                 message,
-                help=Spelled("add `constraint(f, force=...)`", "write it under `constraints`"),
+                help=Spelled("add `constraint(f, force=...)`", "write a constraint and its force under `constraints`"),
             )
         )
     return _steps(problem, [each.force for each in problem.constraints])

@@ -73,7 +73,9 @@ def _check_particles(system: WithParts) -> None:
     for i in places_that_move_alone(system.described.description, [place for _, _, place in acting]):
         part, what, place = acting[i]
         where = ", ".join(map(str, place))
-        message = f"the {what} at ({where}) acts on no particle: the place moves with no body or particle of the system"
+        message = (
+            f"the {what} at ({where}) acts on no particle: no body or particle of the system moves with this place"
+        )
         raise WrongPart.of(part, Complaint("which-body", message, help=WHERE_IT_ACTS[what]))
 
 

@@ -196,7 +196,7 @@ def constraint(condition: Any, equals: Any = ZERO, force: str = "lambda") -> Con
     try:
         left, right = explicit(as_expr(condition)), explicit(as_expr(equals))
     except TypeError:
-        raise Rejected(Complaint("wrong-argument", "`constraint` needs a formula of the coordinates")) from None
+        raise Rejected(Complaint("wrong-argument", "`constraint` needs a formula in the coordinates")) from None
     moving = list(coordinates_in(left - right))
     if not moving:
         message = f"`constraint` needs a formula in the coordinates, but {left - right} contains no coordinate"
@@ -205,7 +205,7 @@ def constraint(condition: Any, equals: Any = ZERO, force: str = "lambda") -> Con
     higher = [q for q in moving if (left - right).has(rate(q, 2), rate(q, 3))]
     residual = left - right
     if higher or any(not is_zero(diff(residual, a, b)) for a in rates for b in rates):
-        message = "`constraint` needs a formula of the coordinates, or one linear in their rates"
+        message = "`constraint` needs a formula in the coordinates, or one linear in their rates"
         raise Rejected(Complaint("wrong-argument", message))
     made = Constraint(left, right, scalar(force), bool(rates))
     if not is_zero(

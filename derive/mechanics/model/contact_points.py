@@ -70,7 +70,8 @@ def _feet(placed: PlacedBody, curve: Curve) -> Iterator[Location]:
 
 
 def _assume_that_it_fits(placed: PlacedBody, curve: Curve, foot: Location) -> None:
-    """Assume that the radius of a round body is less than the radius of curvature of the curve in each hollow."""
+    """Assume that a round body fits into the curve: where the curve bends towards the body, the radius of the body is
+    less than the radius of curvature at the point of contact."""
     bends = diff(curve.formula, curve.letter, 2).xreplace({curve.letter: (foot - curve.through).components[0]})
     room = tidied(curve.gradient(foot) ** 3 - radius_of(placed) * (-bends if curve.below else bends))
     if sign_for_all(room) != 1:
@@ -87,7 +88,7 @@ def _has_rims(placed: PlacedBody) -> bool:
 
 
 def _outline(placed: PlacedBody) -> Round | None:
-    """Return the outer boundary of a body, if it is round."""
+    """Return the outer boundary of a body if it is round, otherwise None."""
     boundary = placed.body.boundary
     outer = boundary.whole if isinstance(boundary, Hollowed) else boundary
     return outer if isinstance(outer, Round) else None

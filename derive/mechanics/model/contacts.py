@@ -227,9 +227,9 @@ def _check_moves_with_its_material(surface: Surface) -> None:
     if all(is_zero(tidied(c)) for c in moving):
         return
     who = "the rotating axes that are given for it" if surface.of is None else "the body that carries it"
-    what = "`along` or `normal` has components in space, which must turn with the axes or the body, as in "
+    what = "`along` or `normal` is a vector in space, which must turn with the axes or the body, as in "
     help_line = (
-        f"{what}`along: [cos(theta), sin(theta)]`; the place `through` must move with it"
+        f"{what}`along: [cos(theta), sin(theta)]`; the place `through` must move with them"
         if isinstance(surface, Plane)
         else "its centre must be a place that moves with the body, such as a point of the body"
     )
@@ -258,7 +258,7 @@ def _contact(of: Any, on: Any) -> Contact:
     surface = on if isinstance(on, Surface) else _surface_of(on)
     at, body = end_of(of) if is_end(of) else (None, None)
     if at is None or body is None and (surface.of is None or coordinates_in(ImmutableDenseMatrix(at.components))):
-        message = "`contact` needs a particle, a round body or a point of a body"
+        message = "`contact` needs a particle, a round body, a point of a body, or a fixed place on a carried surface"
         help_line = Spelled('give a point of the body: `rod.place_of("end")`', "give a point of the body: `rod.end`")
         raise Rejected(Complaint("wrong-argument", message, help=help_line))
     if isinstance(of, PlacedBody):
@@ -442,7 +442,7 @@ def _way_of_slip(slip: Location) -> Location:
 
 
 def _check_rubbing(touch: Contact, along: Location, is_free: bool) -> None:
-    """Check that the velocity of slip has the direction of the given unit vector."""
+    """Check that the velocity of slip is parallel to the given unit vector and, if `is_free`, has its direction."""
     rubbing = Location(tuple(velocity_of_particle(touch.of, touch.at, touch.surface.ground, touch.foot)))
     rubbing = rubbing - dot(touch.normal, rubbing) * touch.normal
     speed = tidied(dot(along, rubbing))

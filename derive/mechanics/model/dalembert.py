@@ -1,7 +1,7 @@
 """The mass points of a system and the forces on them, from which second routes start.
 
 A rigid body is equivalent to a few mass points: one has the whole mass, at the centre of mass, and others describe the
-rotation. Each of these others is the end of a vector that rotates with the body: the unit vector of a body axis, or the
+rotation. Each of the others is the end of a vector that rotates with the body: the unit vector of a body axis, or the
 sum of two such unit vectors. Its `mass` is a second moment, in kg m^2. Kinetic energy, momenta and the virtual work of
 inertial forces follow from the positions of these points as functions of t.
 

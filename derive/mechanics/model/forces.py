@@ -275,7 +275,8 @@ def potential(energy: Any) -> StoredEnergy:
         message = f"`potential` must not depend on rates, but it depends on the rate of {fast[0].name}"
         raise Rejected(Complaint("wrong-argument", message))
     if not moving:
-        raise Rejected(Complaint("wrong-argument", f"`potential` needs an energy in coordinates, but {given} has none"))
+        message = f"`potential` needs an energy in coordinates, but {given} contains no coordinate"
+        raise Rejected(Complaint("wrong-argument", message))
     return StoredEnergy(given)
 
 

@@ -43,7 +43,7 @@ def pin(of: Any, to: Any, force: str = "R") -> tuple[Pin | Constraint, ...]:
 
     of, to   the two points: points of bodies, bodies (at the centre of mass), particles, or places without coordinates
     force    the symbol R of the force on `of`, N; its components are R_x and R_y, in space also R_z. If the coordinates
-             already keep the two points together along an axis, this component does not appear
+             already keep the two points together along an axis, the component along this axis does not appear
 
     The opposite force acts on `to`.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 2.
@@ -72,6 +72,7 @@ def pin(of: Any, to: Any, force: str = "R") -> tuple[Pin | Constraint, ...]:
 
 def weld(of: Any, to: Any, force: str = "R", torque: str = "C") -> tuple[Pin | Constraint, ...]:
     """A rigid joint of two bodies in a plane: a hinge, with a couple that keeps the angle between the bodies constant.
+
     of, to   points of bodies, as for `pin`
     force    the symbol of the force on `of`, as for `pin`
     torque   the symbol of the couple on `of`, N m
@@ -171,7 +172,7 @@ def dashpot(constant: Any, start: Any, end: Any) -> tuple[Dashpot, Damper]:
     the change of d.
 
     constant     the damping constant c, kg/s
-    start, end   particles, bodies, points of bodies, or places
+    start, end   particles, bodies, points of bodies, or places without coordinates
 
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, section 11.3.
     """

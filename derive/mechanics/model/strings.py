@@ -48,7 +48,7 @@ class Pulley(Connection):
 
 @dataclass(frozen=True)
 class Rim(Pulley):
-    """The rim of a round body, which a string turns.
+    """The rim of a round body that a string turns.
 
     of   the body
     """
@@ -63,7 +63,7 @@ class Line(Connection):
     through   one end, the pulleys or holes in order, and the other end; each is a place, or a pulley with a radius
     is_rod    whether the line is a rod, which can push as well as pull
     rope      the particle whose mass is distributed along the line; None for a line without mass
-    drawn     the symbol of the tension in force diagrams, if the coordinates keep the length
+    drawn     the symbol of the tension in force diagrams, if the coordinates keep the length constant
     pieces    the straight pieces, in order, if there is such a symbol; otherwise empty
     """
 
@@ -227,8 +227,8 @@ def string(
     mass_of      for a uniform rope: the particle that has the mass of the rope. All pieces of the rope must have the
                  speed of the particle, so that (1/2) M v^2 of the particle is the kinetic energy of the rope. The
                  height of the particle must be constant; gravity acts on each piece of the rope
-    drawn_tension   the symbol of the tension in force diagrams, if the coordinates keep the length of the string, so
-                 that no equation contains the tension; for a rope with mass, the tension at its bends
+    drawn_tension   the symbol of the tension in force diagrams, if the coordinates keep the length of the string
+                 constant, so that no equation contains the tension; for a rope with mass, the tension at its bends
 
     The tension is the same everywhere in a string without mass. The string pulls each end along the string, and each
     pulley along the two adjacent pieces of the string.
@@ -251,7 +251,7 @@ def _check_rope(line: Any, particle: Any, tension: str) -> None:
     """Require each piece of a rope to move along itself, with the speed of the particle that has the mass of the
     rope."""
     if not hasattr(particle, "mass") or not is_end(particle):
-        raise Rejected(Complaint("wrong-argument", "`mass_of` names the particle that has the mass of the rope"))
+        raise Rejected(Complaint("wrong-argument", "`mass_of` must be the particle that has the mass of the rope"))
     if tension:
         message = f"the tension of a rope with mass is not the same everywhere, so `{tension}` does not appear"
         raise Rejected(Complaint("not-an-unknown", message, help="leave out `tension`"))
@@ -264,8 +264,8 @@ def _check_rope(line: Any, particle: Any, tension: str) -> None:
         message = "the speed of the rope differs from the speed of the particle that has its mass"
         raise Rejected(Complaint("which-body", message, help="put the particle at an end of the rope"))
     if not is_zero(own.components[-1]):
-        message = "the particle that has the mass of the rope moves up or down, but its weight is not the rope's"
-        help_line = "put the particle at a constant height; gravity acts on each piece of the rope"
+        message = "the particle that has the mass of the rope must stay at a constant height, but it moves up or down"
+        help_line = "put the particle at an end of constant height; gravity acts on each piece of the rope"
         raise Rejected(Complaint("which-body", message, help=help_line))
 
 
@@ -317,7 +317,7 @@ def _of_length(verb: str, ends: Sequence[Any], length: Any, letter: str) -> tupl
         message = f"`{verb}` with a force also needs its length"
         raise Rejected(Complaint("missing-key", message, help="give its `length`"))
     if kept is not None:
-        message = f"the coordinates keep the length {kept}, so the force `{letter}` does not appear"
+        message = f"the coordinates keep the length {kept} constant, so the force `{letter}` does not appear"
         help_line = "leave out the force, or give the end a coordinate along the string, so that the length can change"
         raise Rejected(Complaint("not-an-unknown", message, help=help_line))
     require_bodies(verb, [pair for piece in pieces for pair in zip((piece.start, piece.end), piece.of, strict=True)])
@@ -441,7 +441,7 @@ def _require_kept(verb: str, kept: Expr | None, whole: Expr | None) -> None:
 def wound_string(end: Any, on: Any, tension: str = "T", over: Sequence[Any] = ()) -> tuple[Line, Constraint]:
     """A string from an end to a round body, on which the string is wound or over which it runs without slipping.
 
-    end      a particle, a point of a body, or a place in space; None if the string is wound on two bodies
+    end      a particle, a point of a body, or a place without coordinates; None if the string is wound on two bodies
     on       a round body in a plane: a yo-yo, or a pulley with a moment of inertia; or two such bodies. The piece of
              string at a rim is horizontal or vertical
     tension  the symbol of the tension, N; positive if the string pulls
@@ -457,7 +457,8 @@ def wound_string(end: Any, on: Any, tension: str = "T", over: Sequence[Any] = ()
         message = "`wound_string` needs, in a plane, an end and one round body, or no end and two round bodies"
         raise Rejected(Complaint("wrong-argument", message))
     if not all(is_end(each) or isinstance(each, Pulley) for each in other):
-        raise Rejected(Complaint("wrong-argument", "a string runs over pulleys or places, from a place or a body"))
+        message = "`end` and `over` of a `wound_string` must be particles, points of bodies, places or pulleys"
+        raise Rejected(Complaint("wrong-argument", message))
     wound = [Rim((), each.hub, radius_of(each), each) for each in rims]
     pieces = _pieces([*wound[1:], *other, wound[0]])
     require_bodies("wound_string", [end_of(each) for each in other if not isinstance(each, Pulley)])

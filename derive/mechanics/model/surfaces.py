@@ -240,7 +240,7 @@ def plane(
 def _check_motion(surface: Plane) -> None:
     """Check the motion of the material along the surface."""
     if surface.of is not None and surface.moves is not None:
-        message = "the body that carries the surface determines its motion"
+        message = "the body that carries the surface already determines the motion of the surface"
         raise Rejected(Complaint("twice", message, help="leave out `of` or the motion"))
     if isinstance(surface.moves, Axes) and len(surface.through.components) == 2:
         message = "a surface can rotate with axes only in space, but this system moves in a plane"
@@ -311,7 +311,7 @@ def curve(
     if not isinstance(letter, Symbol):
         raise Rejected(Complaint("wrong-argument", f"`curve` needs a symbol for x, not {letter}"))
     if len(through.components) != 2 or moves is not None:
-        message = "a curve moves with the place `through`, or with the body that carries it, in a plane of motion"
+        message = "a curve needs a plane of motion; it moves only with the place `through` or the body that carries it"
         raise Rejected(Complaint("wrong-argument", message, help="give `through` as a function of time, or `of`"))
     moving = [s.name for s in {**coordinates_in(formula), TIME: ""} if s != letter and formula.has(s)]
     if moving:

@@ -309,7 +309,8 @@ class System:
                 raise Rejected(Complaint("wrong-argument", f"`System` needs the mass of {placed.body.name}"))
         for mass, _ in self.masses:
             if taken_positive(explicit(mass)) != 1:
-                raise Rejected(Complaint("no-such-body", f"a mass of a `System` must be positive, but {mass} is not"))
+                message = f"a mass of a `System` must be positive, but {mass} is not known to be positive"
+                raise Rejected(Complaint("no-such-body", message))
         if len(self.weights) > 1:
             raise Rejected(Complaint("wrong-argument", "a `System` can have only one weight, for all its masses"))
         if len({len(place.components) for place in self.places}) > 1:
@@ -336,7 +337,8 @@ class System:
                     "letter-clash",
                     message,
                     help=Spelled(
-                        'give each its own symbol, `constraint(..., force="N")`', "give each its own symbol, `force: N`"
+                        'give each constraint a different symbol, `constraint(..., force="N")`',
+                        "give each constraint a different symbol, such as `force: N`",
                     ),
                 )
             )
@@ -345,7 +347,7 @@ class System:
         for part in self.parts:
             for q in coordinates_in(ImmutableDenseMatrix(part.acts_by)):
                 if q not in self.coordinates:
-                    message = f"a force or constraint of this `System` depends on {q.name}, which no place depends on"
+                    message = f"a force or constraint of this `System` depends on {q.name}, but no place depends on it"
                     raise Rejected(Complaint("wrong-argument", message))
 
     @property
