@@ -284,8 +284,8 @@ def let(
         if isinstance(value, BooleanAtom):
             message = f"`let`: the sides of `{key}` are {'always' if value else 'never'} equal"
             raise Rejected(Complaint("wrong-argument", message))
-        if isinstance(value, int | float | complex) and not isinstance(value, bool):
-            value = Integer(value) if isinstance(value, int) else None
+        if type(value) is int:
+            value = Integer(value)
         if not isinstance(value, Expr | Relation):
             message = f"`let` names one number or expression, but `{key}` would be {type(value).__name__}"
             raise Rejected(

@@ -456,8 +456,8 @@ def wound_string(end: Any, on: Any, tension: str = "T", over: Sequence[Any] = ()
     if not flat or len(rims) != 1 + (end is None):
         message = "`wound_string` needs, in a plane, an end and one round body, or no end and two round bodies"
         raise Rejected(Complaint("wrong-argument", message))
-    if not all(is_end(each) or isinstance(each, Pulley) for each in other):
-        message = "`end` and `over` of a `wound_string` must be particles, points of bodies, places or pulleys"
+    if not all(is_end(each) or isinstance(each, Pulley) and each in over for each in other):
+        message = "`end` of a `wound_string` must be a particle, a point of a body or a place; `over` may name pulleys"
         raise Rejected(Complaint("wrong-argument", message))
     wound = [Rim((), each.hub, radius_of(each), each) for each in rims]
     pieces = _pieces([*wound[1:], *other, wound[0]])
