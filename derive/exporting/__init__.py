@@ -1,1 +1,1 @@
-"""Sets of problems as files for learning platforms and word processors; each module writes one format."""
+"""Sets of problems as files for learning platforms and word processors."""
