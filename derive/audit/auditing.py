@@ -480,7 +480,7 @@ class _Auditor:
         return found
 
     def known_without(self, earlier: Claim, claim: Claim) -> Known:
-        """Return what the rows before a claim give if one of them is not read."""
+        """Return what the rows up to a claim give if one earlier row is left out."""
         kept, self.known = self.known, self.assumptions()
         try:
             for each in self.claims[: claim.number + 1]:
@@ -519,7 +519,8 @@ class _Auditor:
             meant = suggestion_of(fixes[0].edit)
             if len(fixes) > 1 or alone:
                 lines = ", ".join(str(fix.claim.row.line) for fix in fixes)
-                verdict = Verdict(Outcome.DIFFERS, f"line {lines} would follow after one change here")
+                where = f"line{'s' * (len(fixes) > 1)} {lines}"
+                verdict = Verdict(Outcome.DIFFERS, f"{where} would follow after one change here")
                 verdict.suggestion, verdict.why_plausible = meant, WHY[fixes[0].edit.kind]
                 verdict.span = fixes[0].edit.span
                 earlier.verdict = verdict

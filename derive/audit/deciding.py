@@ -163,7 +163,7 @@ class Decision:
         return Verdict(Outcome.DEFINES, f"a value for {_word(letter)} squared")
 
     def of_known_form(self, letter: Symbol, value: Expr) -> Verdict | None:
-        """Report a kinetic energy with a negative square, or a Lagrangian that is not T - U."""
+        """Report a kinetic energy that is negative in the square of a rate, or a Lagrangian that is not T - U."""
         named = self.meaning.symbols.get(letter)
         if named is not None and named.base in ("T", "K") and not named.dots and self.is_negative(value):
             return Verdict(Outcome.DIFFERS, "a kinetic energy does not fall when a speed grows")
@@ -180,7 +180,7 @@ class Decision:
         example = counterexample(value, 2 * kinetic - sympy.Add(*energies))
         because = "a Lagrangian is the kinetic energy minus the potential energy"
         return Verdict(
-            Outcome.DIFFERS, because, counterexample=example, suggestion="T - U", why_plausible="a sign was turned",
+            Outcome.DIFFERS, because, counterexample=example, suggestion="T - U", why_plausible="a sign was reversed",
         )  # fmt: skip
 
     def is_negative(self, value: Expr) -> bool:
@@ -825,7 +825,8 @@ def counterexample(left: Value, right: Value) -> str:
 
 
 def _simple_points(symbols: list[Symbol]) -> Iterator[dict[Symbol, Expr]]:
-    """Yield small numbers for letters; the later points have small rates, or other orders of size."""
+    """Yield points with simple numbers for the letters: integers, integers with small rates, integers in reverse order,
+    and fractions."""
     for start in (1, 2, 3):
         yield {each: Integer(start + i) for i, each in enumerate(symbols)}
     for size in (10, 100):

@@ -105,7 +105,7 @@ def _conflicts(equations: Sequence[Equation]) -> list[set[int]]:
 
 
 def usual(equations: Sequence[Equation], meaning: Meaning) -> Iterator[Equation]:
-    """Yield the dimensions that some letters usually have; an angle has none."""
+    """Yield the dimensions that some letters usually have; an angle is dimensionless."""
     names = {each for equation in equations for each in equation.form}
     yield Equation(-1, {"t": Fraction(1)}, (Fraction(0), Fraction(0), Fraction(1)))
     for symbol, letter in meaning.symbols.items():

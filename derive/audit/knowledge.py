@@ -180,7 +180,8 @@ class Known:
         return bool(rates) and bool(sympy.expand(doubled - 2 * definition.value) == 0)
 
     def through(self, value: Expr, wanted: set[Symbol]) -> Expr:
-        """Substitute the definitions of letters that depend on the variables of a derivative."""
+        """Substitute the definitions of all letters except `wanted`, the variables of a derivative. In a derivative by
+        coordinates, momenta are not substituted."""
         by_rate = any((each := self.meaning.symbols.get(symbol)) is not None and each.dots for symbol in wanted)
         for _ in range(ROUNDS):
             found = {}
@@ -226,7 +227,7 @@ class Known:
         return tuple(each.xreplace(put_in) for each in values), tuple(each.claim for each in found.values())
 
     def recent(self) -> list[tuple[Expr, int]]:
-        """Return the last equations, also with known values substituted."""
+        """Return the last equations, and forms of them in which zeros and derivatives are substituted."""
         last = self.equations[-LAST_EQUATIONS:]
         zeros = {symbol: each[-1].value for symbol, each in self.numbers.items() if each[-1].value == 0}
         put_in = (

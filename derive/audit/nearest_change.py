@@ -1,4 +1,4 @@
-"""Whether a row that does not follow would follow after one small change: then the row is probably a slip.
+"""Whether a row that does not follow would follow after one small change. If it would, it probably contains a slip.
 
 A change is tried with numbers, at points where the earlier equations hold. A row is accused if one change makes it
 right at all points.

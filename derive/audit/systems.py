@@ -1,8 +1,8 @@
 """What earlier equations give together, and where a new equation contradicts them.
 
-An equation follows from others if, at a few points, its coefficients are a combination of theirs. The unknowns are
-products of the letters that are eliminated. Lagrange's and Hamilton's equations of a function that the document defines
-also belong to the known equations.
+An equation counts as a consequence of others if, at a few points, its coefficients are a linear combination of their
+coefficients. The unknowns are products of the letters that are eliminated. Lagrange's and Hamilton's equations of a
+function that the document defines also belong to the known equations.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from derive.documents.syntax import Letter
 
 MOST_EQUATIONS = 8
 POINTS = 2
-LARGEST = 300  # an equation with as many operations is left out
+LARGEST = 300  # an equation with at least this number of operations is left out
 LARGEST_LAGRANGIAN = 500
 LARGEST_CONSTRAINT = 60
 HIGHEST_POWER = 6
@@ -46,8 +46,8 @@ def equations_of(
 ) -> list[Equation]:
     """Return the equations that earlier rows give, the last ones first, with definitions substituted.
 
-    `sure` leaves out conditions in sentences and solutions in the time, which may hold in one case only; `written`
-    leaves out Lagrange's and Hamilton's equations of a function.
+    `sure` leaves out conditions in sentences and solutions as functions of the time, which may hold in one case only;
+    `written` leaves out Lagrange's and Hamilton's equations of a function.
     """
     state = (len(known.equations), sum(map(len, known.definitions.values())), without, sure, written)
     if state not in known.kept:

@@ -38,7 +38,7 @@ class ClassRecord:
         write(set_folder(root, self.set_id) / RECORD, json.dumps(kept, ensure_ascii=False, indent=1) + "\n")
 
     def check_seed(self, seed: str | None, help_line: str) -> None:
-        """Report an error if the class was made with another seed than this one."""
+        """Report an error if the class was made with a different seed."""
         if seed is not None and seed != self.seed:
             made = f"the seed `{self.seed}`" if self.seed else "no seed"
             message = f"the class of `{self.set_id}` was made with {made}, not with `{seed}`"

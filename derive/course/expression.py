@@ -5,7 +5,8 @@
     unary    ("-" | "+") unary | atom ("**" unary)?
     atom     number | number unit | name | function "(" sum ")" | "(" sum ")"
 
-A number may be followed by the unit of an angle, as in `sin(30 deg)`.
+A number may be followed by the unit of an angle, as in `sin(30 deg)`. Another unit is allowed only if the caller has a
+letter that replaces the number.
 
 The grammar reads every character; no text ever reaches Python or SymPy as code. The size of every value is bounded
 before the value is computed.

@@ -63,7 +63,8 @@ class Measured:
 class Given:
     """One key of `given:`: the argument for `solve()`, and the numbers of the letters in this argument.
 
-    `word` is the name of a direction. `written` is the text of an exact value, such as 45 deg.
+    `word` is a value that is a plain word, such as the name of a direction. `written` is an exact value as the file
+    states it, such as 45 deg.
     """
 
     name: str

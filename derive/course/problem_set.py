@@ -246,7 +246,7 @@ def problem_set(root: Path, set_id: str) -> ProblemSet:
     _clashes(written.documents, [full.partition("/")[2] for full in problems], faults)
     misspelt = any(nearest(name.text, ["course"]) for name, _ in node.pairs if name.text not in keys_of(SetKeys))
     if not (written.course or of_course.course or misspelt) and node.get("course") is None:
-        help_line = f"or `{COURSE}` in the folder of the course gives it to all sets"
+        help_line = f"write it here, or in `{COURSE}` for all sets of the course"
         faults.error("missing-key", "a set needs `course`: the course", node.place, help=help_line)
     faults.stop()
 

@@ -1,4 +1,4 @@
-"""What a whole document shows about its letters: which are functions, vectors or angles, and which change with time.
+"""What a whole document shows about its letters: which are functions, vectors or tensors, and which change with time.
 
 Facts are counted over all formulas of the document, because a letter is often explained far from its use.
 """

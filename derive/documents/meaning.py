@@ -1,6 +1,6 @@
 """The nodes of a side as an expression of SymPy, or the reason why they have no value.
 
-A letter and each of its rates are separate symbols: `x`, `x'`, `x''`. A vector is a triple with opaque components. The
+A letter and each of its rates are separate symbols: `x`, `x'`, `x''`. A vector is a column with opaque components. The
 derivative of a letter about which nothing is known is a symbol, too. Letters are positive numbers unless they change
 with time, are functions, or have a name that is usual for an angle, a coordinate or a constant of either sign. Authors
 rely on this in sqrt(m^2) = m.

@@ -42,7 +42,8 @@ from derive.steps.homogeneity import dimension_of, dimension_table
 from derive.steps.step import Step
 
 ONE: Expr = Integer(1)
-_NAMED_RATES = (TimeRate, CarriedRate, BodyRate, Slope, At)  # a relation with one of these on its left side gives it
+# a relation with one of these on its left side states its value
+_NAMED_RATES = (TimeRate, CarriedRate, BodyRate, Slope, At)
 
 
 @dataclass(frozen=True)

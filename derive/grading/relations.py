@@ -126,7 +126,7 @@ def angle_of(target: Target, name: Any) -> Target | None:
 
 def _wrong_inequality(typed: Relation, goal: Relation, key: Key) -> Verdict:
     for operator, because, outcome in (
-        (STRICT.get(typed.operator), "whether the border itself belongs to it is left open", Outcome.CONVENTION),
+        (STRICT.get(typed.operator), "whether the condition includes its border is left open", Outcome.CONVENTION),
         (TURNED.get(typed.operator), "the inequality has the wrong direction", Outcome.SIGN),
         (STRICT.get(TURNED.get(typed.operator, ""), ""), "the inequality has the wrong direction", Outcome.SIGN),
         (

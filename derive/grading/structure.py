@@ -36,7 +36,7 @@ def are_equal(left: Expr, right: Expr) -> bool:
 
 
 def are_surely_equal(left: Expr, right: Expr) -> bool:
-    """Whether two expressions are equal; numbers exclude most unequal ones quickly."""
+    """Whether two expressions are equal; numbers quickly exclude most expressions that are not equal."""
     return not differ(left, right) and are_equal(left, right)
 
 

@@ -161,7 +161,7 @@ def grown(term: Term, x: Expr, lower: Term, upper: Term) -> tuple[int, int]:
 
 
 def _degree(expr: Expr, x: Expr, most: int) -> int:
-    """Return the highest power of x after multiplying out, or the bound `most`."""
+    """Return a bound for the power of x after multiplying out; `most` if no lower bound is known."""
     if not expr.has(x):
         return 0
     if expr.is_Add:

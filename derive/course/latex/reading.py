@@ -2,7 +2,7 @@ r"""`read_latex` reads a formula in LaTeX as a chain of values.
 
 13 M a^2/12                  one side
 \frac{26}{6} a^2 (6a^3\rho) = \frac{13}{3} M a^2      two sides, and the sign `=` between them
-\frac{b \pm \sqrt{c}}{2}     one side with two branches, read as + and as - throughout
+\frac{b \pm \sqrt{c}}{2}     one side with two branches: every `\pm` is + in the first, - in the second
 """
 
 from __future__ import annotations

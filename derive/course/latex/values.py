@@ -459,7 +459,8 @@ class Values(Grids):
         self.refuse("ambiguous", message, argument.span.start, end, help_line)
 
     def open_argument(self, node: Open) -> TermOrGrid:
-        r"""Read a function whose argument has no brackets: the shortest run of factors that is an angle or a number."""
+        r"""Read a function whose argument has no brackets. The argument is the shortest run of factors that is
+        dimensionless and not a plain number."""
         shortest_first = list(reversed(node.alternatives))
         for number, alternative in enumerate(shortest_first):
             fun, rest = _function_first(alternative)
@@ -511,7 +512,8 @@ class Values(Grids):
         return self.of(node.alternatives[1])
 
     def word(self, node: Open) -> TermOrGrid:
-        r"""Read `\mathit{mass}`, or `\operatorname{Mg}` as a product if only its letters are declared."""
+        r"""Read a word such as `\mathit{mass}` as one letter, or as a product if only its single letters are
+        declared."""
         name, product = node.alternatives
         assert isinstance(name, Letter) and isinstance(product, Mul)
         if (unit := self.unit_of(node, False)) is not None:
@@ -602,7 +604,7 @@ class Values(Grids):
         return self.integral(node, [])
 
     def integral(self, node: Int, outside: list[TermOrGrid]) -> TermOrGrid:
-        """Return a product with integral signs; `outside` are the factors before its first sign."""
+        """Return a product with integral signs; `outside` are the factors before the first sign."""
         signs: list[integrals.Sign] = []
         inside = _Parts(self)
         for item in node.items:

@@ -193,7 +193,7 @@ class Cited:
         return next((first for first, _ in self.found(_LAYOUT.sub("", quote))), None)
 
     def quotes(self, quote: str, line: int) -> bool:
-        """Return whether the document has this text at a line, up to its layout."""
+        """Return whether the document has this text at a line; differences of layout are ignored."""
         wanted = _LAYOUT.sub("", quote)
         return any(first <= line <= last for first, last in self.found(wanted))
 

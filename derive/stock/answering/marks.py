@@ -62,7 +62,7 @@ class Marked:
 
     drawing   the entry of `drawings:`
     place_of  a function that returns the place that is written in a node
-    after     the key of the drawing after which a drawing that is like another one is placed
+    after     the key of the drawing after which a further drawing is placed
     """
 
     drawing: Placement
@@ -70,7 +70,7 @@ class Marked:
     after: str = ""
 
     def add(self) -> None:
-        """Add the marks to the recorded drawing, or record a further drawing that is like another one."""
+        """Add the marks to the recorded drawing, or record a further drawing that repeats another drawing."""
         run = current_run.get()
         drawings = run.drawings if run is not None else []
         shown = {each.key: each for each in drawings if isinstance(each, Drawing)}

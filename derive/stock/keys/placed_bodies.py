@@ -78,7 +78,8 @@ class MovingBodyKeys(BodyKeys, QuotedKeys):
     )
     to: WrittenPlace | None = key("for a rod with `from`: the place of its other end, in place of `turned`", PLACE)
     along: tuple[Tree, ...] = key(
-        "for a rod, its direction from its end to its other end, in place of `turned`: `[sin(theta), -cos(theta)]`",
+        "for a rod, the direction from its point `end` to its other end, in place of `turned`: "
+        "`[sin(theta), -cos(theta)]`",
         COMPONENTS,
     )
     across: str | None = key(
