@@ -189,8 +189,8 @@ def motion(known: Known, meaning: Meaning) -> Iterator[tuple[Expr, tuple[int, ..
 
 
 def root_equation(letter: Symbol, meaning: Meaning, known: Known) -> tuple[Symbol, Expr, int] | None:
-    """Return the letter without its index, and the last equation of which `letter` may name a root, such as w_1 or
-    x_0."""
+    """Return the letter without its index, and the last equation of which `letter`, such as w_1 or x_0, may name a
+    root."""
     named = meaning.symbols.get(letter)
     if named is None or not named.sub or named.dots or named.marks or named.base == "t":
         return None
@@ -278,7 +278,7 @@ class System:
         rates = {each for each in everywhere if self.known.is_rate(each)}
         for equation in equations:
             for term in sympy.Add.make_args(equation.value) if rates else ():
-                if term.free_symbols & rates:  # a mass times an acceleration: the mass is given
+                if term.free_symbols & rates:  # in a mass times an acceleration, only the acceleration is unknown
                     found -= term.free_symbols - rates
         if self.letter is not None:
             found.add(self.letter)

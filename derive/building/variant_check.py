@@ -49,7 +49,7 @@ class OfProblem:
     structures  the number of different derivations
     same        number of pairs of draws with the same choices
     equal       for each answer, the number of pairs of different variants with the same value
-    degenerate  a description of a defect -> the draws that have this defect, in words
+    degenerate  a description of a defect -> descriptions of the draws that have this defect
     outcomes    for each answer, the outcomes of its rule, such as `oscillates`, each with the number of draws
     compared    number of draws that were also derived completely
     """

@@ -63,9 +63,9 @@ _INSTEAD = {
     "}": ")",
 }
 _WHY_NOT = {
-    ".": "an expression has no attributes",
-    **dict.fromkeys("'\"", "an expression has no text"),
-    **dict.fromkeys("=<>!", "an expression has no comparisons"),
+    ".": "a dot is allowed only inside a number",
+    **dict.fromkeys("'\"", "quotes are not allowed in an expression"),
+    **dict.fromkeys("=<>!", "a comparison is not allowed in an expression"),
 }
 
 

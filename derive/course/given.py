@@ -347,7 +347,8 @@ class NumbersAsLetters:
 
 
 def _asked_of_kind(kind: str, count: int) -> Asked:
-    """Return the annotation for one value of a kind, with the usual letters for `count` such values."""
+    """Return the annotation for one value of a kind, with the letters that are usual for `count` values of this
+    kind."""
     known = [asked for asked in ANNOTATIONS.values() if asked.each == kind]
     usual = next((asked for asked in known if asked.count == count), next(iter(known), None))
     return Asked(kind, usual.letters if usual and usual.letters else (kind[0],))

@@ -61,7 +61,7 @@ class Placement:
         surfaces  the names of the surfaces that are drawn with a path
         then      the value that curves keep after the range
         up        the ends of the vertical axis of curves
-        energies  the energies whose lines a potential energy shows
+        energies  the energies that are drawn as lines in the plot of a potential energy
         per       the quantities by which the axes of a plot are divided
         panels    whether curves are together in one panel or apart; None by default
     levels, over   for a phase portrait: the value on each curve, and the ranges of the two axes; for a bifurcation

@@ -353,7 +353,7 @@ def _listed(written: tuple[Word, ...], set_id: str, known: List[str], faults: Fa
             message = f"a problem cannot be called `{item}`, because a document of the set has that name"
             faults.error("reserved-name", message, item.place, help="rename its files")
         elif item not in names:
-            begun = f"`derive new {set_id}/{item}` begins it" if NAME.fullmatch(item) else None
+            begun = f"`derive new {set_id}/{item}` begins this problem" if NAME.fullmatch(item) else None
             help_line = did_you_mean(item, names) or begun
             message = f"no problem of this set is called `{item}`"
             if item in known and not item.startswith(f"{set_id}/"):

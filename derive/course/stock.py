@@ -102,7 +102,7 @@ class Stock:
     """A script of the engine.
 
     keys      the keys allowed under `given:`
-    read      returns the description in the declared symbols; collects errors
+    read      the function that returns the description in the declared symbols and collects errors
     answers   the class that derives the answers of a description
     shows     the marks of a body, such as its centre of mass, that its drawing can have
     """

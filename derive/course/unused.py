@@ -18,7 +18,7 @@ from derive.errors import Complaint
 GRAVITY, ACCELERATION = "gravity", "acceleration"
 # Keys under `given`. A coordinate that only these keys mention counts as unused.
 OF_STATES = ("at", "results", "conserved", "coordinates", "functions")
-NOUNS = {"coordinates": "coordinate", "functions": "function"}  # key under `given` -> what an entry is
+NOUNS = {"coordinates": "coordinate", "functions": "function"}  # key under `given` -> what an entry is called
 _NAME = re.compile(r"(?<![\w.])[A-Za-z_]\w*", re.ASCII)
 _RATES = ("", "_dot", "_ddot")
 

@@ -110,8 +110,7 @@ class _Comparison:
         return Verdict(Outcome.EQUAL, "") if are_equal(value, right) else None
 
     def definitions(self, value: Expr, right: Expr) -> Verdict | None:
-        """Accept a formula that is equal after the symbols that the problem defines or that steps introduce are
-        replaced."""
+        """Accept a formula that is equal after definitions are substituted: those of the problem and of the steps."""
         own = {self.target.symbol} if isinstance(self.target.symbol, Symbol) else set()
         if value.free_symbols & own and right.free_symbols.isdisjoint(own):
             return None

@@ -551,7 +551,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
             raise Rejected(Complaint("friction-at-rest", message, help=help_line))
 
     def _stability_at(self, at: Quantity | Mapping[Any, Expr]) -> tuple[Quantity, ...]:
-        """Decide stability by the potential energy, or by small motions if it does not decide.
+        """Decide stability by the potential energy or, if the potential energy does not decide, by small motions.
 
         Gyroscopic forces may stabilise a state at which the potential energy has no minimum.
         """

@@ -32,7 +32,7 @@ class Quoted:
 
 
 class Unquotable(ValueError):
-    """A text cannot be quoted; `at` is the position of the reason."""
+    """The error for a text that cannot be quoted; `at` is the position of the part that cannot be quoted."""
 
     def __init__(self, why: str, at: int):
         super().__init__(why)

@@ -98,7 +98,8 @@ def node_of(reader: Values, tokens: list[Token]) -> Node:
 
 
 def is_title(node: Node) -> bool:
-    r"""Return whether a first side only names the next side: `U(\theta) =`, `U'' =`, `\frac{1}{2} \frac{d}{dt} L^2 =`.
+    r"""Return whether a first side is only a name for the value of the next side: `U(\theta) =`, `U'' =`, `\frac{1}{2}
+    \frac{d}{dt} L^2 =`.
 
     Such a name has no value to compare.
     """

@@ -129,7 +129,8 @@ class Cited:
         return self.document.source.line_of(max([row.span.end, *ends]) - 1)
 
     def is_title(self, side: Side) -> bool:
-        r"""Return whether a first side only names the next side: `U'(\theta) =`, `\frac{d}{dt} L^2 =`."""
+        r"""Return whether a first side is only a name for the value of the next side: `U'(\theta) =`, `\frac{d}{dt} L^2
+        =`."""
         node = _parsed(side)
         if node is None:
             return False

@@ -97,7 +97,7 @@ class Parameter:
     name      the name of the axis
     symbol    the letter, or the symbol of the ratio
     kind      the kind of the quantity
-    letter    the letter that is replaced, and its value in terms of the ratio, if there is one
+    letter    the replaced letter, and its value in terms of the ratio; None if the axis shows a letter
     keys      the keys of the answers and of the defined quantities in the ratio
     """
 

@@ -94,7 +94,8 @@ class Marked:
             drawings[drawings.index(shown[name])] = own
 
     def _kept(self, marks: Sequence[Mark]) -> Iterator[Mark]:
-        """Yield the marks of a drawing without those that the problem leaves out."""
+        """Yield the marks of a drawing without those whose labels the problem leaves out; a surface only loses its
+        label."""
         labels = {str(mark.label) for mark in marks if mark.label is not None}
         for word in self.drawing.without:
             if word not in labels:
