@@ -39,7 +39,7 @@ SECONDS_OF_SEARCH = 2.0  # seconds of processor time for the search for a change
 MOST_INDICES = 12
 MOST_ROWS = 10  # number of claims whose terms may be missing in the next row
 MOST_FIXED = 5  # number of earlier rows that are searched for a slip
-SPECIAL = frozenset({Cue.GIVEN, Cue.PUT_IN, Cue.ZERO, Cue.APPROXIMATE})  # words that explain lost terms
+SPECIAL = frozenset({Cue.GIVEN, Cue.PUT_IN, Cue.ZERO, Cue.APPROXIMATE})  # cues that explain why a row has fewer terms
 MOST_READINGS = 8
 PLAIN = ("", "unmarked", "all", "tensors")
 GOOD = (Outcome.HOLDS, Outcome.APPROXIMATES, Outcome.DEFINES)
@@ -191,7 +191,7 @@ class _Auditor:
         return known
 
     def meaning_of(self, scope: int, plain: str = "") -> Meaning:
-        """Return a meaning of letters that shares the letters and derivatives of the whole document."""
+        """Return the meaning of letters in one scope; all scopes share the letters and derivatives of the document."""
         return Meaning(
             self.facts,
             derivatives=self.meaning.derivatives,
@@ -368,7 +368,7 @@ class _Auditor:
             self.suggest(claim, left_side, first)
             if not first.suggestion and first.counterexample and self.loses_letters(claim):
                 return Verdict(
-                    Outcome.UNDECIDED, "only the left side has some letters; they may have been given values"
+                    Outcome.UNDECIDED, "some letters are on the left side only; they may have been given values"
                 )
         return first
 
@@ -480,7 +480,7 @@ class _Auditor:
         return found
 
     def known_without(self, earlier: Claim, claim: Claim) -> Known:
-        """Return what the rows before a claim give if one of them is not read."""
+        """Return what the rows up to a claim give if one earlier row is left out."""
         kept, self.known = self.known, self.assumptions()
         try:
             for each in self.claims[: claim.number + 1]:
@@ -519,7 +519,8 @@ class _Auditor:
             meant = suggestion_of(fixes[0].edit)
             if len(fixes) > 1 or alone:
                 lines = ", ".join(str(fix.claim.row.line) for fix in fixes)
-                verdict = Verdict(Outcome.DIFFERS, f"line {lines} would follow after one change here")
+                where = f"line{'s' * (len(fixes) > 1)} {lines}"
+                verdict = Verdict(Outcome.DIFFERS, f"{where} would follow after one change here")
                 verdict.suggestion, verdict.why_plausible = meant, WHY[fixes[0].edit.kind]
                 verdict.span = fixes[0].edit.span
                 earlier.verdict = verdict

@@ -48,7 +48,7 @@ class Verdict:
     inherits: int | None = None  # the number of the claim whose slip this claim repeats
     choices: tuple[Choice, ...] = ()
     span: Span | None = None
-    repeated: Definition | None = None  # the earlier value that this row says it repeats
+    repeated: Definition | None = None  # the earlier value that this row claims to repeat
     or_lines: tuple[int, ...] = ()  # lines of earlier rows that may contain the slip instead
 
 

@@ -36,7 +36,7 @@ SMALL = (Rational(1, 100), Rational(1, 1000))
 
 
 def same(left: Value, right: Value) -> bool:
-    """Whether two values are equal for both values of ±; the two sides may use it with opposite signs."""
+    """Whether two values are equal for both signs of ±, with the same sign on both sides or with opposite signs."""
     if isinstance(left, MatrixBase) != isinstance(right, MatrixBase):
         return False
     if isinstance(left, MatrixBase) and left.shape != right.shape:
@@ -163,7 +163,7 @@ class Decision:
         return Verdict(Outcome.DEFINES, f"a value for {_word(letter)} squared")
 
     def of_known_form(self, letter: Symbol, value: Expr) -> Verdict | None:
-        """Report a kinetic energy with a negative square, or a Lagrangian that is not T - U."""
+        """Report a kinetic energy with a negative coefficient of a squared rate, or a Lagrangian that is not T - U."""
         named = self.meaning.symbols.get(letter)
         if named is not None and named.base in ("T", "K") and not named.dots and self.is_negative(value):
             return Verdict(Outcome.DIFFERS, "a kinetic energy does not fall when a speed grows")
@@ -180,7 +180,7 @@ class Decision:
         example = counterexample(value, 2 * kinetic - sympy.Add(*energies))
         because = "a Lagrangian is the kinetic energy minus the potential energy"
         return Verdict(
-            Outcome.DIFFERS, because, counterexample=example, suggestion="T - U", why_plausible="a sign was turned",
+            Outcome.DIFFERS, because, counterexample=example, suggestion="T - U", why_plausible="a sign was reversed",
         )  # fmt: skip
 
     def is_negative(self, value: Expr) -> bool:
@@ -192,8 +192,8 @@ class Decision:
         return any(number.real < 0 for numbers in squares if numbers is not None for number in numbers)
 
     def of_root(self, letter: Symbol, value: Expr) -> Verdict | None:
-        """Judge a claim that gives a root of an earlier equation: the letter with an index names a root for the letter
-        without it."""
+        """Judge a claim that gives a root of an earlier equation: `w_1 = ...` holds if this value of w satisfies the
+        equation."""
         if not self.claim.row.block.display or not self.thorough:
             return None
         found = root_equation(letter, self.meaning, self.known)
@@ -619,7 +619,8 @@ class Decision:
         return Verdict(Outcome.UNDECIDED, "an equation that does not follow from the rows before it")
 
     def is_lagrange_form(self, symbols: set[Symbol]) -> bool:
-        """Whether an equation has derivatives of one letter, some by a coordinate and some by a rate."""
+        """Whether all derivatives in an equation are of one letter, some with respect to a coordinate and some with
+        respect to a rate."""
         derivatives = [self.meaning.derivatives[each] for each in symbols if each in self.meaning.derivatives]
         letters = {letter.identity for letter, _, _ in derivatives}
         dots = {
@@ -631,7 +632,8 @@ class Decision:
         return len(letters) == 1 and {0, 1} <= dots
 
     def holds_in_motion_only(self, left: Value, right: Value) -> bool:
-        """Whether a second rate, or a rate of a letter that usually names a momentum, is on one side only."""
+        """Whether a second time derivative, or a rate of a letter that usually names a momentum, is on one side
+        only."""
         letters = self.meaning.symbols
         for each in left.free_symbols ^ right.free_symbols:
             letter = letters.get(each)
@@ -740,7 +742,7 @@ def _relative_error(left: Expr, right: Expr) -> float | None:
 
 
 def changing_letters(symbols: set[Symbol], meaning: Meaning) -> tuple[Symbol, ...]:
-    """Return the letters that change, with their rates, and the angles."""
+    """Return those of the symbols that change with time, are rates, or have names that are usual for angles."""
     return tuple(
         sorted(
             (
@@ -755,7 +757,7 @@ def changing_letters(symbols: set[Symbol], meaning: Meaning) -> tuple[Symbol, ..
 
 
 def small_letters(symbols: set[Symbol], meaning: Meaning) -> list[tuple[Symbol, ...]]:
-    """Return the sets of letters that can be small: all that change, with the angles, or one letter alone."""
+    """Return the sets of letters that can be small: first all `changing_letters`, then each letter alone."""
     changing = changing_letters(symbols, meaning)
     single = [(each,) for each in sorted(symbols, key=str)]
     return ([changing] if changing else []) + single
@@ -793,7 +795,7 @@ def _degree(value: Expr, letters: tuple[Symbol, ...]) -> int:
 
 
 def _approximate_multiple(wanted: Expr, equation: Expr, meaning: Meaning) -> bool | None:
-    """Whether an equation is an earlier one to the leading order, times a number or a product of letters."""
+    """Whether an equation agrees to the leading order with an earlier one times a number or a product of letters."""
     symbols = wanted.free_symbols | equation.free_symbols
     for letters in filter(None, [changing_letters(symbols, meaning)]):
         scale = Symbol("epsilon_", positive=True)
@@ -825,7 +827,8 @@ def counterexample(left: Value, right: Value) -> str:
 
 
 def _simple_points(symbols: list[Symbol]) -> Iterator[dict[Symbol, Expr]]:
-    """Yield small numbers for letters; the later points have small rates, or other orders of size."""
+    """Yield points with simple numbers for the letters: integers, integers with small rates, integers in reverse order,
+    and fractions."""
     for start in (1, 2, 3):
         yield {each: Integer(start + i) for i, each in enumerate(symbols)}
     for size in (10, 100):

@@ -24,7 +24,7 @@ USUAL = {  # the powers of mass, length and time
     "x": (0, 1, 0), "y": (0, 1, 0), "z": (0, 1, 0), "r": (0, 1, 0), "omega": (0, 0, -1), "T": (1, 2, -2),
     "U": (1, 2, -2),
 }  # fmt: skip
-LESS_USUAL = ("l", "T", "R")  # also an angular momentum; a period or tension; a resultant
+LESS_USUAL = ("l", "T", "R")  # these may also name an angular momentum; a period or a tension; a resultant force
 MOST_CANDIDATES = 12
 FEWEST_CLAIMS = 6
 Form = dict[str, Fraction]  # the exponents of the letters in a product
@@ -105,7 +105,7 @@ def _conflicts(equations: Sequence[Equation]) -> list[set[int]]:
 
 
 def usual(equations: Sequence[Equation], meaning: Meaning) -> Iterator[Equation]:
-    """Yield the dimensions that some letters usually have; an angle has none."""
+    """Yield the dimensions that some letters usually have; an angle is dimensionless."""
     names = {each for equation in equations for each in equation.form}
     yield Equation(-1, {"t": Fraction(1)}, (Fraction(0), Fraction(0), Fraction(1)))
     for symbol, letter in meaning.symbols.items():

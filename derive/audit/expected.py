@@ -295,7 +295,7 @@ class _Section:
         if isinstance(value, Expr) and isinstance(result.right, Expr) and result.right != 0:
             ratio = sympy.simplify(value / result.right)
             if ratio == -1:
-                claim.verdict.why_plausible = "the sign is turned"
+                claim.verdict.why_plausible = "the sign is reversed"
             elif ratio.is_number and ratio.is_Rational:
                 claim.verdict.why_plausible = f"the row is {AbsoluteValue(ratio)} times the derived result"
 

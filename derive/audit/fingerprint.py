@@ -1,6 +1,6 @@
 """The values of an expression at a few fixed points, which show quickly that two expressions are not equal.
 
-The number for a letter depends only on its name, so that the values of each expression are computed once.
+At each point, the number of a letter depends only on its name, so that the values of each expression are computed once.
 """
 
 from __future__ import annotations
@@ -72,7 +72,8 @@ def at(value: Expr, number: Callable[[Symbol], complex]) -> complex:
 
 
 def size_at(value: Expr, number: Callable[[Symbol], complex]) -> float:
-    """Return the value of an expression after each term of a sum is replaced by its absolute value."""
+    """Return the value of an expression in which each factor, and each term of a sum, is replaced by its absolute
+    value."""
     if value.is_Add:
         return sum(size_at(each, number) for each in value.args)
     if value.is_Mul:

@@ -17,23 +17,23 @@ ROUNDS = 8  # rounds of substitution
 LARGEST = 4000  # the most operations of an expression after substitution
 LAST_EQUATIONS = 24
 MOMENTA = ("p", "l", "L", "J", "ell")
-ASSUMED = -1  # in place of the number of a claim, for an assumed equation
+ASSUMED = -1  # stands for the number of a claim if the equation is assumed
 
 
 @dataclass
 class Known:
-    """The knowledge of one scope: a problem or a chapter of the document."""
+    """The knowledge of one scope: a problem or a section of the document."""
 
     meaning: Meaning
     definitions: dict[Symbol, list[Definition]] = field(default_factory=dict)
-    numbers: dict[Symbol, list[Definition]] = field(default_factory=dict)  # values for an example or at an instant
+    numbers: dict[Symbol, list[Definition]] = field(default_factory=dict)  # values without letters
     equations: list[tuple[Expr, int]] = field(default_factory=list)
     bounds: list[tuple[Symbol, str, Expr, int]] = field(default_factory=list)  # letter, relation, number, claim
     slips: dict[Symbol, Definition] = field(default_factory=dict)  # the values that wrong rows give
     seen: set[Symbol] = field(default_factory=set)  # the letters of earlier claims
     conditions: set[int] = field(default_factory=set)  # claims that may hold in one case or at one instant only
     named: set[Symbol] = field(default_factory=set)  # letters to which a display gave a value
-    kept: dict[object, Any] = field(default_factory=dict)  # results that `systems` computed from this knowledge
+    kept: dict[object, Any] = field(default_factory=dict)  # results that were computed from this knowledge
 
     def define(
         self, symbol: Symbol, value: Expr, claim: int, implied: bool = False, part: int = -1, chain: int = -1
@@ -180,7 +180,8 @@ class Known:
         return bool(rates) and bool(sympy.expand(doubled - 2 * definition.value) == 0)
 
     def through(self, value: Expr, wanted: set[Symbol]) -> Expr:
-        """Substitute the definitions of letters that depend on the variables of a derivative."""
+        """Substitute the definitions of all letters except `wanted`, the variables of a derivative. In a derivative by
+        coordinates, momenta are not substituted."""
         by_rate = any((each := self.meaning.symbols.get(symbol)) is not None and each.dots for symbol in wanted)
         for _ in range(ROUNDS):
             found = {}
@@ -226,7 +227,7 @@ class Known:
         return tuple(each.xreplace(put_in) for each in values), tuple(each.claim for each in found.values())
 
     def recent(self) -> list[tuple[Expr, int]]:
-        """Return the last equations, also with known values substituted."""
+        """Return the last equations, and forms of them in which zeros and derivatives are substituted."""
         last = self.equations[-LAST_EQUATIONS:]
         zeros = {symbol: each[-1].value for symbol, each in self.numbers.items() if each[-1].value == 0}
         put_in = (

@@ -1,4 +1,4 @@
-"""Whether a row that does not follow would follow after one small change: then the row is probably a slip.
+"""Whether a row that does not follow would follow after one small change. If it would, it probably contains a slip.
 
 A change is tried with numbers, at points where the earlier equations hold. A row is accused if one change makes it
 right at all points.
@@ -24,11 +24,12 @@ from derive.documents.meaning import Meaning, Meaningless
 from derive.documents.syntax import Add, Der, Fun, Letter, Node, Num, Root
 
 POINTS = 3
-SMALL, SMALLEST = 1e-7, 1e-6  # a residual relative to the value elsewhere; a value that counts as zero
+SMALL = 1e-7  # the greatest relative error of an equation that holds
+SMALLEST = 1e-6  # sides whose terms are smaller than this are not compared
 MOST_CHANGES = 4000
 MOST_TERMS = 60
 MOST_TERMS_OF_EQUATION = 8
-TOO_EASY = ("term", "extra factor")  # not tried in a special case: a lost factor would turn x_0 cos(w t) into x_0
+TOO_EASY = ("term", "extra factor")  # changes that are not tried in a special case, where x_0 cos(w t) may become x_0
 Shown = Callable[..., str]
 
 
@@ -113,7 +114,8 @@ class Nearness:
         return None
 
     def lost_term(self, difference: Expr) -> Expr | None:
-        """Return a term with which an equation is a multiple of one earlier equation, or None."""
+        """Return a term that is missing: with it, the equation is a multiple of an earlier one. Return None if none is
+        found."""
         if self.terms is None or difference.has(Integral):
             return None
         wanted = expand(expanded(self.known, difference, sure=True)[0])
@@ -182,7 +184,7 @@ def letters_in(*sides: Node | None) -> list[Letter]:
 
 
 def is_other_root(edit: Edit, side: Node) -> bool:
-    """Whether a change turns the sign of a square root: both signs are roots, and the text may choose one."""
+    """Whether a change reverses the sign of a square root: either sign gives a root, and the text may choose one."""
     return edit.kind == "sign" and any(
         isinstance(each, Root) and edit.span.start <= each.span.start < edit.span.end for each in side.walk()
     )

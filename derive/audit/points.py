@@ -18,13 +18,13 @@ from derive.audit.time_limit import FAULTS
 from derive.documents.meaning import Meaning
 
 STEPS = 12  # the most steps of Newton's method
-TRIED = 8  # the most points with which Newton's method begins
-SLOPE = 1e-6  # the relative change of a letter for a slope
-SMALL = 1e-10  # a residual relative to the terms of its equation, or a letter that counts as zero
-DAMPING = 1e-9  # relative to the diagonal
-SMALLEST = 1e-3  # the smallest number of a letter that is positive
-LARGEST = 1e3  # the largest number of a letter
-WEIGHTS = (0.05, 0.3, 1.0)  # how easily a letter moves: one that does not change, one that changes, a rate
+TRIED = 8  # the most starting points of Newton's method
+SLOPE = 1e-6  # the relative change of a letter with which a slope is computed
+SMALL = 1e-10  # an equation with a smaller residual, relative to its terms, is satisfied
+DAMPING = 1e-9  # the relative increase of the diagonal of the linear system
+SMALLEST = 1e-3  # the smallest absolute value of a letter
+LARGEST = 1e3  # the largest absolute value of a letter
+WEIGHTS = (0.05, 0.3, 1.0)  # how easily numbers move: of constants, of letters that change with time, of rates
 
 Numbers = dict[Symbol, complex]
 

@@ -84,7 +84,7 @@ def _told(audit: Audit, claim: Claim, every: bool) -> str:
     if carrying := [each.row.line for each in audit.claims if _verdict(each).inherits == claim.number]:
         notes.append(f"repeated in line {', '.join(map(str, dict.fromkeys(carrying)))}")
     if ASSUMED in verdict.given:
-        notes.append("given an assumption of the command line")
+        notes.append("given an assumption from the command line")
     suggestion = f"probably {verdict.suggestion}: {verdict.why_plausible}" if verdict.suggestion else None
     if verdict.why_plausible and not suggestion:
         notes.append(verdict.why_plausible)

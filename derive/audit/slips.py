@@ -28,8 +28,8 @@ class Edit:
 
 WHY = {
     "number": "a number was mistyped",
-    "sign": "a sign was lost or turned",
-    "index": "an index was confused",
+    "sign": "a sign was lost or reversed",
+    "index": "one index was written for another",
     "letter": "one letter was written for another",
     "exponent": "an exponent was lost or mistyped",
     "factor": "a factor was lost",

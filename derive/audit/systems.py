@@ -1,8 +1,8 @@
 """What earlier equations give together, and where a new equation contradicts them.
 
-An equation follows from others if, at a few points, its coefficients are a combination of theirs. The unknowns are
-products of the letters that are eliminated. Lagrange's and Hamilton's equations of a function that the document defines
-also belong to the known equations.
+An equation counts as a consequence of others if, at a few points, its coefficients are a linear combination of their
+coefficients. The unknowns are products of the letters that are eliminated. Lagrange's and Hamilton's equations of a
+function that the document defines also belong to the known equations.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from derive.documents.syntax import Letter
 
 MOST_EQUATIONS = 8
 POINTS = 2
-LARGEST = 300  # an equation with as many operations is left out
+LARGEST = 300  # an equation with at least this number of operations is left out
 LARGEST_LAGRANGIAN = 500
 LARGEST_CONSTRAINT = 60
 HIGHEST_POWER = 6
@@ -46,8 +46,8 @@ def equations_of(
 ) -> list[Equation]:
     """Return the equations that earlier rows give, the last ones first, with definitions substituted.
 
-    `sure` leaves out conditions in sentences and solutions in the time, which may hold in one case only; `written`
-    leaves out Lagrange's and Hamilton's equations of a function.
+    `sure` leaves out conditions in sentences and solutions as functions of the time, which may hold in one case only;
+    `written` leaves out Lagrange's and Hamilton's equations of a function.
     """
     state = (len(known.equations), sum(map(len, known.definitions.values())), without, sure, written)
     if state not in known.kept:
@@ -189,8 +189,8 @@ def motion(known: Known, meaning: Meaning) -> Iterator[tuple[Expr, tuple[int, ..
 
 
 def root_equation(letter: Symbol, meaning: Meaning, known: Known) -> tuple[Symbol, Expr, int] | None:
-    """Return the letter without its index, and the last equation of which `letter` may name a root, such as w_1 or
-    x_0."""
+    """Return the letter without its index, and the last equation of which `letter`, such as w_1 or x_0, may name a
+    root."""
     named = meaning.symbols.get(letter)
     if named is None or not named.sub or named.dots or named.marks or named.base == "t":
         return None
@@ -278,7 +278,7 @@ class System:
         rates = {each for each in everywhere if self.known.is_rate(each)}
         for equation in equations:
             for term in sympy.Add.make_args(equation.value) if rates else ():
-                if term.free_symbols & rates:  # a mass times an acceleration: the mass is given
+                if term.free_symbols & rates:  # in a mass times an acceleration, only the acceleration is unknown
                     found -= term.free_symbols - rates
         if self.letter is not None:
             found.add(self.letter)

@@ -11,7 +11,7 @@ from derive.building.files import write
 from derive.building.set_names import set_folder
 from derive.errors import Complaint, Misused, did_you_mean
 
-RECORD = ".class.json"  # a file of the folder of the set, so it stays if the documents of the class are removed
+RECORD = ".class.json"  # in the folder of the set, so that it stays if the documents of the class are removed
 
 
 @dataclass(frozen=True)
@@ -38,7 +38,7 @@ class ClassRecord:
         write(set_folder(root, self.set_id) / RECORD, json.dumps(kept, ensure_ascii=False, indent=1) + "\n")
 
     def check_seed(self, seed: str | None, help_line: str) -> None:
-        """Report an error if the class was made with another seed than this one."""
+        """Report an error if the class was made with a different seed."""
         if seed is not None and seed != self.seed:
             made = f"the seed `{self.seed}`" if self.seed else "no seed"
             message = f"the class of `{self.set_id}` was made with {made}, not with `{seed}`"
@@ -57,7 +57,7 @@ class ClassRecord:
     def unknown(self, student: str) -> Complaint:
         """Return the error about an answer of a student who is not in the class."""
         if not student.strip():
-            message = f"the problem has variants, but no student is named; the class of `{self.set_id}` has codes"
+            message = f"the problem has variants, but no student of the class of `{self.set_id}` is named"
             return Complaint("no-such-student", message, help="give the code of the student in the column `student`")
         shown = student if len(student) <= 40 else f"{student[:40]} ..."
         help_line = did_you_mean(student, [*self.students, *self.students.values()])

@@ -303,7 +303,8 @@ def class_is_older(root: Path, set_id: str, engine: Engine) -> list[Complaint]:
 
 
 def why_of_class(root: Path, built: Path, engine: str | None) -> str | None:
-    """Return whether a document of a student is out of date; None if no class has such a document."""
+    """Return a text that says whether, and why, a document of a student is out of date; None if no class has such a
+    document."""
     folder_of, set_id = built.parent.name, built.parent.parent.name
     made = ClassRecord.read(root, set_id)
     if made is None or folder_of not in (CLASS, STUDENTS) or not NAME.fullmatch(set_id):

@@ -64,7 +64,7 @@ def list_again(root: Path, set_id: str, record: Callable[[Manifest], None] | Non
 
     The page is not changed if a user has edited it.
 
-    record   records a file that the command wrote; None if it wrote no file
+    record   a function that records a file that the command wrote; None if it wrote no file
     """
     outputs = set_folder(root, set_id)
     page = outputs / f"{INDEX}.html"

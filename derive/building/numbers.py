@@ -74,7 +74,7 @@ def faults_of_numbers(
     if not problem.every_amount:
         return []
     answers = list(_answers(problem, derivation, values))
-    # The form of a part may be meant for some of its answers.
+    # The form of a part may be meant for only some of its answers.
     served = [answer.part for answer in answers if answer.has_number]
     wanting = [a for a in answers if not a.has_number and (a.asked in a.part.forms or a.part not in served)]
     said = {(answer.key, answer.why): place for answer in wanting if (place := answer.in_form)}

@@ -1,7 +1,7 @@
 """The figure of an author as the two files that every drawing has: a PDF for paper and an SVG for browsers.
 
-Typst, an optional package, converts the file. In the SVG the figure is an image. Its styles and names therefore do not
-affect the page, and the browser runs none of its scripts.
+Typst, an optional package, converts the file. In the SVG the figure is an embedded image, so that its styles and names
+do not affect the page and the browser runs none of its scripts.
 """
 
 from __future__ import annotations

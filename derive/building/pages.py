@@ -242,7 +242,8 @@ class _Printing:
         """The points of the steps, by the label of the part."""
         values = self.solved.values.values()
         steps = [*self.solved.derivation.steps, *values]
-        tasks = {step.key: self.words.tasks.get(step.rule, "") for step in steps}  # a rule of a script has no task
+        # The phrases have no task for a rule of an author's script.
+        tasks = {step.key: self.words.tasks.get(step.rule, "") for step in steps}
         return credits_of(self.document, self.rubric, tasks, values)
 
     def _documents(self) -> dict[str, str]:

@@ -29,7 +29,7 @@ class Scratch:
             whole = Path(self._folder.name)
             self._lock = os.open(whole / "lock", os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o600)
             is_held(self._lock, whole / "lock")
-            os.rename(whole / "lock", whole / HELD)  # so a file of this name is locked from the start
+            os.rename(whole / "lock", whole / HELD)  # the file is locked before it gets this name
             self.name = str(whole / "work")
             os.mkdir(self.name)
 

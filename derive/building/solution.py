@@ -107,7 +107,8 @@ def answer_key(root: Path, problem_id: str, cache: Cache = NO_CACHE, chosen: Cho
 def _solved(problem: Problem, cache: Cache, begun: int, faults: Faults) -> tuple[Solved, tuple[Complaint, ...]]:
     """Return the steps and the disagreements with the reference.
 
-    New steps are stored for later builds, unless there is an error or a file was edited after the time `begun`.
+    New steps are stored for later builds, unless there is an error or a disagreement, or a file was edited after the
+    time `begun`.
     """
     key = steps_key(problem)
     with suppress(KeyError):

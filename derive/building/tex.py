@@ -129,7 +129,7 @@ def typeset(
 
     timeout    the limit of the processor time of each run, in seconds
     log        the folder for the source and the log of a failed run
-    numbers    the store of the page numbers
+    numbers    the store of the page numbers, for the next run
     included   the files that the source includes, such as its drawings
     formats    the cache that stores formats
     """

@@ -49,7 +49,7 @@ class OfProblem:
     structures  the number of different derivations
     same        number of pairs of draws with the same choices
     equal       for each answer, the number of pairs of different variants with the same value
-    degenerate  a fault of draws -> the draws that have it, in words
+    degenerate  a description of a defect -> descriptions of the draws that have this defect
     outcomes    for each answer, the outcomes of its rule, such as `oscillates`, each with the number of draws
     compared    number of draws that were also derived completely
     """
@@ -198,7 +198,7 @@ def _structure(root: Path, problem_id: str, given: Chosen, found: OfProblem) -> 
 
 
 def _has_number(quantity: Quantity, letters: set[Symbol]) -> bool:
-    """Whether an answer is a scalar whose letters have numbers; a period that is given as a series is not."""
+    """Whether an answer is a scalar whose letters have numbers; a period that is given as a series does not count."""
     value = quantity.value
     if isinstance(value, MatrixBase | Relation) or quantity.fact(WholeSwing) is not None:
         return False

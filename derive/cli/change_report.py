@@ -43,7 +43,7 @@ _FACETS = {
 _SIGNS = {ADDED: "+", REMOVED: "-", CHANGED: "~"}
 _COLOURS = {ADDED: "32", REMOVED: "31"}
 _AROUND = 6  # words of a sentence that are shown on each side of a change
-_MOST_LINES = 3  # if there are at least two more changed lines of a step, only this number is shown
+_MOST_LINES = 3  # the number of changed lines of a step that are shown if there are at least two more
 
 
 def told(problem_id: str, diff: Diff, coloured: bool) -> str:
@@ -167,7 +167,7 @@ class _Shown:
         return textwrap.wrap(listed, WIDTH, initial_indent="  ", subsequent_indent="  ", break_long_words=False)
 
     def _order(self, changes: Sequence[Change]) -> Iterable[str]:
-        yield f"  {changes[0].where} that remain are in another order"
+        yield f"  the remaining {changes[0].where} are in a different order"
 
 
 def _ended(runs: Sequence[tuple[str, str]]) -> Iterable[tuple[tuple[str, str], bool, bool]]:

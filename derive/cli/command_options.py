@@ -126,7 +126,7 @@ def _grade(grade: argparse.ArgumentParser) -> None:
     grade.add_argument("answer", nargs="?", metavar="ANSWER", help="a formula, or a number with its unit")
     grade.add_argument("--part", metavar="PART", help="such as b; b(2) is its second answer")
     grade.add_argument("--answers", metavar="FILE", help="CSV with the columns student, problem, part, answer")
-    grade.add_argument("--student", metavar="CODE", help="the student of `derive class` whose variant it answers")
+    grade.add_argument("--student", metavar="CODE", help="the student of `derive class` whose variant is answered")
     grade.add_argument("--roster", metavar="FILE", help="the roster of a class that was made on another machine")
     grade.add_argument("--seed", metavar="TEXT", help="with --roster, the seed of this class")
     grade.add_argument("-o", "--output", dest="output", metavar="FILE", help="file to write; - is standard output")

@@ -29,7 +29,8 @@ MAX_EXP_ARGUMENT = 100
 
 @dataclass(frozen=True)
 class Declared:
-    """A letter that is declared, introduced for a number, or part of a description: its symbol, kind and range."""
+    """A letter that is declared, that replaces a number, or that a description introduces: its symbol, kind and
+    range."""
 
     name: str
     symbol: Symbol
@@ -140,7 +141,7 @@ class Arithmetic:
     def _raised_to_letters(self, base: Term, exponent: Term) -> Term:
         """Return a power whose exponent has letters, such as (r/a)**n. The base must be dimensionless and positive."""
         if base.dimension != NUMBER:
-            message = f"`{self.shown(base)}` is {base.is_a}, but `{self.shown(exponent)}` needs a base that is a number"
+            message = f"`{self.shown(base)}` is {base.is_a}, but `{self.shown(exponent)}` needs a dimensionless base"
             self.refuse("dimension", f"{message}, such as `(r/a)**n`", base.start, exponent.end)
         if not base.expr.is_positive:
             message = f"the base `{self.shown(base)}` of the exponent `{self.shown(exponent)}`"

@@ -5,7 +5,8 @@
     unary    ("-" | "+") unary | atom ("**" unary)?
     atom     number | number unit | name | function "(" sum ")" | "(" sum ")"
 
-A number may be followed by the unit of an angle, as in `sin(30 deg)`.
+A number may be followed by the unit of an angle, as in `sin(30 deg)`. Another unit is allowed only if the caller has a
+letter that replaces the number.
 
 The grammar reads every character; no text ever reaches Python or SymPy as code. The size of every value is bounded
 before the value is computed.
@@ -62,9 +63,9 @@ _INSTEAD = {
     "}": ")",
 }
 _WHY_NOT = {
-    ".": "an expression has no attributes",
-    **dict.fromkeys("'\"", "an expression has no text"),
-    **dict.fromkeys("=<>!", "an expression has no comparisons"),
+    ".": "a dot is allowed only inside a number",
+    **dict.fromkeys("'\"", "quotes are not allowed in an expression"),
+    **dict.fromkeys("=<>!", "a comparison is not allowed in an expression"),
 }
 
 

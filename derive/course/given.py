@@ -63,7 +63,8 @@ class Measured:
 class Given:
     """One key of `given:`: the argument for `solve()`, and the numbers of the letters in this argument.
 
-    `word` is the name of a direction. `written` is the text of an exact value, such as 45 deg.
+    `word` is a value that is a plain word, such as the name of a direction. `written` is an exact value as the file
+    states it, such as 45 deg.
     """
 
     name: str
@@ -346,7 +347,8 @@ class NumbersAsLetters:
 
 
 def _asked_of_kind(kind: str, count: int) -> Asked:
-    """Return the annotation for one value of a kind, with the usual letters for `count` such values."""
+    """Return the annotation for one value of a kind, with the letters that are usual for `count` values of this
+    kind."""
     known = [asked for asked in ANNOTATIONS.values() if asked.each == kind]
     usual = next((asked for asked in known if asked.count == count), next(iter(known), None))
     return Asked(kind, usual.letters if usual and usual.letters else (kind[0],))

@@ -15,7 +15,7 @@ SOLUTIONS, SHEET, REPORT = OF_EVERY_SET = ("solutions", "problems", "report")
 KEY, HINTS, RUBRIC = MORE = ("key", "hints", "rubric")
 DOCUMENTS = (*OF_EVERY_SET, *MORE)
 ON_A_PAGE = (SHEET, *MORE)  # each of these documents is also built as a single page for a browser
-LOGO = "logo.png"  # the name of the logo where TeX runs
+LOGO = "logo.png"  # the name of the logo in the folder where TeX runs
 INDEX = "index"  # the page of a set for a browser
 # Folders of a set's outputs: the files that students may see, and the documents of a class for the instructor.
 STUDENTS, CLASS = "students", "class"
@@ -60,5 +60,5 @@ class EvidenceShown(StrEnum):
 
     NONE = "none"  # nothing
     END = "end"  # a note at the end of the solution, which counts the checks
-    # the note and, next to each display of formulas, its grade and a second route or a check if it fits
+    # the note and, next to each display of formulas, its grade and, if there is room, a second route or a check
     MARGIN = "margin"

@@ -31,7 +31,7 @@ def begun_course(folder: Path, title: str, template: Callable[[str], Path]) -> d
     Raise `Misused` if the folder is a course already, or has one of these files.
 
     title     the name of the course
-    template  returns the file of a template
+    template  a function that returns the file of a template
     """
     if (folder / "problems").is_dir():
         message = f"`{folder}` is a course already: it has a folder `problems`"

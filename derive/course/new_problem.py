@@ -32,7 +32,7 @@ def begun(
 
     Raise `Misused` if the name is taken or not allowed, or if the pattern or problem `like` does not exist.
 
-    template      returns the file of a template; the folder `new` has the patterns
+    template      a function that returns the file of a template; the folder `new` has the patterns
     schemas       the folder of the schemas for editors
     like          a pattern by its name, or the id of a problem
     pattern_root  the folder of the course that has the problem `like`

@@ -1,8 +1,8 @@
 """A figure of the author: the key `figure:` of a problem names a PDF, SVG or PNG file next to the problem.
 
-The file is data of another program, so it is checked: its place, its size and its kind. Data of editors are removed
-from an SVG. A script, a reference to another file, or an element other than shapes, text, styles and pictures inside
-the file is an error.
+The file is data of another program, so it is checked: its place, its size and its kind. The private data of drawing
+programs are removed from an SVG. A script, a reference to another file, or an element other than shapes, text, styles
+and pictures inside the file is an error.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ class OwnFigure:
     """A checked figure.
 
     path      the file, relative to the folder of the course
-    content   the file itself; for an SVG, without the data of editors
+    content   the file itself; for an SVG, without the private data of drawing programs
     """
 
     path: str
@@ -121,7 +121,8 @@ def _pixels(png: bytes) -> int:
 
 
 def shapes_of(content: bytes) -> tuple[bytes, str]:
-    """Return an SVG without the data of editors, and ""; or no content, and the reason why the SVG is rejected."""
+    """Return an SVG without the private data of drawing programs, and ""; or no content, and why the SVG is
+    rejected."""
     try:
         text = _DOCTYPE.sub("", content.decode("utf-8-sig"))
         if "<!DOCTYPE" in text or "<!ENTITY" in text:
@@ -140,7 +141,7 @@ def shapes_of(content: bytes) -> tuple[bytes, str]:
 
 
 def _unwanted(tree: ElementTree.Element) -> str:
-    """Remove the data of editors from an SVG, and return the first other thing that is not allowed."""
+    """Remove the private data of drawing programs from an SVG; return what else is not allowed in it, or ""."""
     for element in tree.iter():
         for child in list(element):
             space, _, name = child.tag[1:].rpartition("}")

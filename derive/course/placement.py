@@ -29,7 +29,7 @@ ROMAN = ("i", "ii", "iii", "iv", "v", "vi", "vii", "viii", "ix", "x")
 
 
 def case_label(index: int) -> str:
-    """Return the label of a case, counted from 0: i, ii, ... x, then 11, 12, ..."""
+    """Return the label of a case by its index: i for 0, ii for 1, ..., x for 9, then 11, 12, ..."""
     return ROMAN[index] if index < len(ROMAN) else str(index + 1)
 
 
@@ -61,7 +61,7 @@ class Placement:
         surfaces  the names of the surfaces that are drawn with a path
         then      the value that curves keep after the range
         up        the ends of the vertical axis of curves
-        energies  the energies whose lines a potential energy shows
+        energies  the energies that are drawn as lines in the plot of a potential energy
         per       the quantities by which the axes of a plot are divided
         panels    whether curves are together in one panel or apart; None by default
     levels, over   for a phase portrait: the value on each curve, and the ranges of the two axes; for a bifurcation
@@ -126,7 +126,8 @@ class Placement:
 def placements(
     drawings: Table[Word, DrawingKeys], symbols: Table[str, Declared], parts: int, faults: Faults
 ) -> tuple[Placement, ...]:
-    """Read every entry of `drawings:`. The names are checked after the script has run."""
+    """Read every entry of `drawings:`. Names in an entry, such as those of steps, are checked after the script has
+    run."""
     return tuple(
         Placement(
             key=name,

@@ -249,9 +249,9 @@ def problem_and_faults(root: Path, problem_id: str, chosen: Chosen | None = None
 def _check_choices(
     root: Path, problem_id: str, written: ProblemKeys, script: Script | StockScript, faults: Faults
 ) -> None:
-    """Report the errors in the choices of each variation; the other values are those of the file. An error elsewhere is
-    reported at the choice of a given value. A number may cause it by its relation to other numbers, so then it is left
-    out."""
+    """Report the errors that each choice of a variation causes; the other values are those of the file. An error at
+    another place of the file is reported at the choice if a given value varies. If a number of `values:` varies, such
+    an error is left out, because it may depend on other numbers, too."""
     for variation in written.variants:
         known: set[tuple[str, Place]] = set()
         for number in variation.tried:

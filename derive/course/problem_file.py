@@ -214,7 +214,7 @@ class MarkKeys(Record):
         one_of(MARKS),
         required=True,
     )
-    label: Formula | None = key("the letter, the formula or the answer that names it; by default no label", FORMULA)
+    label: Formula | None = key("the letter, formula or answer that names the mark; by default no label", FORMULA)
     at: Tree | None = key(
         "the place of a point, the start of an arrow, the vertex of an angle, the centre of a turn or a circle, or the "
         "moving point of a curve; in the drawing of a body, by default the origin; if the body is given by its "
@@ -337,7 +337,7 @@ class DrawingKeys(Record):
         mapping_of(ENDS),
     )
     ends: tuple[Formula, ...] | None = key(
-        "the two ends of a plot, such as `[-60 deg, 60 deg]` or, with an answer, `[0 s, 2*top_time]`",
+        "the two ends of the range of a plot, such as `[-60 deg, 60 deg]` or, with an answer, `[0 s, 2*top_time]`",
         ENDS,
         called="range",
     )

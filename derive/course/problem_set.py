@@ -246,7 +246,7 @@ def problem_set(root: Path, set_id: str) -> ProblemSet:
     _clashes(written.documents, [full.partition("/")[2] for full in problems], faults)
     misspelt = any(nearest(name.text, ["course"]) for name, _ in node.pairs if name.text not in keys_of(SetKeys))
     if not (written.course or of_course.course or misspelt) and node.get("course") is None:
-        help_line = f"or `{COURSE}` in the folder of the course gives it to all sets"
+        help_line = f"write it here, or in `{COURSE}` for all sets of the course"
         faults.error("missing-key", "a set needs `course`: the course", node.place, help=help_line)
     faults.stop()
 
@@ -353,7 +353,7 @@ def _listed(written: tuple[Word, ...], set_id: str, known: List[str], faults: Fa
             message = f"a problem cannot be called `{item}`, because a document of the set has that name"
             faults.error("reserved-name", message, item.place, help="rename its files")
         elif item not in names:
-            begun = f"`derive new {set_id}/{item}` begins it" if NAME.fullmatch(item) else None
+            begun = f"`derive new {set_id}/{item}` begins this problem" if NAME.fullmatch(item) else None
             help_line = did_you_mean(item, names) or begun
             message = f"no problem of this set is called `{item}`"
             if item in known and not item.startswith(f"{set_id}/"):

@@ -90,7 +90,7 @@ def run(script: Script, values: Mapping[str, Any]) -> object:
 
 
 def _placed(error: DeriveError, file: Path, source: Source) -> DeriveError:
-    """Add the line of the script with the call to an error of a verb."""
+    """Add to the error of a verb the line of the script that calls the verb."""
     place = _innermost(error, file, source)
     if place is None:
         return error

@@ -94,7 +94,7 @@ class Answering(Protocol):
         """Add the marks of the problem to the drawings."""
 
     def every(self) -> dict[str, Any]:
-        """Return the steps of every name that can be derived, and the errors of results."""
+        """Return the steps of each offered name, or the error if the answer cannot be derived."""
 
 
 @dataclass(frozen=True)
@@ -102,7 +102,7 @@ class Stock:
     """A script of the engine.
 
     keys      the keys allowed under `given:`
-    read      returns the description in the declared symbols; collects errors
+    read      the function that returns the description in the declared symbols and collects errors
     answers   the class that derives the answers of a description
     shows     the marks of a body, such as its centre of mass, that its drawing can have
     """
@@ -157,7 +157,7 @@ class InLetters:
         self.numbers = NumbersAsLetters(self.letters)
 
     def also(self, letters: Mapping[str, Declared]) -> InLetters:
-        """Return a reader that also knows these symbols; both replace equal numbers by the same symbol."""
+        """Return a reader that also has these symbols; both readers replace equal numbers by the same symbol."""
         found = InLetters({**self.letters, **letters})
         found.numbers = self.numbers
         return found

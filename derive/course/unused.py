@@ -18,7 +18,7 @@ from derive.errors import Complaint
 GRAVITY, ACCELERATION = "gravity", "acceleration"
 # Keys under `given`. A coordinate that only these keys mention counts as unused.
 OF_STATES = ("at", "results", "conserved", "coordinates", "functions")
-NOUNS = {"coordinates": "coordinate", "functions": "function"}  # key under `given` -> what an entry is
+NOUNS = {"coordinates": "coordinate", "functions": "function"}  # key under `given` -> what an entry is called
 _NAME = re.compile(r"(?<![\w.])[A-Za-z_]\w*", re.ASCII)
 _RATES = ("", "_dot", "_ddot")
 
@@ -151,7 +151,7 @@ def _axes(given: Mapping | None) -> Iterator[Complaint]:
     used = {name for key, value in given.pairs if key.text != "axes" for name in _names(value)}
     for name, _ in axes.pairs:
         if name.text not in used:
-            message = f"no place is along the axes `{name.text}`, and no body turns with them"
+            message = f"no other key under `given` uses the axes `{name.text}`"
             yield Complaint("unused-key", message, name.place, help="leave them out", severity="warning")
 
 

@@ -1,4 +1,4 @@
-"""What a whole document shows about its letters: which are functions, vectors or angles, and which change with time.
+"""What a whole document shows about its letters: which are functions, vectors or tensors, and which change with time.
 
 Facts are counted over all formulas of the document, because a letter is often explained far from its use.
 """
@@ -31,7 +31,7 @@ from derive.documents.syntax import (
 )
 
 Identity = tuple[str, str, frozenset[str], int, str]
-UNKNOWN: Identity = ("?", "", frozenset(), 0, "")  # the unknown variable of a function that appears only with values
+UNKNOWN: Identity = ("?", "", frozenset(), 0, "")  # the variable of a function where only its value is written: V(q_r)
 VARIABLES = frozenset({"t", "x", "y", "z", "r", "s", "theta", "phi", "q", "u", "tau"})
 KINDS = ("positive", "real", "integer", "constant", "changes", "vector", "tensor")
 ANGLES = frozenset({"theta", "phi", "psi", "alpha", "beta", "gamma", "chi"})

@@ -813,7 +813,7 @@ def _chain(tokens: list[Token], row: Row, link: str, words: str) -> Statement | 
         else:
             relations.append(relation)
             sides.append([])
-    if relations[:1] == ["to"] and any(each.is_mark(":") for each in sides[0]):  # `F: A \to B` is a kind of function
+    if relations[:1] == ["to"] and any(each.is_mark(":") for each in sides[0]):  # `F: A \to B` declares a function
         sides[0] = sides[0][next(i for i, each in enumerate(sides[0]) if each.is_mark(":")) + 1 :]
     for side in sides:
         while len(side) > 1 and side[-1].is_mark(".", ",", ";", ":"):

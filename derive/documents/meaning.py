@@ -1,6 +1,6 @@
 """The nodes of a side as an expression of SymPy, or the reason why they have no value.
 
-A letter and each of its rates are separate symbols: `x`, `x'`, `x''`. A vector is a triple with opaque components. The
+A letter and each of its rates are separate symbols: `x`, `x'`, `x''`. A vector is a column with opaque components. The
 derivative of a letter about which nothing is known is a symbol, too. Letters are positive numbers unless they change
 with time, are functions, or have a name that is usual for an angle, a coordinate or a constant of either sign. Authors
 rely on this in sqrt(m^2) = m.
@@ -102,16 +102,17 @@ class Meaning:
     """Finds the values of nodes; it records the decimals it meets and the symbols it makes for derivatives."""
 
     facts: Facts
-    variables: tuple[Symbol, ...] = ()  # the variables of integrals, for brackets with limits
+    variables: tuple[Symbol, ...] = ()  # the variables of the integrals around a node, the innermost last
     decimals: list[tuple[Expr, int]] = field(default_factory=list)  # each decimal, with its digits after the point
     units: bool = False
     scope: int = -1
     plain: str = ""  # which letters of vectors stand for numbers: those without a mark, all, or also those of tensors
     derivatives: dict[Symbol, tuple[Letter, tuple[tuple[Symbol, int], ...], bool]] = field(default_factory=dict)
     symbols: dict[Symbol, Letter] = field(default_factory=dict)
-    parents: dict[Symbol, tuple[Symbol, Symbol]] = field(default_factory=dict)  # a derivative of a derivative
+    parents: dict[Symbol, tuple[Symbol, Symbol]] = field(default_factory=dict)  # derivative -> its operand and variable
     defined: Callable[[Symbol], Any] = lambda _: None  # the value that earlier rows give to a letter
-    evaluations: dict[Symbol, tuple[Symbol, Symbol, Expr]] = field(default_factory=dict)  # values of functions
+    # the symbol of a value such as U(0) -> the function, its variable and the place
+    evaluations: dict[Symbol, tuple[Symbol, Symbol, Expr]] = field(default_factory=dict)
     two_signs: bool = False
     left_out: tuple[Symbol, int] | None = None  # the letter and the order of the terms that are left out: O(x^2)
     sums: dict[Symbol, tuple[Expr, Symbol, str]] = field(default_factory=dict)  # term, index and range of open sums
@@ -509,7 +510,7 @@ class Meaning:
         return total
 
     def written_with_prime(self, value: Expr, by: Symbol) -> Symbol | None:
-        """Return the symbol dy/dx of an expression if `by` is y': both are the same derivative."""
+        """Return the symbol of dy/dx in an expression if `by` is y': both denote the same derivative."""
         letter = self.symbols.get(by)
         if letter is None or not letter.primes:
             return None
@@ -521,7 +522,7 @@ class Meaning:
         return None
 
     def of_member(self, term: Expr, index: Symbol, by: Symbol) -> Expr:
-        """Return the derivative of the one member of a sum that contains `by`: m_k v_k for the sum of m_i v_i^2/2."""
+        """Return the derivative of the one term of a sum that contains `by`: m_k v_k for the sum of m_i v_i^2/2."""
         letter = self.symbols.get(by)
         members = [self.symbols.get(each) for each in term.free_symbols if self.has_index(each, index)]
         if letter is None or not any(
@@ -534,7 +535,9 @@ class Meaning:
             if self.has_index(symbol, index):
                 member = self.symbols.get(symbol)
                 if member is None or symbol == index:
-                    raise Meaningless("this is the derivative of a sum with respect to one of its members", letter.span)
+                    raise Meaningless(
+                        "this is the derivative of a sum with respect to a letter of one term", letter.span
+                    )
                 put_in[symbol] = self.symbol(_replaced(member, sub=member.sub.replace(index.name, letter.sub)))
         return sympy.diff(term.xreplace(put_in), by)
 
@@ -677,7 +680,8 @@ class Meaning:
         return inner.xreplace(put_in).subs(variable, at)
 
     def with_label(self, value: Any, label: str) -> Any:
-        """Return a value with a label, of which nothing else is known: the rate of L in the body."""
+        """Return a value with a label, such as the rate of L in the body, as symbols; nothing else is known about
+        it."""
         if isinstance(value, MatrixBase):
             return value.applyfunc(lambda each: self.with_label(each, label))
         symbol = Symbol(f"({value})_{label}", real=True)

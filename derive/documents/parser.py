@@ -371,7 +371,7 @@ class _Reader:
         return True
 
     def with_operand(self, operator: Der) -> Node:
-        """Return a derivative with the factor in brackets after it, or the rest of the product."""
+        """Return a derivative whose operand is the bracket after it or, without a bracket, the rest of the product."""
         self.skip_spacing()
         if self.ends():
             return operator

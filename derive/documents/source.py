@@ -67,7 +67,7 @@ class Source:
     text: str = ""
     origins: array[int] = field(default_factory=lambda: array("L"))
     edits: list[Edit] = field(default_factory=list)
-    included: str = ""  # the text of the files that the document or its main document includes; defines macros
+    included: str = ""  # the text of the files that the document or its main document includes, which may define macros
 
     def __post_init__(self) -> None:
         if not self.text:
@@ -131,7 +131,7 @@ def read_source(path: Path, shown: str | None = None) -> Source:
     except OSError as error:
         raise Misused(Complaint("unreadable", f"`{name}` cannot be read: {error.strerror}")) from error
     except UnicodeDecodeError as error:
-        message = f"`{name}` is not in UTF-8; the first other byte is at position {error.start}"
+        message = f"`{name}` is not in UTF-8; the first byte that does not fit is at position {error.start}"
         raise Rejected(Complaint("encoding", message)) from error
     source = source_of(text, kind, name)
     if kind is Format.TEX:
@@ -148,7 +148,8 @@ MOST_INCLUDED = 50  # files
 
 
 def _main_document(text: str, path: Path) -> tuple[str, Path]:
-    """Return the document that includes a chapter and its folder; a document with a class is a main document."""
+    """Return the main document to which a text belongs, and its folder; the text itself if no document near it includes
+    it."""
     if r"\documentclass" not in text:
         for folder in (path.parent, path.parent.parent):
             for file in islice(sorted(folder.glob("*.tex")), MOST_INCLUDED):

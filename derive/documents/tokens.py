@@ -12,7 +12,7 @@ from enum import StrEnum
 
 from derive.documents.source import Span
 
-MOST_TOKENS = 20_000  # in one formula before its macros are expanded; the expansion may handle ten times as many
+MOST_TOKENS = 20_000  # tokens of a formula before its macros are expanded; the expansion may handle ten times as many
 DEEPEST_CALLS = 30  # nested calls of macros
 
 

@@ -110,7 +110,7 @@ class _Comparison:
         return Verdict(Outcome.EQUAL, "") if are_equal(value, right) else None
 
     def definitions(self, value: Expr, right: Expr) -> Verdict | None:
-        """Equal after replacing the symbols that the problem defines or that earlier steps introduce."""
+        """Accept a formula that is equal after definitions are substituted: those of the problem and of the steps."""
         own = {self.target.symbol} if isinstance(self.target.symbol, Symbol) else set()
         if value.free_symbols & own and right.free_symbols.isdisjoint(own):
             return None
@@ -151,7 +151,7 @@ class _Comparison:
         return None
 
     def other_letters(self, value: Expr, right: Expr) -> Verdict | None:
-        """Equal if letters that the problem does not have are other names of its letters."""
+        """Accept a formula that is equal if letters that the problem does not have are other names for its letters."""
         unknown = [each for each in self.read.unknown if each in value.free_symbols]
         bases = list(dict.fromkeys(_without_dots(each) for each in unknown))
         if not 0 < len(bases) <= MOST_UNKNOWN:
@@ -173,7 +173,7 @@ class _Comparison:
         return None
 
     def turned(self, value: Expr, right: Expr) -> Verdict | None:
-        """Equal if one or two coordinates are positive in the other sense.
+        """Judge a formula that is equal if one or two coordinates are positive in the opposite sense.
 
         This is a convention for an angle if only its sense relative to another coordinate matters. Otherwise the
         problem fixes the sense, and the answer has wrong signs.
@@ -186,8 +186,8 @@ class _Comparison:
                     continue
                 names = " and ".join(f"`{shown(each, self.key)}`" for each in chosen)
                 if self.is_free(chosen):
-                    return Verdict(Outcome.CONVENTION, f"if {names} is counted in the other sense")
-                return Verdict(Outcome.SIGN, f"it would be right if {names} were counted in the other sense")
+                    return Verdict(Outcome.CONVENTION, f"with the opposite sense of {names}")
+                return Verdict(Outcome.SIGN, f"it would be right with the opposite sense of {names}")
         return None
 
     def is_free(self, chosen: tuple[Symbol, ...]) -> bool:
@@ -435,7 +435,7 @@ class _Comparison:
         full, goal = self.expanded(value), self.expanded(right)
         crossed = all(are_equal(full[i] * goal[j], full[j] * goal[i]) for i in range(len(goal)) for j in range(i))
         if crossed:
-            return Verdict(Outcome.EQUAL, "up to a factor, which is free" if full != goal else "")
+            return Verdict(Outcome.EQUAL, "up to a factor, which is arbitrary" if full != goal else "")
         for i in range(len(goal)):
             turned = sympy.Matrix([-e if j == i else e for j, e in enumerate(full)])
             if all(

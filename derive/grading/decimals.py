@@ -93,7 +93,7 @@ def verdict_on_number(
 ) -> Verdict:
     """Judge a number.
 
-    is_decimal   whether it is a single decimal, which may be rounded; any other number is compared exactly
+    is_decimal   whether it is a single decimal number, which may be rounded; any other number is compared exactly
     figures      its significant figures
     places       its digits after the point, so that its last place counts 10^-places (negative for 1.5e3)
     """

@@ -47,7 +47,7 @@ class Graded:
 
 
 def grade(answer: str, part: Part, key: Key, seconds: float = SECONDS) -> Graded:
-    """Grade an answer; a verdict also says that an answer is not readable or takes too long."""
+    """Grade an answer. If the answer is not readable or takes too long, the verdict says so."""
     most = sum((target.whole for target in part.targets), Fraction(0))
     try:
         with time_limited(seconds), within(key.ranges), in_order(key.order):
@@ -168,7 +168,8 @@ class _Grading:
         return found
 
     def with_own_letters(self, statements: list[_Statement]) -> list[_Statement]:
-        """Return the statements without those that only define a letter of another one: `2 pi/w, w = sqrt(g/l)`."""
+        """Return the statements without those that only define a letter of another one of them, as in
+        `2 pi/w, w = sqrt(g/l)`."""
         asked = [target.symbol for target in self.part.targets]
         found = statements
         for own in statements:
@@ -325,7 +326,7 @@ class _Grading:
                     continue
                 swapped = [self.verdict(found[other][1][0], a), self.verdict(found[one][1][0], b)]
                 if all(each.is_right for each in swapped):
-                    told = f"if {a.symbol} and {b.symbol} are numbered the other way"
+                    told = f"if {a.symbol} and {b.symbol} are numbered the other way round"
                     for name, verdict, of in ((one, swapped[0], other), (other, swapped[1], one)):
                         found[name] = (replace(verdict, outcome=Outcome.CONVENTION, because=told), found[of][1])
         return found
@@ -479,7 +480,9 @@ class _Grading:
                     verdicts.append(self.with_reading(found, statement, read))
                 elif goal.operator == "=":
                     found = verdict_on_relation(read, "=", zero, target, self.key)
-                    verdicts.append(self.with_reading(found.adding("read as an equation with zero"), statement, read))
+                    verdicts.append(
+                        self.with_reading(found.adding("read as an equation whose other side is zero"), statement, read)
+                    )
         else:
             mark = next((each for each in statement.relations if each not in EQUALS), "=")
             for left in statement.first[:3]:
@@ -531,7 +534,7 @@ class _Grading:
         if mark[0] != goal[0]:
             return replace(found, outcome=Outcome.SIGN, because="the inequality has the wrong direction")
         if mark != goal:
-            told = "whether the border itself belongs to it is left open"
+            told = "whether the condition includes its border is left open"
             return replace(found, outcome=Outcome.CONVENTION, because=told)
         return found
 

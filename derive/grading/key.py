@@ -42,7 +42,8 @@ from derive.steps.homogeneity import dimension_of, dimension_table
 from derive.steps.step import Step
 
 ONE: Expr = Integer(1)
-_NAMED_RATES = (TimeRate, CarriedRate, BodyRate, Slope, At)  # a relation with one of these on its left side gives it
+# a relation with one of these on its left side states its value
+_NAMED_RATES = (TimeRate, CarriedRate, BodyRate, Slope, At)
 
 
 @dataclass(frozen=True)
@@ -119,7 +120,7 @@ class Key:
     notation: Notation = field(default_factory=Notation, compare=False, repr=False)
 
     def part(self, name: str) -> Part | None:
-        """Return a part by its name, or with one answer only: `b(2)` is the second answer that part b asks for."""
+        """Return a part by its name, with all its answers or only one: `b(2)` is part b with only its second answer."""
         plain, inner = _split(name)
         label = label_in([part.label for part in self.parts], plain)
         if label is None:

@@ -177,7 +177,8 @@ class _InProblem(Meaning):
         return super().of_lone_letter(letter, by, partial)
 
     def rate_of(self, symbol: Symbol, by: Symbol, partial: bool) -> Expr:
-        """Return the rate of a coordinate; the rate of a constant is zero."""
+        """Return the derivative of a symbol. A total derivative by time is a rate if the symbol changes with time, else
+        0. Any other derivative is 1 if the two symbols are equal, else 0."""
         if by != TIME or partial:
             return Integer(1) if symbol == by else Integer(0)
         letter = self.symbols.get(symbol)

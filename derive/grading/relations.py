@@ -70,7 +70,7 @@ def _are_equivalent(one: Relation, other: Relation) -> bool:
 
 
 def give_the_same(typed: list[Relation], goals: list[Relation]) -> bool:
-    """Whether two systems of n equations give the same n accelerations, in which the equations are linear."""
+    """Whether two systems of n equations, linear in n accelerations, give the same accelerations."""
     if any(goal.operator != "=" for goal in goals):
         return False
     unknowns = sorted({s for goal in goals for s in goal.free_symbols if str(s).endswith("_ddot")}, key=str)
@@ -126,7 +126,7 @@ def angle_of(target: Target, name: Any) -> Target | None:
 
 def _wrong_inequality(typed: Relation, goal: Relation, key: Key) -> Verdict:
     for operator, because, outcome in (
-        (STRICT.get(typed.operator), "whether the border itself belongs to it is left open", Outcome.CONVENTION),
+        (STRICT.get(typed.operator), "whether the condition includes its border is left open", Outcome.CONVENTION),
         (TURNED.get(typed.operator), "the inequality has the wrong direction", Outcome.SIGN),
         (STRICT.get(TURNED.get(typed.operator, ""), ""), "the inequality has the wrong direction", Outcome.SIGN),
         (
@@ -149,7 +149,8 @@ def _wrong_inequality(typed: Relation, goal: Relation, key: Key) -> Verdict:
 
 
 def _wrong_equation(comparison: _Comparison, typed: Relation, goal: Relation) -> Verdict:
-    """Return what is wrong with an equation, scaled so that one of its terms agrees with the right equation."""
+    """Return what is wrong with an equation, which is scaled so that one of its terms agrees with one of the right
+    equation."""
     key = comparison.key
     given, wanted = sympy.expand(typed.residual), sympy.expand(goal.residual)
     read = comparison.read

@@ -36,7 +36,7 @@ def are_equal(left: Expr, right: Expr) -> bool:
 
 
 def are_surely_equal(left: Expr, right: Expr) -> bool:
-    """Whether two expressions are equal; numbers exclude most unequal ones quickly."""
+    """Whether two expressions are equal; numbers quickly exclude most expressions that are not equal."""
     return not differ(left, right) and are_equal(left, right)
 
 
@@ -124,8 +124,8 @@ def _grouped(value: Expr, expanded: tuple[Expr, ...]) -> list[Expr]:
 
 
 def _inside(answer: Expr, right: Expr, shown: Shown) -> Iterator[Found]:
-    """Yield the single changes within sums, sines and cosines of the right formula that lead to the answer, and the
-    terms of the answer whose absence would make it right."""
+    """Yield each single change inside the right formula that gives the answer, and each term of a sum without which the
+    answer would be right."""
     for count, (outcome, because, changed) in enumerate(_changes(right, shown)):
         if count > MOST_PROPOSALS:
             return

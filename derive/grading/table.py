@@ -44,7 +44,7 @@ def read_table(content: bytes, path: str, problem: str = "") -> Table:
     try:
         text = content.decode("utf-8-sig").replace("\0", "\ufffd")
     except UnicodeDecodeError as error:
-        message = f"`{path}` is not in UTF-8; the first other byte is at position {error.start}"
+        message = f"`{path}` is not in UTF-8; the first byte that does not fit is at position {error.start}"
         raise Rejected(Complaint("encoding", message, help="save it as CSV in UTF-8")) from error
     first = text.partition("\n")[0]
     delimiter = max(",;\t", key=first.count)

@@ -24,7 +24,7 @@ from derive.building.files import of_system
 from derive.building.workers import Job, died, job_of, lines_told, memory_limit, overtaxed
 from derive.errors import BuildFailed, Complaint, DeriveError
 
-STEP = 0.05  # seconds between two tests whether an answer is still needed
+STEP = 0.05  # seconds between two checks whether an answer is still needed
 PATIENCE = 1.0  # seconds after which work is stopped if a newer edit has made it useless
 
 
@@ -40,7 +40,7 @@ class Shown:
 class _Worker:
     """The worker's process, and the server's ends of its pipes: questions, answers, trace, and a lifeline.
 
-    Nothing is written to the lifeline: when the lifeline closes, the process knows that the server has ended.
+    Nothing is written to the lifeline. When the server ends, the lifeline closes, and then the process ends, too.
     """
 
     def __init__(self, root: Path):

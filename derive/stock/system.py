@@ -551,7 +551,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
             raise Rejected(Complaint("friction-at-rest", message, help=help_line))
 
     def _stability_at(self, at: Quantity | Mapping[Any, Expr]) -> tuple[Quantity, ...]:
-        """Decide stability by the potential energy, or by small motions if it does not decide.
+        """Decide stability by the potential energy or, if the potential energy does not decide, by small motions.
 
         Gyroscopic forces may stabilise a state at which the potential energy has no minimum.
         """
@@ -588,7 +588,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         return found if isinstance(found, tuple) else (found,)
 
     def _check_momenta_have_symbols(self) -> None:
-        """Reject given values of constant momenta: small motions are about an equilibrium for any momentum."""
+        """Reject given values of constant momenta, because small motions are derived for any value of a momentum."""
         for name in self.kept:
             message = f"small motions need a symbol for the momentum of {name}, but `conserved` gives a value"
             help_line = f"write `conserved: {{{name}: p}}`, and substitute the value in the result with `put_in`"

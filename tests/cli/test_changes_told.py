@@ -52,7 +52,7 @@ def test_each_sort_has_its_heading_and_is_counted() -> None:
         "  torque (3) -> (4)",
         "",
         "order",
-        "  steps that remain are in another order",
+        "  the remaining steps are in a different order",
     ]
 
 

@@ -84,7 +84,7 @@ def test_a_folder_without_its_file_and_a_listed_problem_without_its_file_are_beg
     root = at(tmp_path, heading="course: P\ntitle: T\nproblems: [wheel, 'a b']\n")
     with pytest.raises(Rejected) as caught:
         problem_set(root, "hw9")
-    assert [each.help for each in caught.value.complaints] == ["`derive new hw9/wheel` begins it", None]
+    assert [each.help for each in caught.value.complaints] == ["`derive new hw9/wheel` begins this problem", None]
     (root / "problems" / "hw9" / "set.yaml").unlink()
     with pytest.raises(Misused) as missing:
         problem_set(root, "hw9")

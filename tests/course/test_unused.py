@@ -34,7 +34,7 @@ def test_nothing_is_told_of_a_problem_that_uses_all_it_says(tmp_path: Path) -> N
         ([RESULT], "9:13: no part asks for the result `short`, and no other result uses it"),
         ([("  gravity: g\n", "  gravity: g\n  at: {theta: 0}\n")], "9:3: nothing that is asked for depends on `at`"),
         ([("  gravity: g\n", "  gravity: g\n  axes: {B: [{z: theta}]}\n")],
-         "9:10: no place is along the axes `B`, and no body turns with them"),
+         "9:10: no other key under `given` uses the axes `B`"),
     ],
 )  # fmt: skip
 def test_what_a_description_says_without_effect_is_a_warning(

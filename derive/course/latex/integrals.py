@@ -153,15 +153,14 @@ def bracket_of(reader: Grids, inner: TermOrGrid, lower: Term, upper: Term, varia
 
 
 def grown(term: Term, x: Expr, lower: Term, upper: Term) -> tuple[int, int]:
-    """Return bounds for the size and for the number of terms of a value's antiderivative, after the limits replace
-    x."""
+    """Return bounds for the size and for the number of terms of an antiderivative after its limits are substituted."""
     power = _degree(term.expr, x, term.size) + 1
     terms = term.terms * (lower.terms**power + upper.terms**power)
     return term.size * max(lower.size, upper.size) + 1, terms
 
 
 def _degree(expr: Expr, x: Expr, most: int) -> int:
-    """Return the highest power of x after multiplying out, or the bound `most`."""
+    """Return a bound for the power of x after multiplying out; `most` if no smaller bound is known."""
     if not expr.has(x):
         return 0
     if expr.is_Add:

@@ -32,7 +32,7 @@ class Quoted:
 
 
 class Unquotable(ValueError):
-    """A text cannot be quoted; `at` is the position of the reason."""
+    """The error for a text that cannot be quoted; `at` is the position of the part that cannot be quoted."""
 
     def __init__(self, why: str, at: int):
         super().__init__(why)
@@ -113,7 +113,7 @@ def _environment(name: str, environment: str, columns: str | None, nesting: list
             raise Unquotable(f"this `\\end{{{environment}}}` has no beginning", at)
         return f"\\end{{{_shown(environment)}}}"
     if environment == "array" and not columns:
-        raise Unquotable("an `array` needs its columns", at)
+        raise Unquotable("`array` needs a specification of its columns, such as `{cc}`", at)
     nesting.append(environment)
     return f"\\begin{{{_shown(environment)}}}" + (f"{{{columns}}}" if environment == "array" else "")
 

@@ -2,7 +2,7 @@ r"""`read_latex` reads a formula in LaTeX as a chain of values.
 
 13 M a^2/12                  one side
 \frac{26}{6} a^2 (6a^3\rho) = \frac{13}{3} M a^2      two sides, and the sign `=` between them
-\frac{b \pm \sqrt{c}}{2}     one side with two branches, read as + and as - throughout
+\frac{b \pm \sqrt{c}}{2}     one side with two branches: every `\pm` is + in the first, - in the second
 """
 
 from __future__ import annotations
@@ -98,7 +98,8 @@ def node_of(reader: Values, tokens: list[Token]) -> Node:
 
 
 def is_title(node: Node) -> bool:
-    r"""Return whether a first side only names the next side: `U(\theta) =`, `U'' =`, `\frac{1}{2} \frac{d}{dt} L^2 =`.
+    r"""Return whether a first side is only a name for the value of the next side: `U(\theta) =`, `U'' =`, `\frac{1}{2}
+    \frac{d}{dt} L^2 =`.
 
     Such a name has no value to compare.
     """

@@ -76,7 +76,7 @@ def _check_depth(reader: Arithmetic) -> None:
 class _Check:
     def __init__(self, reader: Arithmetic, tokens: list[Token]):
         self.reader, self.tokens = reader, tokens
-        # for each open bracket, brace or environment: what closes it, its token, and the end of its opening
+        # for each open bracket, brace or environment: what closes it, its token, and where its opening text ends
         self.open: list[tuple[str, Token, int]] = []
 
     def refuse(self, message: str, token: Token, end: int | None = None, help: str | None = None) -> None:

@@ -231,7 +231,7 @@ class Values(Grids):
         if (unit := self.unit_of(node, False)) is not None:
             return self.size_of_unit(unit)
         if node.text == "degrees":
-            self.at(node, "latex", "only a number has degrees")
+            self.at(node, "latex", "a degree sign is allowed only after a number")
         if node.text == "partial":
             help_line = "transcribe the value that the derivative is equal to"
             self.at(node, "latex", "a derivative cannot be read", help_line)
@@ -298,7 +298,7 @@ class Values(Grids):
         return parts.product()
 
     def check_side_by_side(self, before: Node, mark: str, factor: Node) -> None:
-        """Reject adjacent factors that are unclear, such as two numbers, or a factor after a `/`."""
+        """Reject adjacent factors whose meaning is unclear, such as two numbers, or a factor after a `/`."""
         span = before.span.to(factor.span)
         if _is_slashed(before, self.text):
             self.unclear_slash(before)
@@ -390,7 +390,7 @@ class Values(Grids):
         if node.name == "degrees":
             degrees = self.scalar_of(node.argument, "an angle in degrees")
             if degrees.dimension != NUMBER or not degrees.expr.is_number:
-                self.at(node.argument, "latex", "only a number has degrees")
+                self.at(node.argument, "latex", "a degree sign is allowed only after a number")
             return replace(degrees, expr=degrees.expr * pi / 180, end=node.span.end)
         if node.base is not None:
             self.at(node.base, "latex", f"`\\{node.name}` cannot have a subscript")
@@ -459,7 +459,8 @@ class Values(Grids):
         self.refuse("ambiguous", message, argument.span.start, end, help_line)
 
     def open_argument(self, node: Open) -> TermOrGrid:
-        r"""Read a function whose argument has no brackets: the shortest run of factors that is an angle or a number."""
+        r"""Read a function whose argument has no brackets. The argument is the shortest run of factors that is
+        dimensionless and not a plain number."""
         shortest_first = list(reversed(node.alternatives))
         for number, alternative in enumerate(shortest_first):
             fun, rest = _function_first(alternative)
@@ -511,7 +512,8 @@ class Values(Grids):
         return self.of(node.alternatives[1])
 
     def word(self, node: Open) -> TermOrGrid:
-        r"""Read `\mathit{mass}`, or `\operatorname{Mg}` as a product if only its letters are declared."""
+        r"""Read a word such as `\mathit{mass}` as one letter, or as a product if only its single letters are
+        declared."""
         name, product = node.alternatives
         assert isinstance(name, Letter) and isinstance(product, Mul)
         if (unit := self.unit_of(node, False)) is not None:
@@ -602,7 +604,7 @@ class Values(Grids):
         return self.integral(node, [])
 
     def integral(self, node: Int, outside: list[TermOrGrid]) -> TermOrGrid:
-        """Return a product with integral signs; `outside` are the factors before its first sign."""
+        """Return a product with integral signs; `outside` are the factors before the first sign."""
         signs: list[integrals.Sign] = []
         inside = _Parts(self)
         for item in node.items:
@@ -634,7 +636,7 @@ class Values(Grids):
 
     def of_der(self, node: Der) -> NoReturn:
         if is_dotted(node):
-            self.at(node, "latex", "a dot can be only over a letter")
+            self.at(node, "latex", "a dot is allowed only over a letter")
         self.at(node, "latex", "a derivative cannot be read", "transcribe the value that the derivative is equal to")
 
     def of_diff(self, node: Diff) -> NoReturn:

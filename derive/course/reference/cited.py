@@ -129,7 +129,8 @@ class Cited:
         return self.document.source.line_of(max([row.span.end, *ends]) - 1)
 
     def is_title(self, side: Side) -> bool:
-        r"""Return whether a first side only names the next side: `U'(\theta) =`, `\frac{d}{dt} L^2 =`."""
+        r"""Return whether a first side is only a name for the value of the next side: `U'(\theta) =`, `\frac{d}{dt} L^2
+        =`."""
         node = _parsed(side)
         if node is None:
             return False
@@ -193,7 +194,7 @@ class Cited:
         return next((first for first, _ in self.found(_LAYOUT.sub("", quote))), None)
 
     def quotes(self, quote: str, line: int) -> bool:
-        """Return whether the document has this text at a line, up to its layout."""
+        """Return whether the document has this text at a line; differences of layout are ignored."""
         wanted = _LAYOUT.sub("", quote)
         return any(first <= line <= last for first, last in self.found(wanted))
 

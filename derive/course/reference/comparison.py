@@ -91,7 +91,7 @@ Steps = Table[str, Quantity]
 def comparisons(problem: Problem, known: Steps, memory: Memory | None = None) -> tuple[Comparison, ...]:
     """Compare every entry about this problem. `known` are the steps for the input in the problem's file.
 
-    The steps for a group with a different input are derived, with the stored results of `memory`.
+    The steps for a group with a different input are derived; `memory` provides stored results.
     """
     with within(problem.ranges):
         return _comparisons(problem, known, memory)

@@ -480,7 +480,8 @@ class _EntryReader:
         return self.one(plain, "`states`", False, True) if plain is not None else None
 
     def of_document(self, formula: Formula, homogeneous: bool, place: Place) -> Statement | None:
-        """Read a chain of the document. A first letter that cannot be read is a name of the value."""
+        """Read a chain of the document. A first letter that cannot be read is left out, because it only names the
+        value."""
         named = bool(formula.head)
         if named:
             try:

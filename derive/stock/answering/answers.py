@@ -141,7 +141,7 @@ class StockAnswers(Answers[W]):
         return found
 
     def mark(self, drawings: Sequence[Placement]) -> None:
-        """Add the marks of the problem to the drawings, and make drawings that are like another one."""
+        """Add the marks of the problem to the drawings, and make the drawings that repeat another drawing."""
         latest: dict[str, str] = {}  # the latest copy of each drawing
         for drawing in drawings:
             if drawing.adds or drawing.like or drawing.without:

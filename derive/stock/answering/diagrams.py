@@ -71,7 +71,8 @@ def equilibria_of(answer: Word, rests: Sequence[Quantity], judged: Sequence[Quan
         own = [q for q in judged if (shape := q.fact(Shape)) is not None and is_zero(shape.place - place)]
         if not own:
             message = f"`stability` does not decide whether `{rest.key}` is stable, so there is no diagram"
-            rejected("wrong-argument", message, answer.place, "leave `at` of `given` out, so that it decides for all")
+            help_line = "leave out `at` under `given`; then `stability` is about all equilibria"
+            rejected("wrong-argument", message, answer.place, help_line)
         if own[0].fact(StableWhere) is None and not own[0].step.outcome.startswith(("stable", "unstable")):
             message = f"the stability of `{rest.key}` is not known, so there is no diagram"
             rejected("wrong-argument", message, answer.place, "plot the potential energy instead")
@@ -96,7 +97,7 @@ class Parameter:
     name      the name of the axis
     symbol    the letter, or the symbol of the ratio
     kind      the kind of the quantity
-    letter    the letter that is replaced, and its value in terms of the ratio, if there is one
+    letter    the replaced letter, and its value in terms of the ratio; None if the axis shows a letter
     keys      the keys of the answers and of the defined quantities in the ratio
     """
 

@@ -62,7 +62,7 @@ class Marked:
 
     drawing   the entry of `drawings:`
     place_of  a function that returns the place that is written in a node
-    after     the key of the drawing after which a drawing that is like another one is placed
+    after     the key of the drawing after which a further drawing is placed
     """
 
     drawing: Placement
@@ -70,7 +70,7 @@ class Marked:
     after: str = ""
 
     def add(self) -> None:
-        """Add the marks to the recorded drawing, or record a further drawing that is like another one."""
+        """Add the marks to the recorded drawing, or record a further drawing that repeats another drawing."""
         run = current_run.get()
         drawings = run.drawings if run is not None else []
         shown = {each.key: each for each in drawings if isinstance(each, Drawing)}
@@ -94,7 +94,8 @@ class Marked:
             drawings[drawings.index(shown[name])] = own
 
     def _kept(self, marks: Sequence[Mark]) -> Iterator[Mark]:
-        """Yield the marks of a drawing without those that the problem leaves out."""
+        """Yield the marks of a drawing without those whose labels the problem leaves out; a surface only loses its
+        label."""
         labels = {str(mark.label) for mark in marks if mark.label is not None}
         for word in self.drawing.without:
             if word not in labels:

@@ -37,7 +37,7 @@ _LETTER = re.compile(r"[A-Za-z]+(_[A-Za-z0-9]+)?", re.ASCII)
 
 @dataclass(frozen=True)
 class Shown:
-    """A quantity of a path, or the ratio of a diagram."""
+    """An answer or a formula that a plot needs, such as a quantity of a path or the ratio of a diagram."""
 
     label: Any
     expr: Expr

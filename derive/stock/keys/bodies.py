@@ -157,7 +157,7 @@ class DescribedBody:
     parts    one body, or several bodies in their positions
     mass     the mass of a body with parts, if it is given for the whole body
     points   name of a point of the body -> its position
-    is_integrated   whether a standard moment of inertia is integrated in place of quoting it
+    is_integrated   whether a standard moment of inertia is integrated instead of being quoted
     """
 
     called: str
@@ -433,7 +433,7 @@ def _way_that_is_told(shape: type[Body], written: ShapeKeys, has_mass: bool, fau
             faults.error("missing-key", message, written.places["shape"], help=f"its sizes are {sizes}")
     if written.density is not None or "limits" in written.values_at:
         odd = "density" if written.density is not None else "limits"
-        message = f"{shape.name} is uniform and has a fixed shape, so it has no `{odd}`"
+        message = f"{shape.name} is a uniform body of fixed shape, so the key `{odd}` is not allowed"
         faults.error("unknown-key", message, written.places[odd], help="describe any other body by `position`")
     if written.mass is None and not has_mass:
         faults.error("missing-key", f"{shape.name} needs `mass`", written.places["shape"])

@@ -448,8 +448,8 @@ class JointKeys(Record):
 class MotorKeys(Record):
     """The keys of one entry of `motors:`, a prescribed rotation."""
 
-    on: Tree = key("the angle that the motor turns", SCALAR, required=True)
-    turns: Tree = key("the value of the angle at each time, `Omega*t`", SCALAR, required=True)
+    on: Tree = key("the angle that the motor prescribes", SCALAR, required=True)
+    turns: Tree = key("the value of the angle at each time, such as `Omega*t`", SCALAR, required=True)
     torque: Word = key("the symbol of the torque of the motor", TEXT, required=True)
 
     def symbols(self, axes: str) -> list[Word]:

@@ -83,7 +83,7 @@ class CollisionKeys(Record):
             help_line = "write `restitution: 1` if the collision is elastic, 0 if the bodies do not separate"
             rejected("missing-key", "a collision along a normal needs its `restitution`", self.places[""], help_line)
         if self.restitution is not None and not self.along:
-            message = "`restitution` has no effect on a collision without `along`, after which the two stay together"
+            message = "`restitution` has no effect without `along`: after such a collision the two bodies stay together"
             rejected(
                 "unused-key", message, self.places["restitution"], "give the components of the common normal, `along`"
             )

@@ -41,7 +41,8 @@ def name_of_drawing(body: Body) -> str:
 def drawn(answers: Any, about: str = "", is_named: bool = False, key: str = "", shown: Sequence[str] = ()) -> None:
     """Draw the outline of a body, by default under the name of the body.
 
-    about      the name of a point; the axes may begin at it if it is the centre of mass
+    about      the name of a point; if it is `centre` and the corners of the body are symmetric about it, the axes begin
+        there
     is_named   whether `about` is a point that the problem names, such as a pivot
     shown      the marks of SHOWS that are drawn in addition to the outline
     """

@@ -240,7 +240,8 @@ def named_bodies(
     there = [name for name in names if name is not None]
     for name in there:
         if name not in bodies and name != otherwise:
-            help_line = did_you_mean(name, [*bodies, otherwise]) or f"or write `{key_name}: {otherwise}`"
+            also = f", or write `{key_name}: {otherwise}`" if otherwise else ""
+            help_line = did_you_mean(name, [*bodies, otherwise]) or f"name a body or a particle{also}"
             rejected("no-such-body", f"`{name}` is not a body or particle of this system", name.place, help_line)
     return tuple(map(str, there))
 

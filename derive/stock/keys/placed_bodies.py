@@ -74,11 +74,12 @@ class MovingBodyKeys(BodyKeys, QuotedKeys):
     held: Tree | None = key("in place of `centre`, the point of the body that is held, by name or components", POINT)
     on: WrittenPlace | None = key("with `held`, the place at which that point is held; by default the origin", PLACE)
     start: WrittenPlace | None = key(
-        "for a rod, the place of its end, in place of `held: end` and `on`", PLACE, called="from"
+        "for a rod, the place of its point `end`; it replaces `held: end` and `on`", PLACE, called="from"
     )
     to: WrittenPlace | None = key("for a rod with `from`: the place of its other end, in place of `turned`", PLACE)
     along: tuple[Tree, ...] = key(
-        "for a rod, its direction from its end to its other end, in place of `turned`: `[sin(theta), -cos(theta)]`",
+        "for a rod, the direction from its point `end` to its other end, in place of `turned`: "
+        "`[sin(theta), -cos(theta)]`",
         COMPONENTS,
     )
     across: str | None = key(

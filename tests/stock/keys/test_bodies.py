@@ -124,7 +124,7 @@ def test_what_is_cut_out_has_its_share_of_the_mass(tmp_path: Path) -> None:
         ("{shape: cone, radius: R, height: 3, mass: M}", "5: `height` must be a length, but `3` is a number"),
         (
             "{shape: disc, radius: R, mass: M, density: M/R**2}",
-            "5: a disc is uniform and has a fixed shape, so it has no `density`",
+            "5: a disc is a uniform body of fixed shape, so the key `density` is not allowed",
         ),
         ("{shape: plate, sides: [R, R, R], mass: M}", "5: a plate needs 2 lengths as `sides`, not 3"),
         (
