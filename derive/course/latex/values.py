@@ -253,7 +253,8 @@ class Values(Grids):
         found = _UPRIGHT.match(self.text, inner.span.start)
         if found is None or found.end() < inner.span.end:
             return None
-        text = re.sub(r"\\[, ]|~", " ", found["word"].translate(_NO_BRACES)).strip()
+        word = inner.text if isinstance(inner, Text) and inner.text.startswith("unit ") else found["word"]
+        text = re.sub(r"\\[, ]|~", " ", word.removeprefix("unit ").translate(_NO_BRACES)).strip()
         if text in self.letters.declared and not after_number:
             return None
         text += f"^{power.translate(_NO_BRACES)}" if power else ""
