@@ -25,7 +25,9 @@ from tests.style import PROSE, files
 END = re.compile(r"(?<=[.?!:])\s+(?=[A-Z`$<])")
 GENERATED = ("docs/errors.md", "docs/yaml.md", "docs/rules.md", "docs/gallery.md", "NOTATION.md")
 NOT_READ = (*GENERATED, "templates/phrases/de/", "templates/phrases/fr/")
-CITATION = re.compile(r"(?:Source: )?[^*]*, \*[^*]+\*, .*(?:section|chapter|problem|p\.)")
+NO_SENTENCE = re.compile(  # a citation, a heading between rules, a note for a checker of types
+    r"(?:Source: )?[^*]*, \*[^*]+\*, .*(?:section|chapter|problem|p\.)|---? .* ---?$|type: ignore|noqa"
+)
 SHORTEST = 4  # words
 
 
@@ -98,7 +100,7 @@ def sentences(path: Path) -> Iterator[tuple[int, str]]:
     }
     for line, text in of_kind.get(path.suffix, lambda: [*_paragraphs(source)])():
         for sentence in END.split(text):
-            if len(re.findall(r"[A-Za-z]{2,}", sentence)) >= SHORTEST and not CITATION.match(sentence):
+            if len(re.findall(r"[A-Za-z]{2,}", sentence)) >= SHORTEST and not NO_SENTENCE.match(sentence):
                 yield line, sentence
 
 
