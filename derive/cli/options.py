@@ -5,8 +5,10 @@ from __future__ import annotations
 import argparse
 import gc
 import os
+import re
 import sys
 from collections.abc import Container, Sequence
+from typing import NoReturn
 
 # Each command with its purpose, its operands, and an example of them.
 _COMMANDS = {
@@ -79,9 +81,21 @@ class _Screen(argparse.RawDescriptionHelpFormatter):
             super().add_argument(action)
 
 
+class _Parser(argparse.ArgumentParser):
+    def error(self, message: str) -> NoReturn:
+        """Say which command or value the user may have meant, and exit."""
+        written, _, choices = message.partition(" (choose from ")
+        if choices:
+            from derive.errors import did_you_mean
+
+            hint = did_you_mean(written.rpartition(" ")[2].strip("'"), re.findall(r"[\w-]+", choices))
+            message = f"{message}{f'; {hint}' if hint else ''}"
+        super().error(message)
+
+
 def parser_of_commands(words: Container[str] | None = None) -> argparse.ArgumentParser:
     """Return the parser of all commands; if `words` are given, commands that are not among them get no options."""
-    parser = argparse.ArgumentParser(
+    parser = _Parser(
         prog="derive",
         usage="%(prog)s [--root FOLDER] COMMAND ...   (derive COMMAND --help explains one)",
         description="Worked solutions of mechanics problems: derived, checked line by line, typeset.",
