@@ -154,11 +154,13 @@ def _parameters(definition: ast.FunctionDef, solve: Callable[..., object], sourc
             faults.error("script", f"`{name}` cannot be given by name, so `solve()` cannot ask for it", place)
         elif kind is None:
             annotation = ast.unparse(arg.annotation) if arg and arg.annotation else None
-            message = f"`{annotation}` is not a kind" if annotation else f"`{name}` has no kind"
+            message = (
+                f"the annotation `{annotation}` of `{name}` is not a kind" if annotation else f"`{name}` has no kind"
+            )
             close = (
                 did_you_mean((annotation or "").strip("'\""), ANNOTATIONS) or f"the kinds are {', '.join(ANNOTATIONS)}"
             )
-            faults.error("script", f"{message}, so nothing can be given for it", place, help=close)
+            faults.error("script", f"{message}, so `given:` cannot give it a value", place, help=close)
         else:
             found.append(Parameter(name, kind, place, parameter.default is parameter.empty))
     faults.stop()

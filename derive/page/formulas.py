@@ -93,8 +93,8 @@ class Formulas:
     def in_solution(self, formula: TexFormula, key: str = "") -> Math | Text:
         """Return a formula of the solution, with a warning if it disagrees with the results of the page.
 
-        key     the step whose `wording:` contains the formula, if any; a letter that several integrals use has the
-                dimension that it has in this step
+        key     the step whose `wording:` contains the formula, if any. If a letter is the variable of several
+                integrals, its dimension is taken from the integral of this step
         """
         return self.node(formula, self._with_variables(key))
 

@@ -181,10 +181,10 @@ def check_map(name: str, position: ImmutableMatrix, limits: Bounds, density: Exp
 
 
 def _always(pieces: Sequence[Piece]) -> Fault | None:
-    """Return a fault that occurs in every draw of the symbols that can be evaluated; None if the body is possible.
+    """Return a fault that occurs for every random choice of numbers for the symbols; None if there is no such fault.
 
-    The body is possible if no fault is common to all these draws. For example, two of many rods may overlap by accident
-    in one draw, and two other rods in the next draw.
+    Choices for which the places of the body cannot be evaluated do not count. A fault of only some choices is an
+    accident: two of many rods may overlap in one choice, and two other rods in the next one.
     """
     found: list[Fault] | None = None
     letters = {s for piece in pieces for s in piece.letters}

@@ -225,8 +225,11 @@ def _arranged(left: Expr, moving: Sequence[Symbol]) -> Relation:
 
 
 def _told(of: Constraint, moving: Sequence[Symbol]) -> Relation:
-    """Return the relation of a constraint. If the right side is zero, a constraint between rates is solved for a rate
-    that is a term by itself; otherwise the left side does not begin with a minus sign."""
+    """Return the relation of a constraint, unchanged if its right side is not zero.
+
+    A constraint between rates is solved for a rate that is a term by itself. If there is no such rate, or if the
+    constraint is between coordinates, a minus sign at the beginning of the left side is removed.
+    """
     if of.right != 0:
         return of.relation
     if of.in_rates and (solved := _with_one_alone(of.left.expand(), {rate(q) for q in moving})).right != 0:

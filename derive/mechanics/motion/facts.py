@@ -18,7 +18,7 @@ class Steady(Fact):
     """A steady motion: constant values of coordinates, constant rates of cyclic coordinates, and its conditions, which
     are expressions that vanish in this motion."""
 
-    missing = "is not the condition of a steady motion, as `steady_motion` yields it"
+    missing = "is not a condition of a steady motion, which is a result of `steady_motion`"
     lagrangian: Quantity
     values: Mapping[Symbol, Expr]
     rates: Mapping[Symbol, Expr]
