@@ -98,7 +98,7 @@ def _pairs(shown: Any, exact: Any) -> list[tuple[Any, Expr, Expr]]:
     if isinstance(shown, Factors):  # a rounded number in front of symbols
         shown, letters = shown.args
         exact = (exact / letters).cancel()
-    if isinstance(shown, MatMul):  # a vector of rounded numbers, printed after the vector in symbols
+    if isinstance(shown, MatMul):  # a vector of rounded numbers with a factor of symbols in front of it
         letters, shown = shown.args
         exact = (exact / letters).applyfunc(cancel)
     if isinstance(shown, MatrixBase):

@@ -35,7 +35,7 @@ SUFFIXES = ("pdf", "svg")
 POINTS_PER_CM = 72 / 2.54
 WIDTH, HEIGHT = 5.0, 4.2  # centimetres, without labels
 BESIDE_STATEMENT = 0.74  # the height of a drawing of the statement, divided by the usual height
-WIDE, LOW = 7.0, 0.4  # the width of a drawing whose height divided by its width would be at most LOW
+WIDE, LOW = 7.0, 0.4  # the width of a low drawing: at the width WIDTH, its height is at most LOW times its width
 # A drawing without a given width is made larger if its labels are crowded: the greatest cost of the position of a label
 # is more than CROWDED, or there are at least MANY labels and more than DENSE per square centimetre. The larger drawing
 # is kept unless this cost is higher than in the smaller drawing by more than SLIGHT.

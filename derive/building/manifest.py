@@ -1,4 +1,4 @@
-"""The record of the inputs of the outputs of a set. It decides which outputs must be made again.
+"""The record of the inputs from which the outputs of a set were made. It decides which outputs must be made again.
 
 A problem is up to date if its input files and its recipe are unchanged; the module `derive.building.recipe` describes
 recipes. An output is up to date if its own content is also unchanged. Contents are compared, not times.

@@ -41,10 +41,9 @@ THIN = Rational(1, 40)  # half the drawn thickness of a disc, relative to its ra
 EDGE = 32  # number of steps along each curve of the edge of a flat body
 CUT, SLICE = Rational(11, 20), Rational(1, 20)  # height and thickness of a slice, relative to the height of the body
 BESIDE_IT = 17.0  # distance between the dimension lines of a slice and of the whole height, in points
-TILT, INSIDE = (
-    5 * pi / 18,
-    Rational(4, 5),
-)  # the drawn point of a section: angle, and distance relative to the radius
+# the marked point in the section of a torus: its polar angle, and its distance from the centre divided by the radius of
+# the section
+TILT, INSIDE = 5 * pi / 18, Rational(4, 5)
 CURVED = 48  # number of steps along a curved side; the steps are shorter at the ends, which may be tips
 
 

@@ -65,7 +65,8 @@ ALONG = 1.8  # distance between a surface and the arrow of a force along it, on 
 STANDING, SHORT, SHORTEST = 47.0, Rational(12, 25), Rational(7, 20)
 ROPE = 110.0  # the drawn length of a whole rope, whose pieces are drawn alone, in points
 FOOT = 30.0  # half the length of the piece of a surface under a body, in points
-SLIGHT, NEAR = 1e-6, 0.3  # a negligible distance, and a small gap between arrowheads, relative to the arrow's length
+SLIGHT = 1e-6  # a number below this counts as zero
+NEAR = 0.3  # the greatest small gap between two arrowheads, divided by the length of the arrow
 ANGLE = Rational(63, 100)  # the value of an angle that has no given value, in radians
 NORMALS = ("N", "F_n", "n")  # possible symbols of a normal force that does not appear in the equations
 

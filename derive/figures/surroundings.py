@@ -374,8 +374,8 @@ class AngleBetween(Mark):
 
 @dataclass(frozen=True)
 class UprightAngle(AngleBetween):
-    """An angle that does not affect the choice of the view, because the values in the drawing already turn the vertical
-    plane of the angle towards the viewer. The arc is larger, because the body covers the vertex."""
+    """An angle in a vertical plane. It does not affect the choice of the view, because the drawn values of the other
+    angles already make this plane face the viewer. The arc is larger, because the body covers the vertex."""
 
     share: ClassVar[float] = 0.8
 

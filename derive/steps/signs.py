@@ -213,6 +213,6 @@ def holds(number: Expr | int, mark: str) -> bool:
 
 
 def of_the_size(value: Expr, mark: str) -> Expr:
-    """Return the absolute value of a difference with the sign that =, < or > requires. If the relation is true, this is
-    the difference itself."""
+    """Return a difference with the sign that its relation to zero requires: the absolute value for >, minus the
+    absolute value for <, zero for =. If the relation is true, this is the difference itself."""
     return {"=": Integer(0), ">": Abs(value), "<": -Abs(value)}.get(mark, nan)

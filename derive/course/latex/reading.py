@@ -145,7 +145,8 @@ def chain_of(reader: Values) -> tuple[list[list[list[Token]]], list[str]]:
     if len(sides) > MAX_SIDES:
         reader.refuse("too-large", f"a chain has at most {MAX_SIDES} sides", 0)
     if any(not alternative for side in sides for alternative in side):
-        reader.refuse("latex", "something is missing at the end", len(reader.text.rstrip()) - 1)
+        where = "at the end" if not sides[-1][-1] else "before or after `or`"
+        reader.refuse("latex", f"something is missing {where}", len(reader.text.rstrip()) - 1)
     return sides, marks
 
 

@@ -266,7 +266,10 @@ def principal_angle(inertia: Quantity, symbol: str = "theta", key: str = "princi
     angle = scalar(symbol)
 
     def no_product(found: Expr) -> tuple[Expr, Expr]:
-        """Return the sum of m x'y'/cos 2 theta, where x'y' = x y cos 2 theta - (x^2 - y^2)/2 sin 2 theta."""
+        """Return the sum of m x'y'/cos 2 theta, and zero, which it must equal.
+
+        Here x'y' = x y cos 2 theta - (x^2 - y^2)/2 sin 2 theta.
+        """
         left = (m * (r[0] * r[1] - (r[0] ** 2 - r[1] ** 2) / 2 * found) for m, r in seen_particles(body, point))
         return sum(left, Integer(0)), Integer(0)
 
