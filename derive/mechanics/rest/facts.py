@@ -25,7 +25,8 @@ NEAR = Rational(1, 1000)  # distance from an equilibrium
 
 @dataclass(frozen=True)
 class RestOf(Fact):
-    """The potential energy from which an equilibrium was found, and the coordinates for which its conditions were solved."""
+    """The potential energy from which an equilibrium was found, and the coordinates for which its conditions were
+    solved."""
 
     missing = "is not an equilibrium that was found"
     potential: Quantity
