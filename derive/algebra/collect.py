@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Sequence
 from functools import lru_cache, partial
+from itertools import permutations
 
 from sympy import Abs, Add, Dummy, Expr, Integer, Mul, Pow, Rational, Symbol, cos, igcd, ilcm, sin
 from sympy.polys.polyerrors import PolynomialError
@@ -141,7 +142,8 @@ def _level(found: Expr, value: Expr, moving: Sequence[Symbol]) -> Expr:
 
 
 def _with_differences(value: Expr, moving: Collection[Symbol]) -> Expr:
-    """Combine a coordinate with the constant from which it is measured: k (y - l) - m g, not k y - m g - k l."""
+    """Combine a coordinate with the constant from which it is measured, or with another coordinate: k (y - l) - m g,
+    not k y - m g - k l, and k x + K (x - y), not k x + K x - K y."""
     terms = list(Add.make_args(value))
     for q in moving:
         for term in [each for each in terms if each.has(q) and not _varies(each / q, moving)]:
@@ -150,7 +152,22 @@ def _with_differences(value: Expr, moving: Collection[Symbol]) -> Expr:
             if len(constants) == 1:
                 terms = [each for each in terms if each not in (term, constants[0])]
                 terms.append(Mul(times, Add(q, constants[0] / times), evaluate=not times.is_number))
-    return Add(*terms, evaluate=False) if len(terms) < len(Add.make_args(value)) else value
+    measured = Add(*terms, evaluate=False) if len(terms) < len(Add.make_args(value)) else value
+    return min((with_differences_of_coordinates(value, moving), measured), key=length)
+
+
+def with_differences_of_coordinates(value: Expr, moving: Collection[Symbol]) -> Expr:
+    """Combine terms that contain the difference of two coordinates, m g x + k (x - y), if that is not longer."""
+    terms = list(Add.make_args(value.expand()))
+    found: list[Expr] = []
+    for p, q in permutations(moving, 2):
+        for term in [each for each in terms if each.has(p) and not _varies(each / p, moving)]:
+            times = term / p
+            if not term.could_extract_minus_sign() and -times * q in terms:
+                terms = [each for each in terms if each not in (term, -times * q)]
+                found.append(Mul(*Mul.make_args(times), p - q, evaluate=False))
+    apart = Add(*terms, *found, evaluate=False)
+    return apart if terms and found and length(apart) <= length(value) else value
 
 
 def _varies(term: Expr, moving: Collection[Symbol]) -> bool:

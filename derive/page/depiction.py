@@ -12,7 +12,7 @@ import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from math import gcd
-from typing import Any
+from typing import Any, TypeGuard
 
 from sympy import Expr, Symbol, lcm
 
@@ -385,11 +385,17 @@ def _has_equal_moments(problem: Problem, drawing: m.Recorded, placement: Placeme
     return all(ratio.is_number for ratio in ratios) and order_of([float(ratio) for ratio in ratios]) is None
 
 
-def placed_after(drawing: m.Recorded) -> tuple[str, ...]:
-    """Return the keys of the steps that a drawing shows. For a normal mode, also return the keys of the other modes, so
-    that their drawings are side by side."""
+def placed_after(drawing: m.Recorded, placement: Placement | None = None) -> tuple[str, ...]:
+    """Return the keys of the steps that a drawing shows, and of the step that its `at` names. For a normal mode, also
+    return the keys of the other modes, so that their drawings are side by side."""
     siblings = drawing.mode.siblings if isinstance(drawing, m.Drawing) and drawing.mode is not None else ()
-    return (*drawing.keys, *siblings)
+    chosen = (placement.at,) if placement is not None and _is_step(placement.at) else ()
+    return (*drawing.keys, *siblings, *chosen)
+
+
+def _is_step(at: str | None) -> TypeGuard[str]:
+    """Return whether `at` names a step, and not a part, the statement or no place at all."""
+    return at is not None and len(at) > 1 and at not in (STATEMENT, HIDDEN)
 
 
 def leads_to(drawing: m.Recorded) -> tuple[str, ...]:
@@ -417,7 +423,7 @@ def _index(problem: Problem, drawing: m.Recorded, derivation: Derivation) -> int
         return _earliest(drawing, derivation)
     if placement.at == HIDDEN:
         return None
-    if len(placement.at) > 1 and placement.at != STATEMENT:
+    if _is_step(placement.at):
         return _part_of(placement.at, problem, derivation)
     return FOUND if placement.at == STATEMENT else ord(placement.at) - ord("a")
 

@@ -302,7 +302,14 @@ class _Writer:
             own = [Illustration(figure.key, f"{stem}-{figure.key}", alt, number, caption, STATEMENT)]
         return own + [
             Illustration(
-                d.key, f"{stem}-{d.key}", d.alt, d.number, d.caption, d.at, placed_after(d.drawing), leads_to(d.drawing)
+                d.key,
+                f"{stem}-{d.key}",
+                d.alt,
+                d.number,
+                d.caption,
+                d.at,
+                placed_after(d.drawing, d.placement),
+                leads_to(d.drawing),
             )
             for d in here
         ]

@@ -1,8 +1,9 @@
 """Reasons and frames that a page leaves out because the reader does not need them.
 
 A reason that only names equations, "from (2) and (3)", is left out if each of these equations is one of the two before
-the line, or is named in the paragraph before the display. A result that a part has framed is not framed again in this
-part.
+the line, or is named in the paragraph before the display. The lines of a step show a common reason once, at the last of
+them, and the next step of the display does not repeat this reason. A result that a part has framed is not framed again
+in this part.
 """
 
 from __future__ import annotations
@@ -31,7 +32,7 @@ def without_known_reasons(blocks: Sequence[Block], numbers: Mapping[str, Number]
         )
         if isinstance(block, Display):
             groups = tuple(_without_known_reasons(group, named, numbers) for group in block.groups)
-            block = replace(block, groups=groups)
+            block = replace(block, groups=_without_repeated_reasons(groups))
         found.append(block)
     return tuple(found)
 
@@ -60,6 +61,19 @@ def _result(group: Equations) -> tuple[Any, ...]:
         begun = line.left if line.left is not None else begun
         sides.append((str(begun), line.relation, str(line.right)))
     return tuple(sides[len(sides) - group.framed :])
+
+
+def _without_repeated_reasons(groups: Sequence[Equations]) -> tuple[Equations, ...]:
+    found: list[Equations] = []
+    said: tuple[Inline, ...] = ()
+    for group in groups:
+        lines = list(group.lines)
+        for i, line in enumerate(lines):
+            if line.reason == said or any(line.reason == later.reason for later in lines[i + 1 :]):
+                lines[i] = replace(line, reason=())
+        said = group.lines[-1].reason
+        found.append(replace(group, lines=tuple(lines)))
+    return tuple(found)
 
 
 def _without_known_reasons(group: Equations, named: set[Number], numbers: Mapping[str, Number]) -> Equations:

@@ -15,6 +15,7 @@ from derive.algebra.collect import (
     spread,
     spread_or_by_terms,
     with_constants_together,
+    with_differences_of_coordinates,
     with_weights_in_front,
 )
 from derive.algebra.equality import equal
@@ -148,6 +149,15 @@ def test_a_coordinate_stands_with_the_constant_from_which_it_is_counted() -> Non
     assert k * Add(y, -l) in found.args
     assert str(by_rates(m * g + k * l - k * y, [y])) == "g*m - k*(-l + y)"
     assert by_rates(m * y_dot**2 / 2 - k * y, [y]) == m * y_dot**2 / 2 - k * y
+
+
+def test_a_spring_between_two_bodies_depends_on_the_difference_of_their_coordinates() -> None:
+    x, y, x_ddot = (Symbol(name, real=True) for name in ("x", "y", "x_ddot"))
+    m, k, s, g, l = symbols("m k s g l", positive=True)
+    assert Mul(s, x - y, evaluate=False) in by_accelerations(m * x_ddot + k * x + s * (x - y), [x, y]).args
+    pendulums = (m * g + k * l) * x - k * l * y
+    assert set(with_differences_of_coordinates(pendulums, [x, y]).args) == {m * g * x, k * l * (x - y)}
+    assert with_differences_of_coordinates(k * (2 * x - y), [x, y]) == k * (2 * x - y)
 
 
 def test_a_number_below_a_sum_stays_where_no_term_is_left_without_one() -> None:

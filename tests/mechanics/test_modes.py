@@ -30,6 +30,7 @@ from derive.mechanics import (
     period,
     point,
     potential,
+    potential_energy_of,
     space,
     spring,
     weight,
@@ -71,6 +72,13 @@ def chain(masses: list[Expr], constants: list[Expr], walls: bool = True) -> tupl
     ends = [point(0, 0), *at, point((len(masses) + 1) * l, 0)] if walls else at
     springs = (spring(each, a, b, l) for each, (a, b) in zip(constants, pairwise(ends), strict=True))
     return motion(*(Particle(each, p) for each, p in zip(masses, at, strict=True)), *springs)
+
+
+def test_the_common_factor_of_a_potential_energy_stands_in_front() -> None:
+    at = [point(l + coordinate("x_1", "length"), 0), point(2 * l + coordinate("x_2", "length"), 0)]
+    ends = pairwise([point(0, 0), *at, point(3 * l, 0)])
+    system = System(*(Particle(m, p) for p in at), *(spring(k, a, b, l) for a, b in ends))
+    assert k in potential_energy_of(system).step.chain[-1].expr.args
 
 
 def squares(found: tuple[Quantity, ...]) -> list[Expr]:

@@ -52,6 +52,11 @@ def test_euler_equations_to_first_order() -> None:
     assert equal(second.value, Relation(B * y_dot + (A - C) * omega * x, "=", 0))
 
 
+def test_a_common_factor_is_divided_out_of_eulers_equations() -> None:
+    first, *_ = equations((13 * A, 10 * A, 5 * A))
+    assert not first.value.left.has(A)
+
+
 def test_the_square_of_the_wobble() -> None:
     """Landau, section 37, by hand: (I_z - I_x)(I_z - I_y) omega^2/(I_x I_y)."""
     found = squared((A, B, C), "z")

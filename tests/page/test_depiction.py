@@ -155,8 +155,10 @@ def test_a_drawing_of_what_no_part_asks_for_that_is_given_a_place_is_told(tmp_pa
 
 
 def test_a_drawing_may_stand_with_the_step_that_a_part_asks_for(tmp_path: Path) -> None:
-    placed = rendered_once(course_in(tmp_path, {CAPTION: CAPTION + "    at: torque\n"}), "hw9/block")
+    placed = rendered_once(course_in(tmp_path, {CAPTION: CAPTION + "    at: magnitude\n"}), "hw9/block")
+    text = placed.texts["text"]
     assert drawings(placed)["vectors"]["at"] == "d"
+    assert text.index("|τ⃗| = ") < text.index("Figure 1. ")
 
 
 def test_a_step_that_there_is_none_of_is_told(tmp_path: Path) -> None:

@@ -32,6 +32,14 @@ def test_a_reason_that_names_equations_in_view_is_left_out() -> None:
     assert reasons(display("c", reason=because)) == [because]
 
 
+def test_the_lines_of_a_display_show_the_same_reason_once() -> None:
+    line = ChainLine(Symbol("T"), "equals", Symbol("x"), REASON)
+    groups = (Equations("e", (line, line), NUMBERS["e"]), Equations("f", (line,), NUMBERS["f"]))
+    (found,) = without_known_reasons((Display(groups),), NUMBERS)
+    assert isinstance(found, Display)
+    assert [[each.reason for each in group.lines] for group in found.groups] == [[(), REASON], [()]]
+
+
 def test_a_part_frames_a_result_once() -> None:
     first, second = framed_once((display("b", 1), display("c", 1)))
     assert isinstance(first, Display) and first.groups[0].framed

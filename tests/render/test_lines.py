@@ -51,6 +51,17 @@ def test_an_answer_is_an_equation_of_its_own_after_its_derivation(law: Any, resu
         assert (last.left, last.sides) == (NOTATION.layout(T), (("equals", NOTATION.layout(result)),))
 
 
+def test_an_answer_takes_the_reason_of_the_same_expression_before_it() -> None:
+    T, (a, b, c) = Symbol("T"), LETTERS[:3]
+    chain = (
+        ChainLine(T, "equals", a * b),
+        ChainLine(None, "equals", b + c, (Text("why"),)),
+        ChainLine(None, "equals", b + c),
+    )
+    lines = printed_lines(Equations("T", chain, 7, 1), NOTATION)
+    assert [bool(line.reason) for line in lines] == [False, True]
+
+
 @pytest.mark.parametrize("again", [None, Symbol("T")])
 def test_the_frame_of_an_approximate_chain_has_no_equals_sign(again: Any) -> None:
     T, (a, b, c) = Symbol("T"), LETTERS[:3]

@@ -365,7 +365,8 @@ def _terms_together(value: Expr, moving: Sequence[Symbol]) -> Expr:
     not_more = len(Add.make_args(collected)) <= len(Add.make_args(shortest))
     if is_short and not_more and _count(collected, moving) < _count(shortest, moving):
         shortest = collected
-    return Add(*(spread(term) for term in Add.make_args(shortest)))
+    together = Add(*(spread(term) for term in Add.make_args(shortest)))
+    return min((with_constants_in_front(together, [q for q in moving if q != TIME]), together), key=length)
 
 
 def _count(value: Expr, letters: Collection[Symbol]) -> int:

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, ClassVar
 
-from sympy import Expr, ImmutableDenseMatrix, Integer, MatAdd, Symbol, diag
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, MatAdd, Symbol, diag
 from sympy.matrices import ImmutableMatrix
 
 from derive.algebra.collect import by_products
@@ -33,7 +33,7 @@ from derive.algebra.expressions import (
     tensor,
     vector,
 )
-from derive.algebra.tidy import tidied
+from derive.algebra.tidy import common_factor, tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.equimomental import OfParticles
 from derive.mechanics.bodies.facts import AboutPoint, OfBody
@@ -385,7 +385,7 @@ def _euler_equation(rate: Quantity, i: int, torque: tuple[Expr, Expr, Expr]) -> 
         {"rate": rate, "component": moving[i]},
         lines=Lines(
             put_in=None,
-            arranged=lambda value: Relation(by_products(explicit(value.left), moving), "=", value.right),
+            arranged=lambda value: _without_common_factor(by_products(explicit(value.left), moving), value.right),
             law=Level.FULL,
         ),
         routes={"matter": lambda value: (value, Relation(explicit(of.by_particles())[i], "=", acting))},
@@ -398,6 +398,16 @@ def _euler_equation(rate: Quantity, i: int, torque: tuple[Expr, Expr, Expr]) -> 
         key=f"euler_{AXES[i]}",
         facts=[Acting(column(*torque))],
     )
+
+
+def _without_common_factor(left: Expr, torque: Expr) -> Relation:
+    """Return the equation, without a torque divided by the common factor of its terms: 13 omega_x_dot - 5 omega_y
+    omega_z = 0 for a block with the edges a, 2a and 3a."""
+    terms = Add.make_args(left)
+    if torque != 0 or len(terms) < 2:
+        return Relation(left, "=", torque)
+    common = abs(common_factor(list(terms)))
+    return Relation(Add(*(term / common for term in terms)), "=", torque)
 
 
 def _coupling(rates: Any, moving: Sequence[Expr], i: int, torque: Sequence[Expr]) -> str:

@@ -13,7 +13,7 @@ from typing import Any
 from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Symbol, cos, nan, sin, zoo
 from sympy.matrices import MatrixBase
 
-from derive.algebra.collect import by_accelerations, spread
+from derive.algebra.collect import by_accelerations, spread, with_differences_of_coordinates
 from derive.algebra.derivatives import derivative
 from derive.algebra.expansion import FirstOrder
 from derive.algebra.expressions import TIME, Relation, Terms, depends_on_time, explicit, rate, scalar
@@ -142,6 +142,8 @@ def _one(
         for matrix, letters in ordered
         for j, s in enumerate(letters)
     ]
+    restoring = with_differences_of_coordinates(Add(*terms[-len(eta) :]), [s.symbol for s in eta])
+    terms = [*terms[: -len(eta)], *Add.make_args(restoring)]
     left = Add(*(term for term in terms if term != 0), evaluate=False)
     displaced = {s.symbol: q.symbol for q, s in zip(moving, eta, strict=True)}
     away = [(q, s) for s, q in displaced.items() if q != s]

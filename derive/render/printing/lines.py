@@ -135,8 +135,9 @@ def _with_answer(packed: Sequence[Printed], answer: Printed, relation: str) -> l
     *others, last = packed
     ((sign, result),) = answer.sides
     if sign == "equals" and _alike(last.sides[-1][1], result):  # an expression that prints the same terms is shown once
-        last = replace(last, sides=last.sides[:-1])
-        answer = replace(answer, reason=answer.reason or last.reason)
+        own, moved = (last.reason, ()) if answer.reason else ((), last.reason)
+        last = replace(last, sides=last.sides[:-1], reason=own)
+        answer = replace(answer, reason=answer.reason or moved)
     return [*others, *([last] if last.sides else []), replace(answer, sides=((relation, result),))]
 
 
