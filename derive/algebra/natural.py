@@ -13,6 +13,7 @@ from itertools import combinations, product
 from typing import Any
 
 from sympy import (
+    Abs,
     Add,
     Dummy,
     Expr,
@@ -94,13 +95,17 @@ def shortened(value: Any, quantities: Mapping[Symbol, Expr], kept: Collection[Sy
         for known in (whole, *eliminations):
             form = _with(value, known, chosen, kept)
             cost = _cost(form.value.xreplace(named))
-            if cost < least and _is_natural(form.value, chosen) and form.value.has(I) == value.has(I):
+            if cost < least and _is_natural(form.value, chosen) and not _gains(form.value, value, Abs, I):
                 best, least = form, cost
     return best and Shortened(
         best.value.xreplace({**names, **named}),
         tuple(map(names.get, best.used)),
         tuple(factor.xreplace(named) for factor in best.nonzero),
     )
+
+
+def _gains(form: Any, value: Any, *signs: Any) -> bool:
+    return any(form.has(sign) != value.has(sign) for sign in signs)
 
 
 def _brings(known: Mapping[Symbol, Expr], value: Any, quantities: Mapping[Symbol, Expr]) -> bool:

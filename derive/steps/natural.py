@@ -20,7 +20,7 @@ from typing import Any
 from sympy import Expr, Symbol
 
 from derive.algebra.equality import equal
-from derive.algebra.expressions import TIME, Relation, bound, explicit, is_matrix, rate
+from derive.algebra.expressions import TIME, At, Relation, bound, explicit, is_matrix, rate
 from derive.algebra.natural import Shortened, shortened
 from derive.steps import record
 from derive.steps.level import Level
@@ -59,7 +59,8 @@ class NaturalQuantities:
         if record.may_use_quantities():
             constants = [*proposals, *_named(record.defined_quantities())]
             states = list(_named(_ancestors(inputs)))
-        own: set[Any] = getattr(symbol, "free_symbols", set())  # omega_0 if the result is omega_0^2
+        named = symbol.args[0] if isinstance(symbol, At) else symbol  # the place r_0 of a derivative is not the result
+        own: set[Any] = getattr(named, "free_symbols", set())  # omega_0 if the result is omega_0^2
         self._constants = {each.symbol: each for each in constants if each.symbol not in own}
         others = (each for each in states if each.symbol not in own and each.value != result)
         self._known = {**{each.symbol: each for each in others}, **self._constants}
