@@ -13,6 +13,7 @@ from itertools import combinations, product
 from typing import Any
 
 from sympy import (
+    Abs,
     Add,
     Dummy,
     Expr,
@@ -67,12 +68,15 @@ class Shortened:
     nonzero: tuple[Expr, ...] = ()
 
 
-def shortened(value: Any, quantities: Mapping[Symbol, Expr], kept: Collection[Symbol] = ()) -> Shortened | None:
+def shortened(
+    value: Any, quantities: Mapping[Symbol, Expr], kept: Collection[Symbol] = (), only_whole: bool = False
+) -> Shortened | None:
     """Return the shortest form found for an expression or a relation in which quantities replace symbols; None if no
     shorter form is found.
 
     quantities   symbol -> its value in other symbols
     kept         symbols that must not be eliminated, such as the coordinates
+    only_whole   whether a quantity replaces only its whole formula
     """
     if not isinstance(value, Expr | Relation) or _size(value) > LONGEST:
         return None
@@ -90,17 +94,22 @@ def shortened(value: Any, quantities: Mapping[Symbol, Expr], kept: Collection[Sy
         chosen = {name: near[name] for name in some}
         # a whole formula, such as the formula of a reduced mass, may also be replaced by its quantity
         whole = {value: name for name, value in chosen.items() if not value.free_symbols & set(kept)}
-        eliminations = (each for each in _eliminations(chosen, kept) if _brings(each, value, chosen))
+        others = () if only_whole else _eliminations(chosen, kept)
+        eliminations = (each for each in others if _brings(each, value, chosen))
         for known in (whole, *eliminations):
             form = _with(value, known, chosen, kept)
             cost = _cost(form.value.xreplace(named))
-            if cost < least and _is_natural(form.value, chosen) and form.value.has(I) == value.has(I):
+            if cost < least and _is_natural(form.value, chosen) and not _gains(form.value, value, Abs, I):
                 best, least = form, cost
     return best and Shortened(
         best.value.xreplace({**names, **named}),
         tuple(map(names.get, best.used)),
         tuple(factor.xreplace(named) for factor in best.nonzero),
     )
+
+
+def _gains(form: Any, value: Any, *signs: Any) -> bool:
+    return any(form.has(sign) != value.has(sign) for sign in signs)
 
 
 def _brings(known: Mapping[Symbol, Expr], value: Any, quantities: Mapping[Symbol, Expr]) -> bool:
@@ -257,7 +266,7 @@ def _relation(
 
 def _written(value: Expr, known: Mapping[Expr, Expr]) -> Expr:
     """Substitute, and return a short form of the result."""
-    put_in = value.subs(known)
+    put_in = value.replace(lambda part: part.is_Mul, lambda part: _with_factors_replaced(part, known)).subs(known)
     if put_in == value:
         return value
     powers = [factor.as_base_exp() for factor in Mul.make_args(value)]
@@ -269,6 +278,17 @@ def _written(value: Expr, known: Mapping[Expr, Expr]) -> Expr:
     if value.is_Add and len(Add.make_args(by_terms)) <= len(value.args):
         return by_terms
     return min((kept, tidied(kept), factor_terms(kept)), key=_cost)
+
+
+def _with_factors_replaced(product: Expr, known: Mapping[Expr, Expr]) -> Expr:
+    """Write m_1 m_2 v^2/(2 (m_1 + m_2)) as mu v^2/2; `subs` does not find the factors of mu there."""
+    plain = product.replace(lambda part: part.is_Add, lambda part: Mul(*part.primitive(), evaluate=False))
+    powers = plain.as_powers_dict()
+    for whole, name in known.items():
+        needed = whole.as_powers_dict() if whole.is_Mul else {}
+        if needed and all(powers.get(base) == power for base, power in needed.items()):
+            return Mul(*(base**power for base, power in powers.items() if base not in needed), name)
+    return product
 
 
 @lru_cache(maxsize=4096)  # the forms that are compared have most of their radicands in common

@@ -20,7 +20,7 @@ from typing import Any
 from sympy import Expr, Symbol
 
 from derive.algebra.equality import equal
-from derive.algebra.expressions import TIME, Relation, bound, explicit, is_matrix, rate
+from derive.algebra.expressions import TIME, At, Relation, bound, explicit, is_matrix, rate
 from derive.algebra.natural import Shortened, shortened
 from derive.steps import record
 from derive.steps.level import Level
@@ -59,7 +59,8 @@ class NaturalQuantities:
         if record.may_use_quantities():
             constants = [*proposals, *_named(record.defined_quantities())]
             states = list(_named(_ancestors(inputs)))
-        own: set[Any] = getattr(symbol, "free_symbols", set())  # omega_0 if the result is omega_0^2
+        named = symbol.args[0] if isinstance(symbol, At) else symbol  # the place r_0 of a derivative is not the result
+        own: set[Any] = getattr(named, "free_symbols", set())  # omega_0 if the result is omega_0^2
         self._constants = {each.symbol: each for each in constants if each.symbol not in own}
         others = (each for each in states if each.symbol not in own and each.value != result)
         self._known = {**{each.symbol: each for each in others}, **self._constants}
@@ -84,13 +85,20 @@ class NaturalQuantities:
         return {role: short.value for role, short in found.items() if short is not None}
 
     def _shortened(self, value: Any, known: Mapping[Symbol, Proposal]) -> Shortened | None:
-        """Return a shorter form of a value or a condition in known quantities, or None."""
+        """Return a shorter form of a value or a condition in known quantities, or None.
+
+        In a value that changes, such as a kinetic energy, only the whole formulas of defined quantities are replaced.
+        """
         moving = {rate(q, order) for q in record.named_coordinates() for order in range(3)}
-        is_value = isinstance(value, Expr) and not is_matrix(value) and not value.free_symbols & moving
+        is_value = isinstance(value, Expr) and not is_matrix(value)
+        changes = is_value and bool(value.free_symbols & moving)
+        if changes:
+            defined = {each.symbol for each in record.defined_quantities()}
+            known = {name: each for name, each in known.items() if name in defined}
         if not known or not (is_value or isinstance(value, Relation)):
             return None
         kept = {TIME, *moving}
-        found = shortened(value, {name: each.value for name, each in known.items()}, kept)
+        found = shortened(value, {name: each.value for name, each in known.items()}, kept, only_whole=changes)
         if found is None:
             return None
         names = [name for name in found.used if name in found.value.free_symbols]

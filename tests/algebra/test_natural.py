@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from sympy import Expr, Integer, Rational, Symbol, acos, cos, exp, sin, sqrt, symbols
+from sympy import Abs, Expr, Integer, Rational, Symbol, acos, asin, cos, exp, sin, sqrt, symbols
 
 from derive.algebra.expressions import TIME, Relation
 from derive.algebra.natural import compared, shortened
@@ -74,3 +74,18 @@ def test_a_form_that_is_no_shorter_or_not_real_is_not_used(value: Any, quantitie
 def test_a_coordinate_is_not_eliminated() -> None:
     assert shortened(x**2 / 4, {r_0: x / 2}) is not None
     assert shortened(x**2 / 4, {r_0: x / 2}, {x}) is None
+
+
+def test_only_the_whole_formula_of_a_quantity_is_replaced_in_a_value_that_changes() -> None:
+    m1, m2, mu = (Symbol(name, positive=True) for name in ("m_1", "m_2", "mu"))
+    reduced = {mu: m1 * m2 / (m1 + m2)}
+    energy = (m1 + m2) * x_dot**2 / 2 + m1 * m2 * x**2 / (2 * (m1 + m2))
+    found = shortened(energy, reduced, only_whole=True)
+    assert found is not None and found.value == (m1 + m2) * x_dot**2 / 2 + mu * x**2 / 2
+    assert shortened(m1 * x**2 / (m1 + m2) ** 2, reduced, only_whole=True) is None
+
+
+def test_no_form_gains_an_absolute_value() -> None:
+    value = sqrt(m**2 * g**2 - k**2)
+    found = shortened(value, {theta_0: asin(k / (m * g))})
+    assert found is None or not found.value.has(Abs)

@@ -132,7 +132,11 @@ def test_a_particle_circles_a_centre_where_its_effective_potential_is_least() ->
     (circle,) = equilibria(V, q)
     assert equal(circle.value, S**2 / (G * M * m**2))
     assert (circle.step.outcome, str(circle.symbol)) == ("only", "r_0")
-    assert stability(V, circle).step.outcome == "stable"
+    found = stability(V, circle)
+    assert found.step.outcome == "stable"
+    assert equal(found.step.chain[-1].expr, S**2 / (m * circle.symbol**4)), (
+        "the place of a derivative is a natural quantity"
+    )
 
 
 def test_a_bead_on_a_wire_with_a_stretched_spring_has_rest_beside_the_middle() -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from sympy import Integer, Matrix, Rational, cos, diag, exp, pi, sin, sqrt, symbols, zeros
+from sympy import Integer, Integral, Matrix, Rational, cos, diag, exp, pi, sin, sqrt, symbols, zeros
 
 import derive.mechanics.bodies.mapped_bodies as general
 from derive.algebra.equality import Grade, equal
@@ -91,6 +91,13 @@ def test_a_general_tensor_is_moved_and_named_like_any_other() -> None:
 def test_an_exponential_density_is_integrated_by_parts() -> None:
     rod = Wire((0, 0, z), {z: (0, l)}, density=rho_0 * exp(-z / l))
     assert (rod.mass - rho_0 * l * (1 - exp(-1))).simplify() == 0
+
+
+def test_the_sign_of_an_integral_precedes_it() -> None:
+    moment = moment_of_inertia(Wire((x, 0, 0), {x: (0, l)}, density=rho_0 * x / l), "z")
+    integrals = [each for form in moment.step.chain for each in form.expr.atoms(Integral)]
+    assert len(integrals) > 3
+    assert not any(each.function.as_coeff_Mul()[0].is_negative for each in integrals)
 
 
 def test_particles_of_a_general_body_have_its_moments() -> None:

@@ -10,7 +10,7 @@ from sympy import Expr, Function, cos, sin, symbols
 
 from derive.algebra.equality import Grade, equal
 from derive.algebra.expressions import TIME as t
-from derive.algebra.expressions import explicit, scalar
+from derive.algebra.expressions import bound, explicit, scalar
 from derive.errors import Rejected, Unverified
 from derive.mechanics import (
     Coordinate,
@@ -57,6 +57,17 @@ def test_a_rotation_gives_the_angular_momentum() -> None:
     found = noether(L, {x: -y, y: x}, symbol="J")
     assert same(found, m * (x.symbol * y.rate - y.symbol * x.rate))
     assert (found.symbol, found.step.outcome) == (scalar("J"), "symmetry")
+
+
+def test_derivatives_and_their_values_have_the_same_order() -> None:
+    L, x, y = oscillator()
+    with recorded() as run:
+        noether(L, {x: -y, y: x})
+    (change,) = (each for each in run.established if each.key == "noether_change")
+    derivatives, values = (form.expr.left.args for form in change.step.chain)
+    assert [explicit(bound(each, {L.symbol: L.value})) for each in derivatives] == list(values)
+    assert values[0] == -values[1] == -k * x.symbol * y.symbol
+    assert values[2] == -values[3] == m * x.rate * y.rate
 
 
 def test_a_translation_of_two_masses_on_a_spring_gives_their_momentum() -> None:

@@ -12,6 +12,7 @@ from derive.course.latex.vocabulary import KNOWN
 from derive.course.reference.quotes import unquotable
 from derive.course.yaml_tree import Mapping, Scalar, Sequence, Tree, read_yaml
 from derive.render.notation.from_latex import DEEPEST, in_plain_text, layout_of_latex
+from derive.render.notation.latex import latex
 from derive.render.notation.layout import Array, Fraction, Name, Row
 from tests.courses import ROOT
 
@@ -100,3 +101,8 @@ def _texts(node: Tree) -> list[str]:
     told = [value.text for name in ("quote", "remark", "why") if isinstance(value := node.get(name), Scalar)]
     inner = [text for name in ("entries", "erratum") if (value := node.get(name)) is not None for text in _texts(value)]
     return [*told, *inner]
+
+
+def test_a_space_precedes_a_differential() -> None:
+    assert latex(layout_of_latex(r"\int_0^l s^3\,ds")).endswith(r"s^{3}\,ds")
+    assert latex(layout_of_latex(r"\int d\theta")) == r"\int d\theta"

@@ -155,3 +155,7 @@ def test_answers_that_follow_each_other_share_a_frame_after_their_laws() -> None
     (line,) = before_answers([law, law])
     assert [relation for relation, _ in line.sides] == ["equals", "next", "equals"], "the laws share a line"
     assert len(before_answers([law, law], limit=10)) == 2
+    room = 4 * law[0].width + 15
+    rows = before_answers([law] * 6, limit=room)
+    assert [len([*filter("next".__eq__, (sign for sign, _ in row.sides))]) for row in rows] == [1, 1, 1], "in pairs"
+    assert len(before_answers([law] * 5, limit=room)) == 2

@@ -161,6 +161,7 @@ def test_a_positive_term_leads() -> None:
 def test_what_divides_a_root_goes_under_it_where_that_cancels() -> None:
     assert str(roots_together(2 * pi / 3 * sqrt(6) * sqrt(a) / sqrt(g))) == str(2 * pi * Root(2 * a / (3 * g)))
     assert roots_together(sqrt(a + b) * sqrt(2) / 2) == Root(Mul(2, a + b, evaluate=False)) / 2
+    assert roots_together(a ** Rational(3, 2) * sqrt(g)) == a * Root(a * g), "not a^(3/2) sqrt(g)"
 
 
 def test_masses_stand_before_accelerations_lengths_numbers_and_rates() -> None:

@@ -13,7 +13,7 @@ its chords.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from sympy import Add, Expr, Integer, Integral, Mul, Poly, Pow, Rational, Symbol, cos, factor_terms, pi, sin
 
@@ -179,7 +179,11 @@ def _line(front: Expr, terms: list[Separated], how: Callable[[Nested], Expr], be
 
 def _product(term: Separated, how: Callable[[Nested], Expr]) -> Expr:
     """The product of the factors of a term. In a line with brackets, the factors that need no bracket come first:
-    values, and integrals with the integrand 1, each written as the upper minus the lower limit."""
+    values, and integrals with the integrand 1, each written as the upper minus the lower limit. The sign of a negative
+    integrand is in front of the product."""
+    first = term[0]
+    if isinstance(first, Nested) and first.integrand.as_coeff_Mul()[0].is_negative:
+        return -_product((replace(first, integrand=-first.integrand), *term[1:]), how)
     if how is Nested.written:
         return Factors(*(how(part) if isinstance(part, Nested) else part for part in term))
     plain = [_length(part) if isinstance(part, Nested) else part for part in term if _is_plain(part)]

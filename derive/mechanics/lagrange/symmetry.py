@@ -139,7 +139,8 @@ def _change(of: Quantity, xi: Mapping[Symbol, Expr], gain: Expr, key: str) -> Qu
     moving = [q.symbol for q in coordinates_of(of)]
     L = explicit(of.value)
     ways = {q: x for q, x in xi.items() if x != 0 and L.has(q)}
-    ways.update({rate(q): v for q, x in xi.items() if (v := explicit(TimeRate(x, *moving))) != 0 and L.has(rate(q))})
+    turned = {rate(q): v for q, x in xi.items() if (v := explicit(TimeRate(x, *moving))) != 0 and L.has(rate(q))}
+    ways = _in_order(L, ways, turned)
     left = Add(*(diff(L, s) * x for s, x in ways.items())) - explicit(TimeRate(gain, *moving))
     if not vanishes(left):
         message = (
@@ -154,7 +155,7 @@ def _change(of: Quantity, xi: Mapping[Symbol, Expr], gain: Expr, key: str) -> Qu
     def law(L: Expr, *_: Expr) -> Relation:
         terms = [_times(Partial(L, s), x) for s, x in ways.items()]
         still = [Partial(L, q) for q, x in xi.items() if x != 0]
-        return Relation(_positive_first(terms or still), "=", TimeRate(gain, *moving) if gain != 0 else ZERO)
+        return Relation(Terms(*(terms or still)), "=", TimeRate(gain, *moving) if gain != 0 else ZERO)
 
     def changed_by(gain: Expr) -> Expr:
         return by_functions_of_time(gain, moving)
@@ -184,11 +185,23 @@ def _change(of: Quantity, xi: Mapping[Symbol, Expr], gain: Expr, key: str) -> Qu
     )
 
 
+def _in_order(L: Expr, *groups: Mapping[Symbol, Expr]) -> dict[Symbol, Expr]:
+    """Return the changes of the coordinates, then those of the rates. In each group, positive terms of the change of L
+    come first, and a group without positive terms comes last."""
+
+    def is_negative(way: tuple[Symbol, Expr]) -> bool:
+        return bool(_times(Partial(L, way[0]), way[1]).could_extract_minus_sign())
+
+    ordered = [sorted(group.items(), key=is_negative) for group in groups if group]
+    ordered.sort(key=lambda group: is_negative(group[0]))
+    return dict(way for group in ordered for way in group)
+
+
 def _worked(L: Expr, ways: Mapping[Symbol, Expr], gain: Expr, moving: Sequence[Symbol]) -> list[Form]:
     """Return the line with the derivatives substituted, if the shift changes a coordinate or a rate in L."""
     terms = [_times(by_rates(diff(L, s), moving), x) for s, x in ways.items()]
     right = by_rates(explicit(TimeRate(gain, *moving)), moving)
-    return [Form(Relation(_positive_first(terms), "=", right), "put_in", Level.STANDARD)] if terms else []
+    return [Form(Relation(Terms(*terms), "=", right), "put_in", Level.STANDARD)] if terms else []
 
 
 def _ways(matter: Matter, xi: Mapping[Symbol, Expr]) -> list[tuple[Expr, Expr, Expr]]:

@@ -119,6 +119,8 @@ class _Reader:
             word = item.base if isinstance(item, Raised) else item
             if isinstance(word, Upright) and word.text[:1].isalpha() and items and _ends_in_number(items[-1]):
                 items.append(THIN_SPACE)  # between a number and its unit
+            if item == Upright("d") and any(isinstance(each, IntegralSign) for each in items[:-1]):
+                items.append(THIN_SPACE)  # between an integrand and its differential
             items += [] if item is None else [item]
         return row(*items) if items else _NOTHING
 

@@ -223,11 +223,14 @@ def gathered(expr: Expr) -> Expr:
 
 
 def roots_together(expr: Expr) -> Expr:
-    """Combine square roots: sqrt(M) sqrt(g)/sqrt(I + M a^2) as the root of a fraction, 1/(sqrt(L) sqrt(C)) as 1/root.
+    """Combine square roots: sqrt(M) sqrt(g)/sqrt(I + M a^2) as the root of a fraction, 1/(sqrt(L) sqrt(C)) as 1/root,
+    and l^(3/2) sqrt(g) as l sqrt(g l).
 
     A single root is unchanged.
     """
     factors = Mul.make_args(expr)
+    if any(isinstance(f, Pow) and f.exp == Rational(1, 2) for f in factors):
+        factors = tuple(part for f in factors for part in _with_plain_root(f))
     roots = [f for f in factors if isinstance(f, Pow) and (abs(f.exp) == Rational(1, 2) or _is_fourth_root(f))]
     if len(roots) < 2 or not any(root.free_symbols or root.has(ex.Amount) for root in roots):
         return expr
@@ -241,6 +244,14 @@ def roots_together(expr: Expr) -> Expr:
     if times != 1 and (not inside.has(Add) or fraction(inside)[1] != 1):
         others, inside = others / times, Mul(under, *(f for f in inside.args if not f.is_Rational), evaluate=False)
     return Mul(others, ex.Root(inside))
+
+
+def _with_plain_root(factor: Expr) -> tuple[Expr, ...]:
+    """Split l^(3/2) into l and sqrt(l)."""
+    base, power = factor.as_base_exp()
+    if not (power.is_Rational and power.q == 2 and power > 1):
+        return (factor,)
+    return Pow(base, Integer(power)), Pow(base, Rational(1, 2))
 
 
 def _below_under_root(number: Rational, inside: Rational) -> tuple[Rational, Rational]:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import lru_cache
+from functools import lru_cache, reduce
 
 from derive.page.chain_lines import Equations
 from derive.page.numbering import Number
@@ -109,16 +109,37 @@ def answers_together(steps: Sequence[Sequence[Printed]]) -> list[list[int]]:
 
 
 def before_answers(steps: Sequence[Sequence[Printed]], limit: float = LINE_WIDTH) -> list[Printed]:
-    """Return the lines that precede the common frame of several answers; short laws share a line."""
+    """Return the lines that precede the common frame of several answers; short laws share a line.
+
+    A line has an even number of laws, such as pairs of Hamilton's equations, if all lines can then have the same
+    number.
+    """
     derived = [lines[:-1] for lines in steps]
-    found: list[Printed] = []
-    for line in (line for lines in derived for line in lines):
-        last = found[-1] if found and all(len(lines) <= 1 for lines in derived) else None
-        if last and line.left is not None and not last.reason and _has_room(last, line.left, line, limit):
-            found[-1] = replace(last, sides=(*last.sides, ("next", line.left), *line.sides), reason=line.reason)
+    laws = [line for lines in derived for line in lines]
+    shared = all(len(lines) <= 1 for lines in derived)
+    rows = _filled(laws, limit if shared else 0)
+    most = max(map(len, rows), default=0)
+    equal = next((n for n in range(most - most % 2, 0, -2) if len(laws) % n == 0), 0)
+    if len(rows) > 1 and equal:
+        rows = [laws[i : i + equal] for i in range(0, len(laws), equal)]
+    return [reduce(_beside, row) for row in rows]
+
+
+def _filled(laws: Sequence[Printed], limit: float) -> list[list[Printed]]:
+    """Distribute laws among rows: each law is in the row of the last one if it has room there."""
+    rows: list[list[Printed]] = []
+    for law in laws:
+        last = reduce(_beside, rows[-1]) if rows else None
+        if last and law.left is not None and not last.reason and _has_room(last, law.left, law, limit):
+            rows[-1].append(law)
         else:
-            found.append(line)
-    return found
+            rows.append([law])
+    return rows
+
+
+def _beside(row: Printed, law: Printed) -> Printed:
+    assert law.left is not None
+    return replace(row, sides=(*row.sides, ("next", law.left), *law.sides), reason=law.reason)
 
 
 def _ends_with_answer(lines: Sequence[Printed]) -> bool:
