@@ -22,6 +22,7 @@ from sympy import (
     Rational,
     Symbol,
     cos,
+    cosh,
     expand,
     factor_list,
     fraction,
@@ -78,8 +79,26 @@ def _tidied_scalar(value: Expr) -> Expr:
         if value.atoms(Add) and is_zero_everywhere(value) is not False and vanishes(value):
             return Integer(0)
         value = _denested(_roots_drawn_out(_roots_in_the_numerator(_roots_drawn_out(value))))
-        return shortest((in_front(value), in_front(_expanded_above(value)), *_by_squares(value)))
-    return shortest([_as_one_fraction(value), *_by_squares(value), *map(_as_one_fraction, _by_one_angle(value))])
+        return _differences_in_front(shortest((in_front(value), in_front(_expanded_above(value)), *_by_squares(value))))
+    return _differences_in_front(
+        shortest([_as_one_fraction(value), *_by_squares(value), *map(_as_one_fraction, _by_one_angle(value))])
+    )
+
+
+def _differences_in_front(value: Expr) -> Expr:
+    """Write v^2 + 2 g R cos a - 2 g R as v^2 - 2 g R (1 - cos a), in each sum of the value."""
+    if not value.atoms(cos, cosh):
+        return value
+    return value.replace(lambda part: part.is_Add and len(part.args) > 2, _difference_in_front)
+
+
+def _difference_in_front(total: Expr) -> Expr:
+    for function in sorted(total.atoms(cos, cosh), key=str):
+        for front in total.args:
+            if front.free_symbols and not front.has(function) and -front * function in total.args:
+                rest = [term for term in total.args if term not in (front, -front * function)]
+                return Add(*rest, Mul(front, 1 - function))
+    return total
 
 
 def _by_addition_theorem(value: Expr) -> Expr | None:

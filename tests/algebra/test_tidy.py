@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
-from sympy import Expr, I, Integer, Matrix, Rational, acos, cos, pi, sin, sqrt, symbols, tan
+from sympy import Expr, I, Integer, Matrix, Rational, Symbol, acos, cos, pi, sin, sqrt, symbols, tan
 
 from derive.algebra.equality import equal
 from derive.algebra.expressions import Dot, column
@@ -201,3 +201,11 @@ def test_pairs_of_terms_become_a_cosine_of_a_difference_beside_others() -> None:
     assert tidied(together).has(cos(u - v)) and equal(tidied(together), together)
     alone = M * cos(u) * cos(v) + a * sin(u) * sin(v) + b * x
     assert not tidied(alone).has(cos(u - v), cos(u + v)) and equal(tidied(alone), alone)
+
+
+def test_a_difference_from_one_is_kept_together_within_a_longer_sum():
+    g, l, v, a = symbols("g l v", positive=True) + (Symbol("a", real=True),)
+    found = tidied((v**2 + 2 * g * l * cos(a) - 2 * g * l) / l**2)
+    assert str(found) == "(-2*g*l*(1 - cos(a)) + v**2)/l**2"
+    assert tidied(found * l**2) == v**2 - 2 * g * l * (1 - cos(a))
+    assert tidied(v**2 + 3 * g * l * cos(a) - 2 * g * l) == v**2 + 3 * g * l * cos(a) - 2 * g * l
