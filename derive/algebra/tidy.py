@@ -81,7 +81,13 @@ def _tidied_scalar(value: Expr) -> Expr:
         value = _denested(_roots_drawn_out(_roots_in_the_numerator(_roots_drawn_out(value))))
         return _differences_in_front(shortest((in_front(value), in_front(_expanded_above(value)), *_by_squares(value))))
     return _differences_in_front(
-        shortest([_as_one_fraction(value), *_by_squares(value), *map(_as_one_fraction, _by_one_angle(value))])
+        shortest(
+            [
+                _as_one_fraction(value),
+                *_by_squares(value),
+                *map(_as_one_fraction, [*_by_one_angle(value), *_by_half_angle(value)]),
+            ]
+        )
     )
 
 
@@ -192,6 +198,14 @@ def _by_one_angle(value: Expr) -> list[Expr]:
     spread_out = expand(value)
     found = bottom_up(spread_out, lambda part: _turned_together(part) if part.is_Add else part)
     return [found] if found != spread_out else []
+
+
+def _by_half_angle(value: Expr) -> list[Expr]:
+    """Write sin(2 a) as 2 sin a cos a next to sin a or cos a, with which it may have a common factor."""
+    angles = {function.args[0] for function in value.atoms(sin, cos)}
+    doubled = [turn for turn in value.atoms(sin) if turn.args[0] / 2 in angles]
+    halves = {turn: 2 * sin(turn.args[0] / 2) * cos(turn.args[0] / 2) for turn in doubled}
+    return [value.xreplace(halves)] if halves else []
 
 
 def _turned_together(total: Expr) -> Expr:

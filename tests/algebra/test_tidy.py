@@ -209,3 +209,10 @@ def test_a_difference_from_one_is_kept_together_within_a_longer_sum():
     assert str(found) == "(-2*g*l*(1 - cos(a)) + v**2)/l**2"
     assert tidied(found * l**2) == v**2 - 2 * g * l * (1 - cos(a))
     assert tidied(v**2 + 3 * g * l * cos(a) - 2 * g * l) == v**2 + 3 * g * l * cos(a) - 2 * g * l
+
+
+def test_the_sine_of_a_double_angle_is_written_out_if_that_gives_a_common_factor():
+    g, a, w, angle = (*symbols("g a w", positive=True), Symbol("angle", real=True))
+    found = tidied((8 * g * cos(angle) - a * w**2 * sin(2 * angle)) / (12 * w**2 * sin(angle)))
+    assert str(found) == "(-a*w**2*sin(angle) + 4*g)*cos(angle)/(6*w**2*sin(angle))"
+    assert tidied(sin(2 * angle)) == sin(2 * angle)
