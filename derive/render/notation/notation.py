@@ -97,10 +97,10 @@ def _swings(factor: Expr) -> bool:
 
 
 def _is_root_of_quadratic(total: Expr) -> bool:
-    """Return whether a sum is like the numerator of the quadratic formula: one term is a number, or has no root, and
-    the other one is a root of a sum, or a number times a root."""
+    """Return whether a sum is like the numerator of the quadratic formula: two numbers with a root, or two terms, of
+    which one is a root of a sum."""
     roots = [term for term in total.args if _has_root(term)]
-    return len(total.args) == 2 and len(roots) == 1 and (total.is_number or roots[0].has(Add))
+    return len(total.args) == 2 and (total.is_number and roots != [] or len(roots) == 1 and roots[0].has(Add))
 
 
 def _has_root(term: Expr) -> bool:
