@@ -186,7 +186,7 @@ def test_a_value_in_defined_quantities_is_substituted_in_a_later_line(tmp_path: 
     wording = BEAD[BEAD.index("  frequency: >-") : BEAD.index("  effective_potential:")]
     text = edited(BEAD, ("\ngiven:", define), (shown, ""), (wording, ""))
     found = rendered(course_with(tmp_path, text), "trial/one", only={"text"})
-    assert "√(ω² - ω_c⁴/ω²) = ω sin θ_3" in found.texts["text"]
+    assert "Ω_0 = √(ω² - ω_c⁴/ω²)\n  * Ω_0 = ω sin θ_3" in found.texts["text"]
 
 
 @pytest.mark.parametrize("kind", ["angle", "'angle in (0, pi/2)'"])
