@@ -22,6 +22,7 @@ from sympy import (
     Rational,
     Symbol,
     cos,
+    cosh,
     expand,
     factor_list,
     fraction,
@@ -89,8 +90,32 @@ def _in_tidy_form(value: Expr) -> Expr:
         if value.atoms(Add) and is_zero_everywhere(value) is not False and vanishes(value):
             return Integer(0)
         value = _denested(_roots_drawn_out(_roots_in_the_numerator(_roots_drawn_out(value))))
-        return shortest((in_front(value), in_front(_expanded_above(value)), *_by_squares(value)))
-    return shortest([_as_one_fraction(value), *_by_squares(value), *map(_as_one_fraction, _by_one_angle(value))])
+        return _differences_in_front(shortest((in_front(value), in_front(_expanded_above(value)), *_by_squares(value))))
+    return _differences_in_front(
+        shortest(
+            [
+                _as_one_fraction(value),
+                *_by_squares(value),
+                *map(_as_one_fraction, [*_by_one_angle(value), *_by_half_angle(value)]),
+            ]
+        )
+    )
+
+
+def _differences_in_front(value: Expr) -> Expr:
+    """Write v^2 + 2 g R cos a - 2 g R as v^2 - 2 g R (1 - cos a), in each sum of the value."""
+    if not value.atoms(cos, cosh):
+        return value
+    return value.replace(lambda part: part.is_Add and len(part.args) > 2, _difference_in_front)
+
+
+def _difference_in_front(total: Expr) -> Expr:
+    for function in sorted(total.atoms(cos, cosh), key=str):
+        for front in total.args:
+            if front.free_symbols and not front.has(function) and -front * function in total.args:
+                rest = [term for term in total.args if term not in (front, -front * function)]
+                return Add(*rest, Mul(front, 1 - function))
+    return total
 
 
 def _by_addition_theorem(value: Expr) -> Expr | None:
@@ -184,6 +209,14 @@ def _by_one_angle(value: Expr) -> list[Expr]:
     spread_out = expand(value)
     found = bottom_up(spread_out, lambda part: _turned_together(part) if part.is_Add else part)
     return [found] if found != spread_out else []
+
+
+def _by_half_angle(value: Expr) -> list[Expr]:
+    """Write sin(2 a) as 2 sin a cos a next to sin a or cos a, with which it may have a common factor."""
+    angles = {function.args[0] for function in value.atoms(sin, cos)}
+    doubled = [turn for turn in value.atoms(sin) if turn.args[0] / 2 in angles]
+    halves = {turn: 2 * sin(turn.args[0] / 2) * cos(turn.args[0] / 2) for turn in doubled}
+    return [value.xreplace(halves)] if halves else []
 
 
 def _turned_together(total: Expr) -> Expr:

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
-from sympy import Expr, I, Integer, Matrix, Rational, acos, cos, pi, sin, sqrt, symbols, tan
+from sympy import Expr, I, Integer, Matrix, Rational, Symbol, acos, cos, pi, sin, sqrt, symbols, tan
 
 from derive.algebra.equality import equal
 from derive.algebra.expressions import Dot, column
@@ -201,3 +201,18 @@ def test_pairs_of_terms_become_a_cosine_of_a_difference_beside_others() -> None:
     assert tidied(together).has(cos(u - v)) and equal(tidied(together), together)
     alone = M * cos(u) * cos(v) + a * sin(u) * sin(v) + b * x
     assert not tidied(alone).has(cos(u - v), cos(u + v)) and equal(tidied(alone), alone)
+
+
+def test_a_difference_from_one_is_kept_together_within_a_longer_sum():
+    g, l, v, a = symbols("g l v", positive=True) + (Symbol("a", real=True),)
+    found = tidied((v**2 + 2 * g * l * cos(a) - 2 * g * l) / l**2)
+    assert str(found) == "(-2*g*l*(1 - cos(a)) + v**2)/l**2"
+    assert tidied(found * l**2) == v**2 - 2 * g * l * (1 - cos(a))
+    assert tidied(v**2 + 3 * g * l * cos(a) - 2 * g * l) == v**2 + 3 * g * l * cos(a) - 2 * g * l
+
+
+def test_the_sine_of_a_double_angle_is_written_out_if_that_gives_a_common_factor():
+    g, a, w, angle = (*symbols("g a w", positive=True), Symbol("angle", real=True))
+    found = tidied((8 * g * cos(angle) - a * w**2 * sin(2 * angle)) / (12 * w**2 * sin(angle)))
+    assert str(found) == "(-a*w**2*sin(angle) + 4*g)*cos(angle)/(6*w**2*sin(angle))"
+    assert tidied(sin(2 * angle)) == sin(2 * angle)

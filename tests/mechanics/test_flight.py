@@ -108,7 +108,10 @@ def test_without_a_symbol_the_bob_returns_to_its_lowest_point_for_seven_halves(t
         PENDULUM,
         (", theta_1: 'angle in (pi/2, pi)'", ""),
         ("{flight: slack, at: theta_1}", "{flight: slack}"),
-        ("  The string goes slack at the angle <<theta_1>>. In the flight", "  In the flight"),
+        (
+            r"  The string goes slack at an angle <<theta_1>> with $\pi/2 < \theta_1 < \pi$. In the flight",
+            "  In the flight",
+        ),
         ("    angle: {roots: pivot, for: cos(theta_1)}\n", ""),
         ("    start: {put_in: flight_start, results: angle}\n", ""),
         ("    needed: {roots: start, for: v_0, symbol: v_p}\n", ""),

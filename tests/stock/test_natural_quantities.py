@@ -182,8 +182,11 @@ def test_a_defined_quantity_is_not_proposed_again(tmp_path: Path) -> None:
 
 def test_a_value_in_defined_quantities_is_substituted_in_a_later_line(tmp_path: Path) -> None:
     define = "\ndefine: {omega_c: sqrt(g/R), nu: sqrt(omega**2 - omega_c**2)}\ngiven:"
-    found = rendered(course_with(tmp_path, edited(BEAD, ("\ngiven:", define))), "trial/one", only={"text"})
-    assert "√(ω² - ω_c⁴/ω²) = ω sin θ_3" in found.texts["text"]
+    shown = BEAD[BEAD.index("show: {") : BEAD.index("parts:")]
+    wording = BEAD[BEAD.index("  frequency: >-") : BEAD.index("  effective_potential:")]
+    text = edited(BEAD, ("\ngiven:", define), (shown, ""), (wording, ""))
+    found = rendered(course_with(tmp_path, text), "trial/one", only={"text"})
+    assert "Ω_0 = √(ω² - ω_c⁴/ω²)\n  * Ω_0 = ω sin θ_3" in found.texts["text"]
 
 
 @pytest.mark.parametrize("kind", ["angle", "'angle in (0, pi/2)'"])

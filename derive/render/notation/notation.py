@@ -96,6 +96,17 @@ def _swings(factor: Expr) -> bool:
     return any(each.has(ex.TIME) for each in factor.atoms(Function))
 
 
+def _is_root_of_quadratic(total: Expr) -> bool:
+    """Return whether a sum is like the numerator of the quadratic formula: two numbers with a root, or two terms, of
+    which one is a root of a sum."""
+    roots = [term for term in total.args if _has_root(term)]
+    return len(total.args) == 2 and (total.is_number and roots != [] or len(roots) == 1 and roots[0].has(Add))
+
+
+def _has_root(term: Expr) -> bool:
+    return any(factor.is_Pow and factor.exp == Rational(1, 2) for factor in Mul.make_args(term))
+
+
 PRINTED_NAMES = {"acos": "arccos", "asin": "arcsin", "atan": "arctan", "log": "ln"}
 
 
@@ -169,6 +180,8 @@ class Notation:
             in_sums = any(f.is_Add for term in rest.args for f in Mul.make_args(term))
             if content != 1 and content.q == 1 and not holds_rates(expr) and not in_sums:
                 return self._factors([content, rest])  # 4(b^2 + c^2), not 4 b^2 + 4 c^2
+            if content.p == 1 and content.q != 1 and _is_root_of_quadratic(rest):
+                return Fraction(self._terms(self._ordered_terms(rest)), Digits(str(content.q)))
         return self._terms(list(expr.args) if isinstance(expr, ex.Terms) else self._ordered_terms(expr))
 
     def _ordered_terms(self, expr: Add) -> list[Expr]:
