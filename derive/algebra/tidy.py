@@ -73,7 +73,7 @@ def _tidied_scalar(value: Expr) -> Expr:
         return sum_of_angles
     if value.has(tan):
         value = value.replace(lambda e: isinstance(e, Add) and e.has(tan), _by_secant)
-        return shortest({_in_tidy_form(value): None, _in_tidy_form(_with_one_function(value)): None})
+        return shortest([_in_tidy_form(each) for each in {value, _with_one_function(value)}])
     return _in_tidy_form(value)
 
 
