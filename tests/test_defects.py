@@ -71,7 +71,7 @@ def test_a_pendulum_that_grows_has_the_term_of_its_growth(course: Path) -> None:
     grown = l + v * TIME
     by_hand = m * grown**2 * acceleration + 2 * m * v * grown * rate + m * g * grown * sin(theta)
     assert equal(steps(course, "growing-pendulum")["equation_of_motion"].value, Relation(by_hand, "=", 0))
-    assert "2m v (l + v t) θ̇" in page(course, "growing-pendulum")
+    assert "2v (l + v t) θ̇" in page(course, "growing-pendulum")
 
 
 def test_a_hoop_has_half_its_axial_moment_across(course: Path) -> None:

@@ -135,7 +135,7 @@ def test_the_conditions_of_an_answer_are_in_its_frame_as_one_line() -> None:
 
 def test_a_speed_is_answered_where_the_speed_is_asked_for(tmp_path: Path) -> None:
     text = library_page("constraints/loop")
-    assert "v = √(v_0² - 2g R + 2g R cos θ)" in text
+    assert "v = √(v_0² - 2g R (1 - cos θ))" in text
     same = edited(library("contacts/pushed_off_sphere"), ("{square_root: speed}", "{square_root: force}"))
     with pytest.raises(DeriveError, match="is not the square of a rate"):
         solved(tmp_path, same)
