@@ -673,8 +673,8 @@ def is_the_squared_length(facts: Judged, told: Relation) -> bool:
 
 def is_only_condition(of: Quantity) -> bool:
     """Whether the energy from which a condition of equilibrium follows depends on one coordinate only."""
-    energy = explicit(of.parents[0].value)
-    return len(of.parents) == 1 and len(energy.free_symbols & set(of.coordinates)) == 1
+    (energy,) = (explicit(q.value) for q in of.parents if q.symbol == dict(of.step.roles)["potential"])
+    return len(energy.free_symbols & set(of.coordinates)) == 1
 
 
 def holds_everywhere(facts: Judged) -> bool:

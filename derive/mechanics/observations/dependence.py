@@ -405,7 +405,8 @@ def anywhere(view: View) -> Observed:
         if of.step.rule != "rest.condition" or not any(of in q.ancestors() for q in view.answers):
             continue
         residual = explicit(of.value.residual)
-        slopes = [diff(explicit(of.parents[0].value), q) for q in of.coordinates]
+        energy = next(explicit(q.value) for q in of.parents if q.symbol == dict(of.step.roles)["potential"])
+        slopes = [diff(energy, q) for q in of.coordinates]
         if len([slope for slope in slopes if not is_zero(slope)]) != 1:
             continue  # another coordinate may still be restricted
         for letter in [s for s in view.of_kind("angular speed") if s in residual.free_symbols]:
