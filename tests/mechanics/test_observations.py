@@ -342,7 +342,11 @@ LEANING = (ROOT / "problems" / "library" / "rotation" / "leaning_rod.yaml").read
     ("lies", "said"), [(" in [0, pi/2]", True), (" in (0, pi/2)", False), (" in [0, pi/4]", False), ("", True)]
 )
 def test_a_rod_is_balanced_only_at_angles_in_the_declared_range(tmp_path: Path, lies: str, said: bool) -> None:
-    text = edited(LEANING, ("angle in [0, pi/2]", f"angle{lies}"))
+    greatest = LEANING[LEANING.index("  - ask: At which angle is the torque greatest") : LEANING.index("note: >")]
+    words = LEANING[LEANING.index("  greatest_alpha: >-") : LEANING.index("  angular_momentum: >-")]
+    result = "  results:\n    greatest: {maximum: torque_size, for: alpha, within: [0, pi/2]}\n"
+    lie = ("angle in [0, pi/2]", f"angle{lies}")
+    text = edited(LEANING, lie, (greatest, ""), (words, ""), (result, ""), ("points: 8", "points: 7"))
     page = rendered(course_with(tmp_path, text), "trial/one", only={"text"}).texts["text"]
     assert ("The torque vanishes for α = 0 and for α = π/2, and for no angle between them." in page) is said
 
