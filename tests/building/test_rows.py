@@ -82,6 +82,26 @@ def test_a_row_that_does_not_fit_is_made_smaller(formula: str, smaller: bool, tm
     assert len(scales(log)) == (2 if smaller else 0)
 
 
+@pytest.mark.parametrize("terms", [3, 24])
+def test_numbers_are_beside_the_rows_of_their_frame(terms: int, tmp_path: Path) -> None:
+    """With 24 terms the frame is made smaller to fit."""
+    tex = set_document(course_in(tmp_path), problem_set(tmp_path, "hw9"), [])
+    right = "+".join(["a^{2}"] * terms)
+    rows = r"\nextlistrow ".join(rf"\listrow{{Z}}{{= {right}}}{{}}{{\eqnumber{{{70 + n}}}}}" for n in range(4))
+    _, pdf = typeset_with_log(
+        tmp_path, tex.replace(r"\end{document}", rf"\chain{{\framedlist{{{rows}}}{{.}}}}\end{{document}}")
+    )
+    heights: dict[str, list[float]] = {"Z": [], "7": []}
+
+    def note(text: str, _: object, at: list[float], *__: object) -> None:
+        if text.strip().strip("(")[:1] in heights:
+            heights[text.strip().strip("(")[:1]].append(at[5])
+
+    PdfReader(pdf).pages[-1].extract_text(visitor_text=note)
+    assert len(heights["Z"]) == 4
+    assert heights["7"] == pytest.approx(heights["Z"], abs=1.0)
+
+
 def test_the_words_of_a_row_beside_a_drawing_are_printed_once(tmp_path: Path) -> None:
     """The passage after the drawing does not fit beside it, so TeX tries its lines before it prints them."""
     tex = set_document(course_in(tmp_path), problem_set(tmp_path, "hw9"), [])
