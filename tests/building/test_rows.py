@@ -82,9 +82,9 @@ def test_a_row_that_does_not_fit_is_made_smaller(formula: str, smaller: bool, tm
     assert len(scales(log)) == (2 if smaller else 0)
 
 
-@pytest.mark.parametrize("terms", [3, 24])
+@pytest.mark.parametrize("terms", [3, 30])
 def test_numbers_are_beside_the_rows_of_their_frame(terms: int, tmp_path: Path) -> None:
-    """With 24 terms the frame is made smaller to fit."""
+    """With 30 terms the frame is made smaller to fit."""
     tex = set_document(course_in(tmp_path), problem_set(tmp_path, "hw9"), [])
     right = "+".join(["a^{2}"] * terms)
     rows = r"\nextlistrow ".join(rf"\listrow{{Z}}{{= {right}}}{{}}{{\eqnumber{{{70 + n}}}}}" for n in range(4))
@@ -93,9 +93,9 @@ def test_numbers_are_beside_the_rows_of_their_frame(terms: int, tmp_path: Path) 
     )
     heights: dict[str, list[float]] = {"Z": [], "7": []}
 
-    def note(text: str, _: object, at: list[float], *__: object) -> None:
+    def note(text: str, page: list[float], at: list[float], *_: object) -> None:
         if text.strip().strip("(")[:1] in heights:
-            heights[text.strip().strip("(")[:1]].append(at[5])
+            heights[text.strip().strip("(")[:1]].append(page[5] + page[3] * at[5])
 
     PdfReader(pdf).pages[-1].extract_text(visitor_text=note)
     assert len(heights["Z"]) == 4
