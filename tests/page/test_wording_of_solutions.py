@@ -92,7 +92,7 @@ def test_the_speed_of_a_particle_is_not_that_of_a_centre(tmp_path: Path, monkeyp
             "the angular acceleration is positive, so the angle increases and its rate is the positive root, θ̇ = √(3g",
             marks=pytest.mark.long,
         ),
-        ("pendulums/simple_pendulum", "falls", "so its rate is the negative root (Figure 2), θ̇ = -√(2g"),
+        ("pendulums/simple_pendulum", "falls", "so its rate is the negative root, θ̇ = -√(2g"),
     ],
 )
 def test_a_rate_is_the_root_of_its_square_with_the_sign_of_the_motion(name: str, outcome: str, told: str) -> None:

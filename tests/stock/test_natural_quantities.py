@@ -101,8 +101,8 @@ def test_a_motion_is_written_in_defined_quantities(tmp_path: Path) -> None:
 def test_a_wrong_form_is_not_printed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     right = natural.shortened
 
-    def doubled(value: Any, *others: Any) -> Shortened | None:
-        found = right(value, *others)
+    def doubled(value: Any, *others: Any, **options: Any) -> Shortened | None:
+        found = right(value, *others, **options)
         return found if found is None or not isinstance(value, Expr) else Shortened(2 * found.value, found.used)
 
     assert last_line(tmp_path, PLANET, "frequency") == "l/(m*r_0**2)"
