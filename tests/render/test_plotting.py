@@ -157,6 +157,17 @@ def test_all_of_a_plot_is_on_its_sheet_and_no_text_on_another(drawn: list[Shape]
         assert one[2] <= other[0] or other[2] <= one[0] or one[3] <= other[1] or other[3] <= one[1]
 
 
+@pytest.mark.parametrize(("kind", "is_turned"), [("number", False), ("energy", True)])
+def test_only_a_long_name_of_the_vertical_axis_is_turned(kind: str, is_turned: bool, drawn: list[Shape]) -> None:
+    plot = Plot("potential", V, cos(theta), theta, -pi / 2, pi / 2, kind, "angle")
+    plot_sheet(plot, curves(plot), Notation(), None, "")
+    (panel,) = [panel_of(plot, own, curves(plot), Notation(), None, 100.0) for own in curves(plot).panels]
+    wide, high = Writing(letters_of({panel.names[1]})).size(panel.names[1], 1.0)
+    left, below, right, above = min(box(shape) for shape in drawn if shape.fill == LINE)
+    expected = (high, wide) if is_turned else (wide, high)
+    assert (right - left, above - below) == pytest.approx(expected, abs=0.01)
+
+
 def test_a_curve_is_drawn_to_the_scale_of_its_axes(drawn: list[Shape]) -> None:
     sheet(plot_of(cos(theta)))
     frame, curve = (

@@ -49,6 +49,7 @@ EDGE = 3.0  # in points: the margin around everything
 HEAD = 0.4  # part of the length of a path before its arrowhead; not 0.5, where a path may be back at its start
 DOT = 2.2  # in points: the radius of a dot, for example at an extremum
 AROUND = 46.0  # in points: the usual height of everything below and above the axes of a panel
+LETTER = 10.0  # in points: the greatest width of a name of a vertical axis that is not turned
 ROW = 17.0  # in points: the height of a row of numbers above a panel, with the margin
 SPACE = 7.0  # in points: the distance between two numbers above a panel
 SAMPLE, BETWEEN = 22.0, 14.0  # in points: the line in a legend, and the distance between the entries of a legend
@@ -133,7 +134,7 @@ def plot_sheet(
         frame = Frame(paper, panel.values)
         names = _names(panel, frame, writing)
         shapes += _drawn(panel, frame, writing, names, (i * wide, (i + 1) * wide))
-        middle, half = _middle_of_name(panel, frame, writing), writing.size(panel.names[1], SMALL)[0] / 2
+        middle, half = _middle_of_name(panel, frame, writing), _name_upwards(panel, writing)[1] / 2
         tallest = max(tallest, names.above + EDGE, middle + half + EDGE)
     return sheet_of_shapes(shapes, (0.0, 0.0, wide * len(panels), tallest), alt)
 
@@ -142,13 +143,14 @@ def _room(panels: Sequence[Panel], writing: Writing, width: float) -> Extent:
     """Return the distances from the edges of every panel of this width to its axes: left, below, right, above."""
     across = [writing.size(text, SMALL) for panel in panels for _, text in panel.across]
     up = [writing.size(text, SMALL) for panel in panels for _, text in panel.up]
-    names = [[writing.size(panel.names[k], SMALL)[1] for panel in panels] for k in (0, 1)]
+    name_across = max(writing.size(panel.names[0], SMALL)[1] for panel in panels)
+    name_up = max(_name_upwards(panel, writing)[0] for panel in panels)
     numbers = [sum(high for _, _, high in _title(panel, writing, width)) for panel in panels]
     wide, high = max((w for w, _ in up), default=0.0), max((h for _, h in across), default=0.0)
     highest = max((h for _, h in up), default=0.0) / 2  # half the height of a number at the upper end of an axis
     return (
-        EDGE + max(names[1]) + PAD + wide + TICK,
-        EDGE + max(names[0]) + PAD + high + TICK,
+        EDGE + name_up + PAD + wide + TICK,
+        EDGE + name_across + PAD + high + TICK,
         EDGE + max((w for w, _ in across), default=0.0) / 2,
         EDGE + max([*numbers, highest]),
     )
@@ -187,7 +189,9 @@ def _drawn(panel: Panel, frame: Frame, writing: Writing, names: Names, ends: Spo
     lowest = below - TICK - max((writing.size(text, SMALL)[1] for _, text in panel.across), default=0.0) - PAD
     leftmost = left - TICK - max((writing.size(text, SMALL)[0] for _, text in panel.up), default=0.0) - PAD
     yield writing.at(((left + right) / 2, lowest), across, SMALL, (0.5, 1.0))
-    yield writing.at((leftmost, _middle_of_name(panel, frame, writing)), up, SMALL, (1.0, 0.5), upwards=True)
+    yield writing.at(
+        (leftmost, _middle_of_name(panel, frame, writing)), up, SMALL, (1.0, 0.5), upwards=_is_turned(up, writing)
+    )
     base = above + PAD
     for texts, scale, high in reversed(_title(panel, writing, ends[1] - ends[0])):
         widths = [writing.size(text, scale)[0] for text in texts]
@@ -202,7 +206,18 @@ def _drawn(panel: Panel, frame: Frame, writing: Writing, names: Names, ends: Spo
 def _middle_of_name(panel: Panel, frame: Frame, writing: Writing) -> float:
     """Return the height of the middle of the name of the vertical axis."""
     _, below, _, above = frame.paper
-    return max((below + above) / 2, EDGE + writing.size(panel.names[1], SMALL)[0] / 2)
+    return max((below + above) / 2, EDGE + _name_upwards(panel, writing)[1] / 2)
+
+
+def _name_upwards(panel: Panel, writing: Writing) -> Spot:
+    """Return the width and the height of the name of the vertical axis on paper."""
+    wide, high = writing.size(panel.names[1], SMALL)
+    return (high, wide) if _is_turned(panel.names[1], writing) else (wide, high)
+
+
+def _is_turned(name: str, writing: Writing) -> bool:
+    """Whether the name of a vertical axis is turned on its side; a single letter is not."""
+    return writing.size(name, SMALL)[0] > LETTER
 
 
 def _apart(ticks: Ticks, frame: Frame, writing: Writing) -> Ticks:
