@@ -168,7 +168,10 @@ SAID: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
         ("No force outside L acts along q",),
         ("No such force",),
     ),
-    "f18_zero_mode_no_restoring_force": (("no restoring force of first order, and higher orders decide",), ()),
+    "f18_zero_mode_no_restoring_force": (
+        ("no restoring force of first order, and terms of higher order determine the motion",),
+        (),
+    ),
     "glMixed": (("some displacements grow exponentially and the equilibrium",), ("minimum", "is stable")),
     "internal-error-big-numbers": (("≈ 2.642×10⁷ s",), ()),
     "loop_turn": (("(θ̇)² = -g/(3R), which is negative: the motion turns back before",), ("until", "contact")),

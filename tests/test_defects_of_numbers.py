@@ -261,7 +261,7 @@ def test_a_restoring_force_of_third_order_is_not_denied(tmp_path: Path) -> None:
         + "\nat: {x: 0, y: 0}"
     )
     found = page(tmp_path, problem("m: mass, k: spring constant, a: length", given, "normal_modes"))
-    assert "no restoring force of first order, and higher orders decide" in found
+    assert "no restoring force of first order, and terms of higher order determine the motion" in found
     free = (
         "coordinates: {x: length, y: length}\nparticles: {p: {mass: m, at: [x, 0]}, q: {mass: m, at: [y, 0]}}\n"
         "potential: k*(x - y)**2/2"

@@ -180,8 +180,10 @@ class Known:
         return bool(rates) and bool(sympy.expand(doubled - 2 * definition.value) == 0)
 
     def through(self, value: Expr, wanted: set[Symbol]) -> Expr:
-        """Substitute the definitions of all letters except `wanted`, the variables of a derivative. In a derivative by
-        coordinates, momenta are not substituted."""
+        """Substitute the definitions of all letters except `wanted`, the variables of a derivative.
+
+        In a derivative with respect to a coordinate, the definitions of momenta are not substituted.
+        """
         by_rate = any((each := self.meaning.symbols.get(symbol)) is not None and each.dots for symbol in wanted)
         for _ in range(ROUNDS):
             found = {}

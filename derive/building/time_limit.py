@@ -25,7 +25,8 @@ _WATCHDOG = "Timeout ("  # `faulthandler` begins its output with this text
 
 @contextmanager
 def limited(seconds: float, trace: int) -> Iterator[None]:
-    """Limit the time of the work in the `with` block; the lines that are running may be written to `trace`."""
+    """Limit the time of the work in the `with` block. If the work does not stop at the limit, its traceback is written
+    to the file descriptor `trace`."""
     used, told = time.process_time(), False
 
     def stop(*_: object, waited: bool = False) -> NoReturn:

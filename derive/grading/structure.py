@@ -169,7 +169,7 @@ def _replaced(value: Expr, part: Expr, by: Expr) -> Expr:
 def special_values(answer: Expr, right: Expr, kinds: Mapping[Symbol, object], angles: set[Symbol]) -> str:
     """Return special values of the letters for which a wrong answer equals the right one, as text; "" if none is found.
 
-    kinds    the letters that may be set equal to each other if their kinds are equal
+    kinds    letter -> its kind; two letters of the same kind may be set equal
     angles   letters that may be zero
     """
     free = answer.free_symbols | right.free_symbols

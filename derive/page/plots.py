@@ -314,7 +314,7 @@ def _are_together(problem: Problem, plot: Plot, placement: Placement | None, cur
 
 
 def _are_of_comparable_size(curves: Sequence[Curve]) -> bool:
-    """Return whether every curve is readable in a panel for all curves."""
+    """Return whether every curve stays readable if all curves share one panel."""
     spans = [[(min(values), max(values)) for values in zip(*curve.spots, strict=True)] for curve in curves]
     whole = [max(high for _, high in each) - min(low for low, _ in each) for each in zip(*spans, strict=True)]
     parts = [[high - low for low, high in each] for each in spans]

@@ -240,7 +240,7 @@ class Phrases:
         return text if self.sign == "." else _DECIMAL_POINT.sub(self.sign, text)
 
     def numbers(self, nodes: tuple[Inline, ...]) -> tuple[Inline, ...]:
-        """Return words of the engine with the decimal sign of the page in the numbers of their text."""
+        """Return nodes that the engine wrote, with the decimal sign of the page in their numbers."""
         if self.sign == ".":
             return nodes
         return tuple(replace(node, text=self.number(node.text)) if isinstance(node, Text) else node for node in nodes)

@@ -169,7 +169,8 @@ def solved_for_unknown(of: Quantity, difference: Expr, mark: str, unknown: Expr)
 
 
 def without_square(condition: Relation) -> Relation:
-    """For x^2 > v, return x > sqrt(v) if x and v are never negative; return any other condition unchanged."""
+    """Return x > sqrt(v) for x^2 > v if x and v are never negative, and likewise for the other comparison signs; return
+    any other condition unchanged."""
     left, right = condition.sides
     if not (left.is_Pow and left.exp == 2 and left.base.is_nonnegative and right.is_nonnegative):
         return condition

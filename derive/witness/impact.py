@@ -3,8 +3,8 @@
     M (v - v_before) = sum of J^T K + A^T k,    n . (v_end - v_start) = -e n . (v_end - v_start)_before,    A v + b = 0
 
 M is the mass matrix, and v are the rates. J is the Jacobian of a point with the impulse K. A v + b = 0 are the
-constraints, and k are their impulses. n is the direction of the impulse of a collision, and e is the
-coefficient of restitution.
+constraints, and k are their impulses. v_start and v_end are the velocities of the two points that collide, n is the
+direction of the impulse between them, and e is the coefficient of restitution.
 
 Source: Routh, *Dynamics of a System of Rigid Bodies*, elementary part, sections 87 and 179.
 """

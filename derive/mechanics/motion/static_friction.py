@@ -68,7 +68,7 @@ def static_friction(friction: Quantity) -> Constraint:
             if each.force == friction.symbol and each.limit is not None:
                 _check_in_plane(each.limit, friction)
                 return each
-    help_line = "describe the contact with `friction: {static: mu_s, force: F}`, and give F"
+    help_line = "describe the contact with `friction: {static: mu_s, force: F}`, and name F as the friction"
     message = f"`{friction.key}` is not the friction of a contact with a coefficient of static friction"
     raise Rejected(Complaint("no-contact", message, help=help_line))
 

@@ -274,8 +274,8 @@ def higher(kind: str) -> Predicate:
 
 
 def undecided(facts: Judged) -> bool:
-    """Whether no order decides: all derivatives up to the eighth vanish, or the sign of the first nonzero derivative,
-    which the sentence states, is unknown."""
+    """Whether the stability is undecided: all derivatives up to the eighth vanish, or the sentence states the first
+    nonzero derivative and the sign of this derivative is unknown."""
     return bool(higher("open" if "higher" in facts.inputs else "flat")(facts))
 
 

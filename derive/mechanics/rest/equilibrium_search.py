@@ -22,7 +22,7 @@ from sympy import Expr, Symbol, diff, lambdify
 from derive.algebra.ranges import Range, range_of
 from derive.algebra.samples import points
 
-# numbers of trials with values for the symbols, of random starts, of all starts, and of steps of one search
+# greatest numbers: sets of values for the symbols, random starts, starts in total, steps of one search
 TRIALS, DRAWN, STARTS, TURNS = 2, 24, 90, 25
 CLOSE, DIGITS = 1e-6, 50
 FAULTS = (ValueError, ZeroDivisionError, OverflowError, TypeError)

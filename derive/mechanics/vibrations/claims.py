@@ -554,8 +554,8 @@ def modes_linear(displaced: bool, lossy: bool | None, driven: bool) -> Predicate
 
 
 def drifts_as_told(facts: Judged, outcome: str) -> bool:
-    """Whether a uniform motion satisfies the equations; true if the sentence does not say that no force acts to any
-    order."""
+    """If the sentence states that no force acts to any order, whether a uniform motion satisfies the equations;
+    otherwise True."""
     if "drift" not in facts.inputs:
         return True
     points = trial_points(set().union(*map(letters_of, facts.inputs["left"])))

@@ -3,8 +3,8 @@
 A path has dots at its start and at its end and an arrowhead in the direction of the motion. If both quantities of a
 path have the same unit, both axes have the same scale.
 
-Several curves in one panel have different lines, and each has its name next to it. If a name has no clear place, all
-names are in a legend.
+Several curves in one panel have different line styles, and the name of each curve is next to it. If a name has no clear
+place, all names are in a legend.
 
 Numbers and names have the font of the page. A dashed line leads from an extremum to the horizontal axis.
 """
