@@ -285,8 +285,8 @@ class DrawingKeys(Record):
     )
     marks: tuple[MarkKeys, ...] = key(
         "if `solve` is `system`, `body` or `rotation`: [marks](#marks) that are drawn in addition, such as a centre of "
-        "mass, a length, a velocity or an angle. With `solve: body`, marks under another name than that of the body make "
-        "a further drawing of it",
+        "mass, a length, a velocity or an angle. With `solve: body`, marks under another name than that of the body "
+        "make a further drawing of it",
         MARKS_OF_DRAWING,
     )
     without: tuple[Word, ...] = key(
