@@ -51,7 +51,7 @@ class Determinant(ScalarNode):
     def dimension(self, of: DimensionOf) -> Dimension | None:
         """The dimension of a product of nonzero entries with one entry from each row and column.
 
-        The dimension is assumed to be the same for all such products. The result is None if there is no such
+        The dimension is assumed to be the same for all such products. Return None if there is no such
         product, or if the dimension of an entry of the chosen product is unknown.
         """
         matrix = self.args[0]

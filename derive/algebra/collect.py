@@ -109,7 +109,7 @@ def _alike_together(terms: Iterable[Expr]) -> list[Expr]:
 def _by_directions(value: Expr) -> tuple[Expr, list[Expr]] | None:
     """Split a sum such as k u - k l u/|u| into the part without a direction u/|u| and the terms with a direction.
 
-    The result is None if there is no direction, or if the value is not a polynomial in the directions.
+    Return None if the sum does not contain a direction, or if it is not a polynomial in its directions.
 
     With s = u/|u|, which is 1 or -1, |u| is s u and s^2 is 1, so only the first power of each s is left.
     """

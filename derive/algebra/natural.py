@@ -99,7 +99,7 @@ def shortened(
         for known in (whole, *eliminations):
             form = _with(value, known, chosen, kept)
             cost = _cost(form.value.xreplace(named))
-            if cost < least and _is_natural(form.value, chosen) and not _gains(form.value, value, Abs, I):
+            if cost < least and _is_natural(form.value, chosen) and not _differ_in(form.value, value, Abs, I):
                 best, least = form, cost
     return best and Shortened(
         best.value.xreplace({**names, **named}),
@@ -108,7 +108,7 @@ def shortened(
     )
 
 
-def _gains(form: Any, value: Any, *signs: Any) -> bool:
+def _differ_in(form: Any, value: Any, *signs: Any) -> bool:
     return any(form.has(sign) != value.has(sign) for sign in signs)
 
 

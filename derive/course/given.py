@@ -332,7 +332,7 @@ class NumbersAsLetters:
 
         of   the number of values that belong together, such as 3 for the sides of a box
 
-        The result is None if the text is an expression.
+        Return None if the text is an expression.
         """
         if is_more_than_unit(scalar.text, self.letters.symbols):
             return None

@@ -777,7 +777,7 @@ class Connections:
 
     def block(self, particle: Particle) -> list[Mark] | None:
         """Return the block that represents a particle on a plane. The list is empty if another mark represents the
-        particle, such as a wedge or a pulley. The result is None if the particle is drawn as a small disc."""
+        particle, such as a wedge or a pulley. Return None if the particle is drawn as a small disc."""
         if any(each.surface.of == particle for each in self.contacts) and self.in_a_plane or self.is_rope(particle):
             return []
         if any(same(particle.at, place) for line in self.lines for place in line.places[1:-1]) and self.in_a_plane:

@@ -120,7 +120,7 @@ def forces_as_named(
     leads_to  the keys of the laws of this body; the drawing is placed before these laws
     found     as for `forces_in_state`; the lengths of the arrows have no meaning in space, or if `found` lacks a force
 
-    The result is None if the diagram would be incomplete.
+    Return None if the diagram would be incomplete.
     """
     scene, acting = Connections(system), _acting(system, of)
     if not acting or not _shows_all(system, of, acting, {}) or not scene.is_possible:

@@ -66,7 +66,7 @@ def sketch(
 ) -> Drawing | None:
     """Return a drawing of a system from its description; the drawing is recorded for the problem.
 
-    The result is None if the drawing would not show the whole system and no marks are added.
+    Return None if the drawing would not show the whole system and no marks are added.
 
     key       the name of the drawing, for `drawings:` in the problem
     system    particles, bodies, springs, connections, forces and weights

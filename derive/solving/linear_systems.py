@@ -559,7 +559,7 @@ class Gyroscopic(LinearSystem):
         """The amplitudes in terms of the root OMEGA, or of its formula if this is rational; the first nonzero amplitude
         is 1.
 
-        The result is None if the root is repeated or zero, if its `turn` is unknown, or if no simple form is found. For
+        Return None if the root is repeated or zero, if its `turn` is unknown, or if no simple form is found. For
         a growing motion OMEGA is the rate kappa, with omega = -i kappa: e^(i omega t) = e^(kappa t).
         """
         if root.times > 1 or root.sign == 0 or not root.turn:
@@ -641,7 +641,7 @@ class Damped(LinearSystem):
     def column(self, root: CharacteristicRoot) -> MatrixBase | None:
         """The amplitudes, if they do not depend on the exponent.
 
-        The result is None if they do, if the root is repeated, or if there is not exactly one column.
+        Return None if they do, if the root is repeated, or if there is not exactly one column.
         """
         columns = _null_columns(self.at(S), Poly(root.factor.at(S), S)) if root.times == 1 else []
         return None if len(columns) != 1 or columns[0].has(S) else ImmutableDenseMatrix(columns[0].applyfunc(tidied))

@@ -30,7 +30,7 @@ class Isolated(NamedTuple):
 def mark_between(mark: str, sign: int | None) -> str | None:
     """Turn the operator between a (x^n - v) and zero into the operator between x^n and v; `sign` is the sign of a.
 
-    The result is None if an inequality would be divided by a factor of unknown sign.
+    Return None if an inequality would be divided by a factor of unknown sign.
     """
     return mark if mark in ("=", "!=") else {1: mark, -1: TURNED[mark]}.get(sign or 0)
 

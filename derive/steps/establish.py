@@ -20,7 +20,6 @@ from types import FrameType
 from typing import Any
 
 from sympy import Expr, MatrixBase, Symbol
-from sympy.core.symbol import Str
 
 from derive.algebra.equality import Compared, Evidence, Grade, equal
 from derive.algebra.expressions import Relation, bound, explicit
@@ -44,7 +43,20 @@ from derive.steps.natural import NamesValue, NaturalQuantities, Proposal
 from derive.steps.record import coordinates_in
 from derive.steps.rule import GENERIC, TRIALS, ZERO, Doubt, Judged, Rule, wrongly_handed_on
 from derive.steps.signs import undecided
-from derive.steps.step import Fact, Form, Law, Level, Quantity, Route, Step, Witness, is_zero, same_value, value_behind
+from derive.steps.step import (
+    Fact,
+    Form,
+    Law,
+    Level,
+    Quantity,
+    Route,
+    Step,
+    Witness,
+    is_zero,
+    name_or_key,
+    same_value,
+    value_behind,
+)
 from derive.steps.subject import NOTHING, Subject, united, with_name
 from derive.steps.symbols import check_symbol
 
@@ -220,7 +232,7 @@ def establish(
         symbol=symbol,
         chain=tuple(chain),
         inputs=tuple(dict.fromkeys(q.key for q in [*quantities.values(), *parents])),
-        roles=tuple((role, _called(q)) for role, q in roles.items()),
+        roles=tuple((role, name_or_key(q) if isinstance(q, Quantity) else q) for role, q in roles.items()),
         outcome=chosen,
         evidence=tuple(evidence),
         kind=kind,
@@ -299,12 +311,6 @@ def _check_pointed(key: str, pointed: Mapping[str, Quantity]) -> None:
     if len({id(quantity) for quantity in pointed.values()}) < len(pointed):
         message = f"`{key}`: its sentence names one step as {' and as '.join(pointed)}"
         raise Unverified(Complaint("unverified", message))
-
-
-def _called(value: Any) -> Any:
-    if isinstance(value, Quantity):
-        return Str(value.key) if value.symbol is None else value.symbol
-    return value
 
 
 def _check_outcome(key: str, rule: Rule, outcome: str, facts: Judged, may_be_zero: bool) -> None:

@@ -109,7 +109,7 @@ def value_of(
 ) -> Quantity | None:
     """The value of an answer in a unit, rounded to significant figures.
 
-    The result is None if there is no number to state, for example if symbols remain or the value is not real.
+    Return None if the value has no number, for example if symbols remain or if the value is not real.
 
     answer    any quantity; in a relation with a single symbol on its left side, the right side gets the number
     amounts   symbol -> its number with a unit
@@ -370,7 +370,7 @@ COMPARISON = Rule(
 def comparison_of(condition: Quantity, amounts: Mapping[Symbol, Amount], key: str | None = None) -> Quantity | None:
     """The comparison of the two sides of a condition with the numbers substituted, such as 20 cm > 2.5 cm.
 
-    The result is None if there is nothing to compare numerically.
+    Return None if the step has no numbers to compare.
 
     condition   an inequality or an equation between given quantities, such as a result of `where`
     amounts     symbol -> its number with a unit
@@ -414,7 +414,7 @@ def comparison_of(condition: Quantity, amounts: Mapping[Symbol, Amount], key: st
 def coefficient_of(answer: Quantity, figures: int, of_vectors: bool = False) -> Quantity | None:
     """Round the irrational number in front of the symbols: sqrt(2 - sqrt(2)) omega becomes 0.7654 omega.
 
-    The result is None if there is no such number, or if its size is easy to see.
+    Return None if the number does not exist, or if its size is easy to see.
 
     answer       a quantity, usually a scalar with symbols
     figures      the number of significant figures

@@ -12,6 +12,7 @@ from functools import cached_property
 from typing import Any, ClassVar, NoReturn, TypeVar
 
 from sympy import Basic, Expr, MatrixBase, ShapeError, Symbol
+from sympy.core.symbol import Str
 
 from derive.algebra.equality import LEAST_SURE_FIRST, Compared, Evidence, Grade, Verdict
 from derive.algebra.expressions import AXES, Relation, explicit
@@ -176,6 +177,11 @@ class Quantity:
             raise Rejected(Complaint("wrong-argument", f"`{self.key}` {kind.missing}"))
         return found
 
+    def parent(self, role: str) -> Quantity:
+        """Return the quantity that the step of this quantity took in a role, such as the `force` of a lost contact."""
+        wanted = dict(self.step.roles)[role]
+        return next(each for each in self.parents if name_or_key(each) == wanted)
+
     def ancestors(self) -> Iterator[Quantity]:
         """Yield the quantity itself, then every quantity on which it depends."""
         seen: set[int] = set()
@@ -204,6 +210,11 @@ class Quantity:
 
     __add__ = __radd__ = __sub__ = __rsub__ = __mul__ = __rmul__ = _no_arithmetic
     __truediv__ = __rtruediv__ = __pow__ = __rpow__ = __neg__ = __matmul__ = _no_arithmetic
+
+
+def name_or_key(quantity: Quantity) -> Any:
+    """Return the symbol of a quantity, or its key if it has no symbol."""
+    return Str(quantity.key) if quantity.symbol is None else quantity.symbol
 
 
 def lettered(quantity: Quantity) -> Quantity:

@@ -94,8 +94,12 @@ def test_a_bob_hits_the_pivot(tmp_path: Path) -> None:
 
 
 def test_the_string_is_taut_again_at_three_times_the_angle(tmp_path: Path) -> None:
-    """The circle of curvature meets the parabola again at -3 theta_1; from 120 degrees at the lowest point."""
-    steps = solved(tmp_path, PENDULUM)
+    """The circle of curvature meets the parabola again at -3 theta_1; from 120 degrees at the lowest point.
+
+    The place where the string goes slack is written with a quantity of the author, v_c.
+    """
+    steps = solved(tmp_path, edited(PENDULUM, ("observations: none", "define: {v_c: sqrt(g*l)}")))
+    assert Symbol("v_c", positive=True) in steps["slack"].step.chain[-1].expr.free_symbols
     for angle in (1.7, 2 * pi / 3, 2.8):
         there = numbers(steps["taut_x"].value, theta_1=angle), numbers(steps["taut_y"].value, theta_1=angle)
         assert there == pytest.approx((-sin(3 * angle), -cos(3 * angle)), abs=1e-12)

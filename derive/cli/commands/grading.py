@@ -125,7 +125,7 @@ def _grade_table(arguments: argparse.Namespace) -> int:
 
 
 def _asked(arguments: argparse.Namespace, root: Path) -> tuple[Table, list[str | None]]:
-    """Return the rows of the table, and the problem of each row, or None in its place if there is no such problem."""
+    """Return the rows of the table, and for each row its problem, or None if the problem does not exist."""
     from derive.course.problem_set import found_path, known_set, path_of
     from derive.grading.table import read_table
 

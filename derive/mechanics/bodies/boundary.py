@@ -145,7 +145,7 @@ def of_map(place: ImmutableMatrix, limits: Bounds) -> Boundary | None:
 
 
 def _rim(place: ImmutableMatrix, limits: Bounds) -> Rim | None:
-    """The edge: the curves on which one variable is at a limit. The result is None if a limit contains a variable, or
+    """The edge: the curves on which one variable is at a limit. Return None if a limit contains a variable, or
     if there is a hole."""
     if any(end.free_symbols & {x for x, *_ in limits} for _, *ends in limits for end in ends):
         return None

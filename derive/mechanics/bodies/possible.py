@@ -181,7 +181,7 @@ def check_map(name: str, position: ImmutableMatrix, limits: Bounds, density: Exp
 
 
 def _always(pieces: Sequence[Piece]) -> Fault | None:
-    """Return a fault that occurs for every random choice of numbers for the symbols; None if there is no such fault.
+    """Return a fault that occurs for every random choice of numbers for the symbols, or None.
 
     Choices for which the places of the body cannot be evaluated do not count. A fault of only some choices is an
     accident: two of many rods may overlap in one choice, and two other rods in the next one.

@@ -22,7 +22,7 @@ MOST_OPERATIONS = 300  # greatest number of operations in the equation for u
 
 
 def by_quadratic_form(momenta_of: Mapping[Symbol, Expr], rates: Sequence[Symbol]) -> dict[Symbol, Expr] | None:
-    """Return each rate with its expression in the momenta. The result is None if L contains rates outside one quadratic
+    """Return each rate with its expression in the momenta. Return None if L contains rates outside one quadratic
     form with diagonal A, or if u is not found."""
     at_rest = dict.fromkeys(rates, 0 * rates[0])
     values = [explicit(p) for p in momenta_of.values()]

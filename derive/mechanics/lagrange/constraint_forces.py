@@ -227,7 +227,7 @@ def _arranged(left: Expr, moving: Sequence[Symbol]) -> Relation:
 def _told(of: Constraint, moving: Sequence[Symbol]) -> Relation:
     """Return the relation of a constraint, unchanged if its right side is not zero.
 
-    A constraint between rates is solved for a rate that is a term by itself. If there is no such rate, or if the
+    A constraint between rates is solved for a rate that is a term by itself. If no rate is a term by itself, or if the
     constraint is between coordinates, a minus sign at the beginning of the left side is removed.
     """
     if of.right != 0:

@@ -33,7 +33,7 @@ def letter_of_momentum(q: Coordinate) -> Symbol:
 def kind_of_momentum(kind: str, lagrangian: str | None = "energy") -> str | None:
     """Return the kind of the momentum of a coordinate: momentum for a length, angular momentum for an angle.
 
-    The result is None if no kind has the dimension of the momentum, for example for a Lagrangian that is not an energy.
+    Return None if no kind has the dimension of the momentum, for example for a Lagrangian that is not an energy.
     """
     if lagrangian is None:
         return None

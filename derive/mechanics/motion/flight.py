@@ -11,7 +11,18 @@ from typing import Any
 from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Matrix, Symbol, diff, factorial, sqrt
 
 from derive.algebra.amplitudes import inverse_of
-from derive.algebra.expressions import TIME, Relation, Root, Terms, as_expr, depends_on_time, explicit, rate, scalar
+from derive.algebra.expressions import (
+    TIME,
+    Relation,
+    Root,
+    Terms,
+    as_expr,
+    bound,
+    depends_on_time,
+    explicit,
+    rate,
+    scalar,
+)
 from derive.algebra.lowest_terms import factored
 from derive.algebra.order import Contradiction, in_order, known_order
 from derive.algebra.ranges import sign_within
@@ -35,6 +46,7 @@ from derive.solving.attainable import lies_within
 from derive.solving.presentation import presented, without_positive
 from derive.solving.relations import isolated, solved_for_letter
 from derive.solving.unknowns import letter_of, mark_for, meaning, with_unknown
+from derive.steps.chain import bindings_of
 from derive.steps.establish import Lines, PhraseData, establish
 from derive.steps.record import changes, coordinates_in, free_letter
 from derive.steps.rule import CHECK, ROUTE, Rule
@@ -111,12 +123,13 @@ class Departure:
     @property
     def force(self) -> Quantity:
         """The constraint force, which vanishes at the departure."""
-        return self.lost.parents[0]
+        return self.lost.parent("force")
 
     @property
     def conditions(self) -> tuple[Relation, ...]:
         """The conditions under which the motion reaches the departure, as the step `lost` states them."""
-        return tuple(value for role, value in self.lost.step.roles if role in ("reached", "existing"))
+        known = bindings_of(self.lost.parents)
+        return tuple(bound(value, known) for role, value in self.lost.step.roles if role in ("reached", "existing"))
 
     @property
     def original(self) -> Quantity:
@@ -299,7 +312,7 @@ def _departure(lost: Quantity, letter: Any) -> Departure:
     if lost.step.outcome not in ("lost", "lost_later"):
         message = f"`{lost.key}` states that contact is never lost, so no flight follows"
         raise Rejected(Complaint("no-flight", message, help="ask for the flight only if the contact is lost"))
-    speed = ByEnergy.behind(lost.parents[0], letter_of(lost.value.left))
+    speed = ByEnergy.behind(lost.parent("force"), letter_of(lost.value.left))
     if speed is None or not any(each.fact(ForceOf) for each in lost.ancestors()):
         message = f"`flight`: the speed is unknown, since `{lost.key}` was found without conservation of energy"
         raise Rejected(Complaint("wrong-argument", message, help="substitute a result of `speed` into the force"))

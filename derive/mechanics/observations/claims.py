@@ -673,8 +673,7 @@ def is_the_squared_length(facts: Judged, told: Relation) -> bool:
 
 def is_only_condition(of: Quantity) -> bool:
     """Whether the energy from which a condition of equilibrium follows depends on one coordinate only."""
-    (energy,) = (explicit(q.value) for q in of.parents if q.symbol == dict(of.step.roles)["potential"])
-    return len(energy.free_symbols & set(of.coordinates)) == 1
+    return len(explicit(of.parent("potential").value).free_symbols & set(of.coordinates)) == 1
 
 
 def holds_everywhere(facts: Judged) -> bool:

@@ -405,7 +405,7 @@ def anywhere(view: View) -> Observed:
         if of.step.rule != "rest.condition" or not any(of in q.ancestors() for q in view.answers):
             continue
         residual = explicit(of.value.residual)
-        energy = next(explicit(q.value) for q in of.parents if q.symbol == dict(of.step.roles)["potential"])
+        energy = explicit(of.parent("potential").value)
         slopes = [diff(energy, q) for q in of.coordinates]
         if len([slope for slope in slopes if not is_zero(slope)]) != 1:
             continue  # another coordinate may still be restricted

@@ -488,7 +488,7 @@ def bent(sign: int | None) -> Predicate:
 
 def only_coordinate(facts: Judged, q: Any) -> bool:
     """Whether q is the only coordinate in the potential energy."""
-    of = facts.quantities.get("potential") or facts.quantities["condition_0"].parents[0]
+    of = facts.quantities.get("potential") or facts.quantities["condition_0"].parent("potential")
     return {s for s in of.coordinates if explicit(of.value).has(s)} == {q}
 
 
@@ -573,7 +573,7 @@ def steady_as_its_potential(facts: Judged, outcome: str) -> bool:
     The eliminated coordinates still move, so such a state is not an equilibrium at rest. If the potential energy itself
     results from this elimination, a sentence about one coordinate must call the state a steady motion.
     """
-    of = facts.quantities.get("potential") or facts.quantities["condition_0"].parents[0]
+    of = facts.quantities.get("potential") or facts.quantities["condition_0"].parent("potential")
     reduced = [
         e for e in of.ancestors() if (e.step.rule, e.step.outcome) == ("hamilton.effective_potential", "reduced")
     ]

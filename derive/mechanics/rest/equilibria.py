@@ -359,7 +359,7 @@ def steady_in(potential: Quantity, sought: Sequence[Symbol]) -> dict[str, Symbol
 
 def all_matter(potential: Quantity) -> Matter | None:
     """Return the mass points and forces to which a potential energy belongs, including magnetic forces, which are not
-    in U. The result is None if the mass points and forces are unknown."""
+    in U. Return None if the mass points and forces are unknown."""
     body = potential.subject.body
     seen = potential.fact(SeenWith)
     return body.matter if seen is None and isinstance(body, System) else matter_behind(potential)
@@ -399,7 +399,7 @@ def _names(potential: Quantity, sought: Sequence[Symbol], count: int) -> dict[Sy
 def _level_where(force: Expr, q: Symbol) -> Relation | None:
     """Return the condition that the factors of the force that do not contain q are not zero.
 
-    If such a factor is zero, every value of q is an equilibrium. The result is None if no such factor can be zero.
+    If such a factor is zero, every value of q is an equilibrium. Return None if none of these factors can be zero.
     """
     factors = (f.as_base_exp()[0] for f in Mul.make_args(_factored(force).as_numer_denom()[0]))
     left = may_vanish(Mul(*(f for f in factors if not f.has(q))))

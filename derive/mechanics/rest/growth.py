@@ -109,7 +109,7 @@ def _motion(
     falling   whether the symbols that the energy does not contain get decreasing values, in their order; by default the
               values increase
 
-    The result is None if the coordinates are singular, like the angles of an upright top, or if the numbers do not
+    Return None if the coordinates are singular, like the angles of an upright top, or if the numbers do not
     satisfy the assumptions of positivity.
     """
     letters, left = _left_over(matter)

@@ -46,7 +46,7 @@ def moment_of_parts(body: Any, axis: str, point: Point, symbol: str, key: str) -
     point   a point on the axis
 
     For each part except particles, a step derives the moment I_part about the parallel axis through the centre of mass
-    of the part. The distance between the two axes is d. The result is None if some part has no body axis parallel to
+    of the part. The distance between the two axes is d. Return None if some part has no body axis parallel to
     `axis`. The result is also None if the parallel axis of a composite part has another name.
     Second route: the sum of m d^2 over the equimomental particles of all parts; the integral of the squared distance
     from the axis over the whole body.

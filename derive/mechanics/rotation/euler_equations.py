@@ -11,7 +11,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, ClassVar
 
-from sympy import Add, Expr, ImmutableDenseMatrix, Integer, MatAdd, Symbol, diag
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, MatAdd, Mul, Symbol, diag
 from sympy.matrices import ImmutableMatrix
 
 from derive.algebra.collect import by_products
@@ -401,12 +401,12 @@ def _euler_equation(rate: Quantity, i: int, torque: tuple[Expr, Expr, Expr]) -> 
 
 
 def _without_common_factor(left: Expr, torque: Expr) -> Relation:
-    """Return the equation, without a torque divided by the common factor of its terms: 13 omega_x_dot - 5 omega_y
-    omega_z = 0 for a block with the edges a, 2a and 3a."""
+    """Return the equation; without a torque, it is divided by the positive factors that its terms have in common:
+    13 omega_x_dot - 5 omega_y omega_z = 0 for a block with the edges a, 2a and 3a."""
     terms = Add.make_args(left)
     if torque != 0 or len(terms) < 2:
         return Relation(left, "=", torque)
-    common = abs(common_factor(list(terms)))
+    common = Mul(*(each for each in Mul.make_args(common_factor(list(terms))) if sign_known(each) == 1))
     return Relation(Add(*(term / common for term in terms)), "=", torque)
 
 

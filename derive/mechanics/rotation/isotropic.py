@@ -117,7 +117,7 @@ def _solved(letter: Expr, difference: Expr, moments: Quantity) -> tuple[Symbol, 
 def _root(difference: Expr, letter: Symbol) -> tuple[Expr, int] | None:
     """Return the only positive root, and 2 if the equation contains only even powers of the symbol, otherwise 1.
 
-    The result is None if the equation does not have exactly one positive root.
+    Return None if the equation does not have exactly one positive root.
     """
     core = difference.as_numer_denom()[0]
     parts = [part for part in Mul.make_args(factor(core)) if part.has(letter) and not part.is_positive]

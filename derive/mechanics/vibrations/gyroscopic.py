@@ -445,7 +445,8 @@ def _verdict(equations: TurningModes, characteristic: Quantity, outcome: str, ke
 
 
 def _rests(characteristic: Quantity) -> list[Quantity]:
-    return [each for each in characteristic.parents[0].parents if each.fact(Rest) is not None]
+    behind = (each for parent in characteristic.parents for each in parent.parents if each.fact(Rest) is not None)
+    return list(dict.fromkeys(behind))
 
 
 def _named(characteristic: Quantity) -> dict[str, Quantity]:

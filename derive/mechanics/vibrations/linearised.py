@@ -209,7 +209,7 @@ def _exact(
 def _with_small_angles(equation: Quantity, moving: Sequence[Coordinate], common: Expr) -> Expr | None:
     """Return the left side, divided by `common`, with sin(u) = u and cos(u) = 1.
 
-    The result is None if there is no sine or cosine, or if an argument u does not vanish where all coordinates are 0.
+    Return None if there is no sine or cosine, or if an argument u does not vanish where all coordinates are 0.
     """
     left = explicit(equation.value).residual / common
     angles = left.atoms(sin, cos)

@@ -68,7 +68,7 @@ def _proposed(
     """Propose a constant. A defined quantity, or the frequency of an earlier answer, is proposed instead if it has the
     same value; an earlier result is proposed instead if it has the same symbol and value.
 
-    The result is None if the symbol already has another meaning, or if the value is a single symbol or number.
+    Return None if the symbol already has another meaning, or if the value is a single symbol or number.
     """
     value = tidied(value)
     name = free_letter(name)

@@ -56,7 +56,7 @@ class Trace:
 
     points   the curve, in the units of the axes
     turns    the extrema: the point, whether it is a minimum, and the forms of the name of its place on the horizontal
-             axis, the shortest last; there is no name if the place has no symbol and a tick already shows it
+             axis, the shortest last; the name is left out if the place has no symbol and a tick already shows it
     name     the name of the curve; empty if the panel has no other curve
     """
 
