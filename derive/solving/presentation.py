@@ -54,12 +54,18 @@ def presented(value: Expr, *, in_sums: bool = True) -> Expr:
         if not any(f.is_Add for f in Mul.make_args(below)):
             forms.append(by_terms(tidy.expand()))
         if in_sums and size <= SHORT and not below.has(sin, cos) and not _turns_under_root(tidy):
-            forms.append(tidied(TR8(tidy.expand())))
+            in_sum = tidied(TR8(tidy.expand()))
+            forms += [] if _has_an_angle_and_its_double(in_sum) else [in_sum]
         if below.has(sin):
             forms.append(Add(*(tidied(without_sine_below(term)) for term in Add.make_args(value))))
     apart = shortest(forms)
     product = factored(tidy) if size <= LARGEST else tidy
     return product if length(product) < length(apart) else apart  # a^2 - b^2 is kept
+
+
+def _has_an_angle_and_its_double(value: Expr) -> bool:
+    angles = {function.args[0] for function in value.atoms(sin, cos)}
+    return any(2 * angle in angles for angle in angles)
 
 
 def without_positive(value: Expr, *, in_equation: bool = False) -> Expr:

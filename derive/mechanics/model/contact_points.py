@@ -50,7 +50,7 @@ def _foot(placed: PlacedBody, curve: Curve) -> tuple[Location, Expr]:
         distance = tidied(dot(normal, placed.hub - foot))
         if sign_known(distance) == 1 and is_zero(column_of(placed.hub - foot - distance * normal)):
             return foot, distance
-    message = f"the centre of {placed.body.name} is on no normal of the curve whose place is a coordinate"
+    message = f"the place where {placed.body.name} touches the curve is unknown: a coordinate must describe this place"
     help_line = (
         "let a coordinate x be the horizontal distance of the point of contact: the centre is at "
         "[x - R*f'/sqrt(1 + f'**2), f + R/sqrt(1 + f'**2)]; for a normal force, write a positive length h instead of R"
