@@ -91,15 +91,9 @@ def _in_tidy_form(value: Expr) -> Expr:
             return Integer(0)
         value = _denested(_roots_drawn_out(_roots_in_the_numerator(_roots_drawn_out(value))))
         return _differences_in_front(shortest((in_front(value), in_front(_expanded_above(value)), *_by_squares(value))))
-    return _differences_in_front(
-        shortest(
-            [
-                _as_one_fraction(value),
-                *_by_squares(value),
-                *map(_as_one_fraction, [*_by_one_angle(value), *_by_half_angle(value)]),
-            ]
-        )
-    )
+    of_one_angle = [value, *_by_half_angle(value)]
+    fractions = map(_as_one_fraction, [*of_one_angle, *_by_one_angle(value)])
+    return _differences_in_front(shortest([*fractions, *(form for each in of_one_angle for form in _by_squares(each))]))
 
 
 def _differences_in_front(value: Expr) -> Expr:

@@ -216,3 +216,4 @@ def test_the_sine_of_a_double_angle_is_written_out_if_that_gives_a_common_factor
     found = tidied((8 * g * cos(angle) - a * w**2 * sin(2 * angle)) / (12 * w**2 * sin(angle)))
     assert str(found) == "(-a*w**2*sin(angle) + 4*g)*cos(angle)/(6*w**2*sin(angle))"
     assert tidied(sin(2 * angle)) == sin(2 * angle)
+    assert tidied(2 * sin(x) ** 4 + sin(2 * x) ** 2 + 2 * cos(x) ** 4 - 2) == 0
