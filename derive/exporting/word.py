@@ -11,6 +11,8 @@ from collections.abc import Sequence
 from html import escape
 from importlib import import_module
 from pathlib import Path
+from shutil import which
+from typing import Any
 
 from derive.building.scratch import Scratch
 from derive.errors import BuildFailed, Complaint, Misused
@@ -71,6 +73,13 @@ def _part(part: Part, solutions: bool) -> str:
     return f"{label}{part.question}\n{part.solution if solutions else ''}"
 
 
+def check_installed() -> None:
+    """Raise an error if Pandoc or the converter of drawings is missing, so that nothing is derived in vain."""
+    _converter()
+    if which(_pandoc()) is None:
+        raise Misused(Complaint("pandoc", "Pandoc is not installed", help=INSTALL))
+
+
 def _pandoc() -> str:
     """Return the path of Pandoc from its package; if the package is not installed, return the name `pandoc`."""
     try:
@@ -79,9 +88,12 @@ def _pandoc() -> str:
         return "pandoc"
 
 
-def _png(drawing: bytes) -> bytes:
+def _converter() -> Any:
     try:
-        converter = import_module("resvg_py")
+        return import_module("resvg_py")
     except ImportError:
         raise Misused(Complaint("pandoc", "no converter of drawings is installed", help=INSTALL)) from None
-    return bytes(converter.svg_to_bytes(svg_string=drawing.decode(), zoom=SHARPNESS, dpi=DPI))
+
+
+def _png(drawing: bytes) -> bytes:
+    return bytes(_converter().svg_to_bytes(svg_string=drawing.decode(), zoom=SHARPNESS, dpi=DPI))

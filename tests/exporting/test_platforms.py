@@ -15,7 +15,8 @@ from xml.etree import ElementTree
 import pytest
 
 from derive.building.solution import rendered
-from derive.errors import BuildFailed, Misused
+from derive.cli.options import main
+from derive.errors import BuildFailed
 from derive.exporting.canvas import PACKAGE as CANVAS_PACKAGE
 from derive.exporting.canvas import QTI as QTI_1
 from derive.exporting.canvas import canvas_package
@@ -51,13 +52,19 @@ parts:
 """
 
 
-@pytest.fixture(scope="module")
-def questions(tmp_path_factory: pytest.TempPathFactory) -> list[Question]:
-    root = tmp_path_factory.mktemp("course")
+def with_week1(root: Path) -> Path:
+    """Write a set `week1` with one problem and return its folder."""
     folder = root / "problems" / "week1"
     folder.mkdir(parents=True)
     (folder / "bead.yaml").write_text(PROBLEM)
     (folder / "set.yaml").write_text("course: A\ntitle: B\nproblems: [bead]\n")
+    return folder
+
+
+@pytest.fixture(scope="module")
+def questions(tmp_path_factory: pytest.TempPathFactory) -> list[Question]:
+    root = tmp_path_factory.mktemp("course")
+    with_week1(root)
     return questions_of([rendered(root, "week1/bead", draws=True, only=("questions",))])
 
 
@@ -189,12 +196,7 @@ def test_hostile_titles_stay_text(questions: list[Question]) -> None:
 
 
 def test_the_command_writes_the_file(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
-    from derive.cli.options import main
-
-    folder = tmp_path / "problems" / "week1"
-    folder.mkdir(parents=True)
-    (folder / "bead.yaml").write_text(PROBLEM)
-    (folder / "set.yaml").write_text("course: A\ntitle: B\nproblems: [bead]\n")
+    folder = with_week1(tmp_path)
     assert main(["--root", str(tmp_path), "export", "week1", "--format", "qti"]) == 0
     assert zipfile.is_zipfile(tmp_path / "build" / "week1" / "week1-qti.zip")
     why = ["--root", str(tmp_path), "why", str(tmp_path / "build" / "week1" / "week1-qti.zip")]
@@ -233,18 +235,18 @@ def test_a_formula_that_pandoc_cannot_read_is_an_error(questions: list[Question]
         word_document("Week 1", [wrong])
 
 
-def test_without_pandoc_the_error_says_what_to_install(
-    questions: list[Question], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+def test_a_missing_converter_is_named_before_anything_is_derived(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capfd: pytest.CaptureFixture[str]
 ) -> None:
+    (with_week1(tmp_path) / "bead.yaml").write_text("a file that would be an error")
     monkeypatch.setitem(sys.modules, "pypandoc", None)
     monkeypatch.setenv("PATH", str(tmp_path))
-    with pytest.raises(BuildFailed) as caught:
-        word_document("Week 1", questions)
-    assert "derive-mechanics[docx]" in (caught.value.complaints[0].help or "")
-    monkeypatch.setitem(sys.modules, "resvg_py", None)
-    with pytest.raises(Misused) as missing:
-        word_document("Week 1", questions)
-    assert "derive-mechanics[docx]" in (missing.value.complaints[0].help or "")
+    command = ["--root", str(tmp_path), "export", "week1", "--format", "docx"]
+    for missing in ("Pandoc is not installed", "no converter of drawings is installed"):
+        assert main(command) == 2
+        shown = capfd.readouterr().err
+        assert missing in shown and "derive-mechanics[docx]" in shown
+        monkeypatch.setitem(sys.modules, "resvg_py", None)
 
 
 def test_a_folder_of_prairielearn_has_its_three_files_and_right_answers(questions: list[Question]) -> None:

@@ -23,6 +23,7 @@ def export(arguments: argparse.Namespace) -> int:
     from derive.course.problem import load_problem
     from derive.course.problem_set import path_of, problem_set
     from derive.exporting.questions import questions_of
+    from derive.exporting.word import check_installed
 
     started = time.time_ns()
     root, asked = root_of(arguments), problem_id_of(arguments.id)
@@ -33,6 +34,8 @@ def export(arguments: argparse.Namespace) -> int:
     heading = problem_set(root, set_id)
     if name:
         path_of(root, asked)
+    if arguments.format == "docx":
+        check_installed()
     pages = []
     for problem_id in [asked] if name else heading.problems:
         with waiting(f"deriving {problem_id}"):
