@@ -1,5 +1,5 @@
-"""The run of a command. An error that stops the command is reported in a few lines; DERIVE_DEBUG=1 adds the traceback
-of an internal error."""
+"""Runs a command. An error that stops the command is reported in a few lines; DERIVE_DEBUG=1 adds the traceback of an
+internal error."""
 
 from __future__ import annotations
 

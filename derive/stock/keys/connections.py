@@ -480,7 +480,7 @@ class DashpotKeys(Record):
 
 
 def wire_on(name: Word, known: Connected) -> Deferred[Any]:
-    """Return the wire on which a particle of this name is threaded."""
+    """Return the wire on which the particle of this name is threaded."""
     return Deferred(wire, (material(name, known),), place=name.place)
 
 

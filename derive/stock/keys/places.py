@@ -265,7 +265,6 @@ class Places:
         return each([partial(self.at, start, "from"), partial(self.at, end, "to")])
 
     def axes(self, name: Word) -> Axes:
-        """Return the axes of this name."""
         turns = next((turns for known, turns in self.turns.items() if known == name), None)
         if turns is None:
             help_line = did_you_mean(name, self.turns) or "give them under `axes`"

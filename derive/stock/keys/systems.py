@@ -387,7 +387,6 @@ def _momenta(
 
 
 def _multipliers(keeping: Iterable[Deferred[Any]]) -> dict[str, Declared]:
-    """Return the symbols of constraint forces."""
     names = [name for one in keeping for name in one.forces]
     return {name: FoundLetter(name, scalar(name), "force") for name in names}
 
