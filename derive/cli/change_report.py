@@ -43,7 +43,7 @@ _FACETS = {
 _SIGNS = {ADDED: "+", REMOVED: "-", CHANGED: "~"}
 _COLOURS = {ADDED: "32", REMOVED: "31"}
 _AROUND = 6  # words of a sentence that are shown on each side of a change
-_MOST_LINES = 3  # a list of lines is cut to this number if it has at least two more
+_MOST_LINES = 3  # a list of lines is cut to this number if it is longer by at least two
 
 
 def told(problem_id: str, diff: Diff, coloured: bool) -> str:
