@@ -67,9 +67,7 @@ def new(arguments: argparse.Namespace) -> int:
     for path, content in files.items():
         if write(root / path, content):
             print(f"wrote {shown_path(root / path)}")
-    print(
-        f"next: `derive preview {problem_id}` shows the page while you edit, `derive build {problem_id}` builds it"
-    )
+    print(f"next: `derive preview {problem_id}` shows the page while you edit, `derive build {problem_id}` builds it")
     return 0
 
 

@@ -100,7 +100,7 @@ class ByName:
         return next((form for form in (name, *_in_other_number(name)) if form in self.asks), None)
 
     def every(self) -> dict[str, tuple[Quantity, ...] | DeriveError]:
-        """Return the steps of every offered name, or the error if the answer cannot be derived."""
+        """Return, for each offered name, its steps, or the error if they cannot be derived."""
         found: dict[str, tuple[Quantity, ...] | DeriveError] = {}
         for name in self.asks:
             try:

@@ -89,7 +89,7 @@ class Marked:
         if self.drawing.like:
             with told_at(self.drawing.place):
                 noted(replace(own, key=self.drawing.key, forces_on=None, mode=None, leads_to=()))
-            drawings.insert(drawings.index(shown[self.after]) + 1, drawings.pop())  # figures have numbers in this order
+            drawings.insert(drawings.index(shown[self.after]) + 1, drawings.pop())  # figures are numbered in this order
         else:
             drawings[drawings.index(shown[name])] = own
 

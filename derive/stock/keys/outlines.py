@@ -72,7 +72,7 @@ def _centre(answers: Any, origin: Point) -> list[Mark]:
 
 
 def _principal(answers: Any, origin: Point) -> list[Mark]:
-    """Return arrows along the principal axes, from the point of the inertia tensor."""
+    """Return arrows along the principal axes; they begin at the point about which the inertia tensor is taken."""
     at = origin.seen(answers.body.point(answers.about).position)
     return [arrow(axis, at, SHORT) for axis in answers.principal_axes]
 
