@@ -43,7 +43,7 @@ _FACETS = {
 _SIGNS = {ADDED: "+", REMOVED: "-", CHANGED: "~"}
 _COLOURS = {ADDED: "32", REMOVED: "31"}
 _AROUND = 6  # words of a sentence that are shown on each side of a change
-_MOST_LINES = 3  # the number of changed lines of a step that are shown if there are at least two more
+_MOST_LINES = 3  # a list of lines is cut to this number if it is longer by at least two
 
 
 def told(problem_id: str, diff: Diff, coloured: bool) -> str:
@@ -66,7 +66,6 @@ def told_of_set(set_id: str, diff: SetDiff, coloured: bool) -> str:
 
 
 def as_json(problem_id: str, diff: Diff) -> str:
-    """Return the changes as JSON for programs."""
     return _json(_data("problem", problem_id, diff))
 
 

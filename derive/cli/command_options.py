@@ -17,7 +17,8 @@ _TIME_LIMIT = 120.0
 _IN_CM = {"cm": 1.0, "mm": 0.1, "in": 2.54, "pt": 2.54 / 72.27}
 
 _WHERE = """\
-Print the script by which a shell completes names and options. It belongs in
+Print the script by which a shell completes names and options.
+To use it, add the line for your shell to the file on the left:
   ~/.bashrc                   eval "$(derive completion bash)"
   ~/.zshrc, after compinit    eval "$(derive completion zsh)"
   ~/.config/fish/config.fish  derive completion fish | source"""
@@ -79,8 +80,10 @@ def _variants(variants: argparse.ArgumentParser) -> None:
 
 def _class(of_class: argparse.ArgumentParser) -> None:
     named(of_class.add_argument("set", metavar="SET", help="a set with `variants:` in its problems"), "sets")
-    of_class.add_argument("--roster", required=True, metavar="FILE", help="CSV with the column name, and maybe code")
-    of_class.add_argument("--seed", metavar="TEXT", help="another text gives other variants; kept for later runs")
+    of_class.add_argument(
+        "--roster", required=True, metavar="FILE", help="CSV with the column name and, if you like, code"
+    )
+    of_class.add_argument("--seed", metavar="TEXT", help="text that determines the variants; kept for later runs")
     of_class.add_argument("--reseed", action="store_true", help="replace a class that was made with another seed")
     of_class.add_argument("--scheduler", default="", metavar="ADDRESS", help="of a Dask cluster: tcp://10.0.0.1:8786")
     _engine(of_class)
@@ -126,7 +129,7 @@ def _grade(grade: argparse.ArgumentParser) -> None:
     grade.add_argument("answer", nargs="?", metavar="ANSWER", help="a formula, or a number with its unit")
     grade.add_argument("--part", metavar="PART", help="such as b; b(2) is its second answer")
     grade.add_argument("--answers", metavar="FILE", help="CSV with the columns student, problem, part, answer")
-    grade.add_argument("--student", metavar="CODE", help="the student of `derive class` whose variant is answered")
+    grade.add_argument("--student", metavar="CODE", help="a student of `derive class`, whose variant is used")
     grade.add_argument("--roster", metavar="FILE", help="the roster of a class that was made on another machine")
     grade.add_argument("--seed", metavar="TEXT", help="with --roster, the seed of this class")
     grade.add_argument("-o", "--output", dest="output", metavar="FILE", help="file to write; - is standard output")
@@ -224,7 +227,7 @@ def _completion(completion: argparse.ArgumentParser) -> None:
 
 
 def _detail(command: argparse.ArgumentParser) -> None:
-    command.add_argument("--detail", choices=DETAILS, help="how much algebra")
+    command.add_argument("--detail", choices=DETAILS, help="how much algebra to show")
 
 
 def _evidence(command: argparse.ArgumentParser) -> None:
@@ -236,7 +239,9 @@ def _engine(command: argparse.ArgumentParser) -> None:
 
 
 def _time_limit(command: argparse.ArgumentParser) -> None:
-    command.add_argument("--time-limit", type=_positive, default=_TIME_LIMIT, metavar="SECONDS", help="for one problem")
+    command.add_argument(
+        "--time-limit", type=_positive, default=_TIME_LIMIT, metavar="SECONDS", help="processor time of one problem"
+    )
 
 
 def _text_or_json(command: argparse.ArgumentParser) -> None:

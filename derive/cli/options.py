@@ -13,7 +13,7 @@ from typing import NoReturn
 # Each command with its purpose, its operands, and an example of them.
 _COMMANDS = {
     "init": ("begin a course in a new folder", "FOLDER", "mycourse --title Mechanics"),
-    "new": ("begin a problem with files that build at once", "SET/PROBLEM", "hw10/wheel --like library/rod_pendulum"),
+    "new": ("begin a problem that you can build at once", "SET/PROBLEM", "hw10/wheel --like library/rod_pendulum"),
     "preview": ("show a problem in the browser while you write it", "ID|SET", "hw9/block"),
     "build": ("typeset sets of problems; unchanged pages are kept", "[SET|ID ...]", "hw9 --detail full"),
     "variants": ("draw variants of problems, and show their answers", "SET|ID", "hw10 --check 1000"),

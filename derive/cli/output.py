@@ -15,7 +15,7 @@ _WRITTEN_BY_HAND = {".py", ".yaml", ".yml", ".j2", ".toml", ".md"}
 
 
 def check_output(output: str | None, root: Path) -> None:
-    """Reject a target of `-o` before any work, such as a link or a file that was written by hand."""
+    """Before any work, reject a target of `-o` that is a link or a file written by hand."""
     if output in (None, "-"):
         return
     path = Path(output or "")

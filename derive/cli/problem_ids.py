@@ -49,7 +49,7 @@ def root_of(arguments: argparse.Namespace) -> Path:
 
 def library_root(root: Path | None) -> Path | None:
     """Return the folder whose `problems` contains the library: the course if it has a library of its own, otherwise
-    derive itself."""
+    derive itself. Return None if neither has a library."""
     package = Path(FOLDER).resolve()
     for folder in (root, package, package.parent):
         if folder is not None and (folder / "problems" / LIBRARY / "set.yaml").is_file():

@@ -1,5 +1,5 @@
-"""The run of a command. An error that stops the command is reported in a few lines; DERIVE_DEBUG=1 adds the traceback
-of an internal error."""
+"""Runs a command. An error that stops the command is reported in a few lines; DERIVE_DEBUG=1 adds the traceback of an
+internal error."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ def exit_code(arguments: argparse.Namespace) -> int:
         silence(1)
         return 141
     except MemoryError:
-        return _told(BuildFailed(Complaint("system", "the system refuses: memory is short")))
+        return _told(BuildFailed(Complaint("system", "there is too little memory")))
     except Exception as error:
         if isinstance(error, OSError) and error.filename is None and error.errno in _UNWRITTEN:
             silence(1)

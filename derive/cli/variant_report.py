@@ -38,7 +38,6 @@ def as_json(report: Sequence[OfProblem]) -> str:
 
 
 def as_html(root: Path, asked: str, report: Sequence[OfProblem]) -> str:
-    """Return a page with a histogram of each answer."""
     from derive.page.template import templates_of
     from derive.render.printing.templates import filled_html
 
@@ -87,7 +86,7 @@ def _data(found: OfProblem) -> dict[str, Any]:
 
 
 def _choices(found: OfProblem) -> list[tuple[str, list[str]]]:
-    """Return the choices of everything that varies; of many choices the first three and the last."""
+    """Return the choices of each varied value; of eight or more choices, only the first three and the last."""
     told = [(str(each.name), [each.told(number) for number in range(len(each.choices))]) for each in found.variations]
     return [(name, shown if len(shown) < 8 else [*shown[:3], "...", shown[-1]]) for name, shown in told]
 

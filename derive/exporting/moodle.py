@@ -19,7 +19,6 @@ from derive.render.printing.tex_in_html import formula_html
 
 
 def moodle_xml(course: str, title: str, questions: Sequence[Question], stack: bool = False) -> str:
-    """Return the questions of a set as Moodle XML."""
     category = _element("category", _text(f"$course$/top/{_path(course)}/{_path(title)}"))
     made = [f'<question type="category">{category}</question>']
     for question in questions:

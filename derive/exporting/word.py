@@ -48,7 +48,7 @@ def word_document(title: str, questions: Sequence[Question], solutions: bool = T
         except (OSError, subprocess.TimeoutExpired) as error:
             raise BuildFailed(Complaint("pandoc", f"Pandoc cannot be run: {error}", help=INSTALL)) from None
         if ran.returncode or ran.stderr.strip():  # Pandoc warns if it cannot convert a formula or a picture
-            raise BuildFailed(Complaint("pandoc", f"Pandoc does not convert the set: {ran.stderr.strip()[:500]}"))
+            raise BuildFailed(Complaint("pandoc", f"Pandoc cannot convert the set: {ran.stderr.strip()[:500]}"))
         return (folder / "set.docx").read_bytes()
 
 

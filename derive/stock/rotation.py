@@ -219,8 +219,8 @@ class RotationAnswers(StockAnswers[DescribedRotation]):
         return found
 
     def place_of_mark(self, node: Tree, name: str, letters: InLetters) -> MatrixBase:
-        """Return a place relative to the origin of the drawing; for a body that is described by its moments, in units
-        of the semi-axes of the drawn ellipsoid."""
+        """Return a place relative to the origin of the drawing. For a body that is described by its moments, the
+        written components are multiples of the semi-axes of the drawn ellipsoid."""
         if not self.described.moments or not isinstance(node, SequenceNode):
             return super().place_of_mark(node, name, letters)
         sizes = semi_axes(self.described.moments)
@@ -230,7 +230,7 @@ class RotationAnswers(StockAnswers[DescribedRotation]):
     def _draw_polhodes(self, asked: Sequence[Word]) -> None:
         """Draw the curves on which the tip of the angular momentum of a free body stays."""
         if self.described.torque or self.is_given:
-            message = "the polhodes are those of a body that rotates freely"
+            message = "polhodes need a body that rotates freely"
             rejected("wrong-argument", message, None, "leave out `torque`, `along`, `rates` and `start`")
         if not self.inertia_tensor.value.is_diagonal():
             message = "the polhodes need principal axes, but the axes of this body are not principal"

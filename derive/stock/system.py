@@ -170,7 +170,6 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
             return column_of(getattr(found, "centre", None) or getattr(found, "at", None) or found)
 
     def _state_static_friction(self) -> None:
-        """State the conditions under which static friction suffices."""
         of = {each.force.name: each for each in self.system.constraints}
         for part in self.described.acting:
             if "static" in part.named:
@@ -180,7 +179,6 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
                     state_static_friction(contact, self.by_name.one)
 
     def _draw_forces(self) -> None:
-        """Draw the forces on the particles, bodies and pulleys."""
         run = current_run.get()
         steps = run.established if run is not None else ()
         at_rest, along = _forces_found(steps, self.system)
@@ -247,7 +245,6 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
 
     @cached_property
     def particles(self) -> dict[str, Any]:
-        """Return the particles by name."""
         return {name: particle.made(self.bodies) for name, particle in self.described.particles.items()}
 
     @cached_property
@@ -265,12 +262,10 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
 
     @cached_property
     def surfaces(self) -> dict[str, Any]:
-        """Return the described surfaces, by name."""
         return {name: surface.made(self.parts_by_name) for name, surface in self.described.surfaces.items()}
 
     @cached_property
     def pulleys(self) -> dict[str, Any]:
-        """Return the massless pulleys, by name."""
         return {name: pulley.made(self.parts_by_name) for name, pulley in self.described.pulleys.items()}
 
     @property
@@ -402,7 +397,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
             raise Rejected(Complaint("wrong-argument", "`period` needs one frequency, but this system has several"))
         if self.normal_modes[0].value == 0:
             message = "nothing drives the system back to this state, so there is no oscillation about it"
-            raise Rejected(Complaint("no-oscillation", message, help="is each body held where it should be?"))
+            raise Rejected(Complaint("no-oscillation", message, help="check the place at which each body is held"))
         return period(self.normal_modes[0])
 
     # -- rolling, rotation, forces of constraint --------------------------------------------------------------------
@@ -527,8 +522,8 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         return self.lagrangian if is_pushed else self.potential_energy
 
     def _assume_momenta(self) -> None:
-        """Assume that each constant momentum with a positive symbol is positive, and that any other constant momentum
-        is not zero, if this matters."""
+        """Assume that each constant momentum with a positive symbol is positive. Assume that any other constant
+        momentum is not zero, if the equilibrium may depend on this momentum."""
         left = [q.symbol for name, q in self.coordinates.items() if name not in self.cyclic]
         for symbol in (momentum.symbol for momentum in self.cyclic.values()):
             if symbol.is_positive:
@@ -630,8 +625,8 @@ STOCK = Stock(SystemKeys, read, SystemAnswers)
 
 
 def _forces_found(steps: Sequence[Any], system: System) -> tuple[dict[Any, Quantity], dict[Any, Quantity]]:
-    """Return, by the symbols of constraint forces, the steps that derive the forces, and the steps that express them
-    without rates."""
+    """Return, by the symbols of constraint forces, the steps that derive the forces, and later steps that express a
+    force in coordinates without rates."""
     found: dict[Any, Quantity] = {}
     along: dict[Any, Quantity] = {}
     rates, coordinates = {rate(q) for q in system.coordinates}, {*system.coordinates}

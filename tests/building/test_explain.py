@@ -53,7 +53,7 @@ def test_a_step_is_told_under_headings(course: Path) -> None:
         "law",
     ]
     assert max(map(len, text.splitlines())) <= 100
-    assert "Part (a) asks for squared_gyration, which rests on it." in text
+    assert "Part (a) asks for squared_gyration, which depends on it." in text
 
 
 def test_the_json_has_the_facts(course: Path) -> None:

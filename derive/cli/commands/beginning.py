@@ -12,7 +12,6 @@ from derive.errors import Complaint, Misused
 
 
 def init(arguments: argparse.Namespace) -> int:
-    """Write the files of a new course, and print what to do next."""
     folder = Path(arguments.folder)
     _write_course(folder, arguments.title)
     inside = "" if folder.resolve() == Path.cwd() else f"cd {arguments.folder}; "
@@ -68,7 +67,7 @@ def new(arguments: argparse.Namespace) -> int:
     for path, content in files.items():
         if write(root / path, content):
             print(f"wrote {shown_path(root / path)}")
-    print(f"next: `derive preview {problem_id}` shows it while you edit, `derive build {problem_id}` makes its pages")
+    print(f"next: `derive preview {problem_id}` shows the page while you edit, `derive build {problem_id}` builds it")
     return 0
 
 

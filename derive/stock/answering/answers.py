@@ -67,14 +67,14 @@ class ForEach(Generic[T]):
 def answer_for_each(
     pattern: str, each: Callable[[Any], Iterable[str]]
 ) -> Callable[[Callable[[Any, str], T]], ForEach[T]]:
-    """Decorate a method that derives one answer for each name that fits the pattern."""
+    """Decorate a method that derives one answer for each coordinate, axis or symbol."""
     return partial(ForEach, pattern, each)
 
 
 class Answers(Generic[D]):
     """The answers about one system, body, rotation or impact.
 
-    `found` has the answers of methods with `answer_for_each` that were derived, by name.
+    `found` has, by name, the answers of methods with `answer_for_each` that have already been derived.
     """
 
     def __init__(self, described: D):
@@ -142,7 +142,7 @@ class StockAnswers(Answers[W]):
 
     def mark(self, drawings: Sequence[Placement]) -> None:
         """Add the marks of the problem to the drawings, and make the drawings that repeat another drawing."""
-        latest: dict[str, str] = {}  # the latest copy of each drawing
+        latest: dict[str, str] = {}  # key of a drawing -> key of its latest copy
         for drawing in drawings:
             if drawing.adds or drawing.like or drawing.without:
                 like = drawing.like or ""
@@ -156,5 +156,5 @@ class StockAnswers(Answers[W]):
         return ImmutableDenseMatrix(each([partial(letters.of_kind, item, name, "length") for item in node.items]))
 
     def every(self) -> dict[str, tuple[Quantity, ...] | DeriveError]:
-        """Return the steps of every name, or the error if the answer cannot be derived."""
+        """Return, for each name, its steps, or the error if they cannot be derived."""
         return self.by_name.every()

@@ -39,7 +39,7 @@ class ByName:
     what          the kind of description: "a rotation"
     results       the entries of `results:`, which are computed from answers
     coordinates   the coordinates that results may use
-    again         a function that makes a second object for the same answers, without steps yet
+    again         a function that makes an object for the same answers, from which no step has been derived yet
     elsewhere     a function that derives an answer of a body about another point or axis
     surfaces      the surfaces of a system, by name
     """
@@ -64,7 +64,6 @@ class ByName:
         self.asks |= {name: partial(one.made, *given) for name, one in self.results.items()}
 
     def answers(self, asked: Sequence[Word]) -> dict[str, object]:
-        """Return the answers by the requested names."""
         offered_first = sorted(asked, key=lambda name: self.offered(name) is None)
         try:
             found = dict(each([partial(self._answer, name) for name in offered_first]))
@@ -101,7 +100,7 @@ class ByName:
         return next((form for form in (name, *_in_other_number(name)) if form in self.asks), None)
 
     def every(self) -> dict[str, tuple[Quantity, ...] | DeriveError]:
-        """Return the steps of every offered name, or the error if the answer cannot be derived."""
+        """Return, for each offered name, its steps, or the error if they cannot be derived."""
         found: dict[str, tuple[Quantity, ...] | DeriveError] = {}
         for name in self.asks:
             try:

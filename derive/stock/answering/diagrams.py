@@ -108,11 +108,9 @@ class Parameter:
     keys: tuple[str, ...] = ()
 
     def put_in(self, value: Expr) -> Expr:
-        """Return an expression in terms of the parameter."""
         return tidied(value.xreplace(dict([self.letter]))) if self.letter is not None else value
 
     def branch(self, branch: Branch) -> Branch:
-        """Return a branch in terms of the parameter."""
         exists, stable = (
             self._condition(each) if isinstance(each, Relation) else each for each in (branch.exists, branch.stable)
         )

@@ -89,12 +89,12 @@ class Marked:
         if self.drawing.like:
             with told_at(self.drawing.place):
                 noted(replace(own, key=self.drawing.key, forces_on=None, mode=None, leads_to=()))
-            drawings.insert(drawings.index(shown[self.after]) + 1, drawings.pop())  # figures have numbers in this order
+            drawings.insert(drawings.index(shown[self.after]) + 1, drawings.pop())  # figures are numbered in this order
         else:
             drawings[drawings.index(shown[name])] = own
 
     def _kept(self, marks: Sequence[Mark]) -> Iterator[Mark]:
-        """Yield the marks of a drawing without those whose labels the problem leaves out; a surface only loses its
+        """Yield the marks of a drawing without those whose labels the problem leaves out; a surface stays, without its
         label."""
         labels = {str(mark.label) for mark in marks if mark.label is not None}
         for word in self.drawing.without:
@@ -269,7 +269,8 @@ class Marked:
 
 
 def _circle(centre: MatrixBase, through: MatrixBase, around: MatrixBase) -> MatrixBase:
-    """Return the point at ANGLE on the circle that begins at `through`; in space, `around` is its axis."""
+    """Return the point at ANGLE on the circle about `centre` that begins at `through`; in space, `around` is its
+    axis."""
     arm = through - centre
     x, y = (arm[0], arm[1])
     across = ImmutableDenseMatrix([-y, x]) if arm.rows == 2 else around.cross(arm) / sqrt(around.dot(around))

@@ -23,7 +23,11 @@ def by_newton(system: System, q: Coordinate, key: str, about: str = "", at_rest:
     return second_law(system, q, key, at_rest)
 
 
-ABOUT: Mapping[str, str] = {NEWTON: "", BOTH: "", ANGULAR_MOMENTUM: "contact"}  # method -> argument of `torque_law`
+ABOUT: Mapping[str, str] = {
+    NEWTON: "",
+    BOTH: "",
+    ANGULAR_MOMENTUM: "contact",
+}  # method -> the argument `about` of `torque_law`
 LAWS = ("newton.second_law", "newton.torque_law")
 OF_IMPACTS = ("impacts.momentum_law", "impacts.angular_momentum_law")
 RULES: Mapping[str, tuple[str, ...]] = {  # method -> the rules by which it derives an equation

@@ -83,7 +83,8 @@ class Plotted:
         self._keep(unit)
 
     def measure(self) -> None:
-        """Add the energies of lines and the quantities by which the axes are divided to the recorded plot."""
+        """Add to the recorded plot the energies of its horizontal lines, and the quantities by which its axes are
+        divided."""
         run, written = current_run.get(), self.drawing.per
         if run is None or not (written or self.drawing.energies):
             return
@@ -190,7 +191,6 @@ class Plotted:
             )  # fmt: skip
 
     def _named(self, shown: list[Shown]) -> list[Shown]:
-        """Return the quantities of a path with their names."""
         for label in self.drawing.labels:
             if not _LETTER.fullmatch(label):
                 message = f"`{label}` is not a letter, so it cannot name an axis"
@@ -239,7 +239,6 @@ class Plotted:
             )  # fmt: skip
 
     def _parameter(self, against: LetterOrRatio, found: Equilibria) -> Parameter:
-        """Return the parameter of a diagram."""
         known = {symbol.name: symbol for branch in found.branches for symbol in letters_in(branch.drawn)}
         declared = self.drawing.letters.get(str(against))
         if declared is not None:

@@ -94,7 +94,8 @@ class ShapeKeys(Record):
     )
     base: Tree | None = key("the base of a triangle, along x", SCALAR)
     foot: Tree | None = key(
-        "the x of the apex of a triangle, measured from the left end of its base; by default half the base", SCALAR
+        "the x coordinate of the apex of a triangle, measured from the left end of its base; by default half the base",
+        SCALAR,
     )
     side: Tree | None = key("the side of an equilateral triangle", SCALAR)
     position: tuple[Tree, ...] = key(
@@ -141,7 +142,9 @@ class BodyKeys(ShapeKeys):
     parts: Mapping[Word, PartKeys] = key(
         "its parts, by name", mapping_of(record_of(PartKeys, "a part", "a mapping with `shape`"))
     )
-    points: Mapping[Word, tuple[Tree, ...]] = key("names of its points: `{pivot: [0, 0, a]}`", mapping_of(PLACE))
+    points: Mapping[Word, tuple[Tree, ...]] = key(
+        "named points of the body, with their positions: `{pivot: [0, 0, a]}`", mapping_of(PLACE)
+    )
 
 
 BODY = record_of(BodyKeys, "a body", "a mapping with `shape`, `position` or `parts`")
@@ -191,7 +194,6 @@ class DescribedBody:
 
     @property
     def point_names(self) -> tuple[str, ...]:
-        """Return the names of the points of the body."""
         if self.is_made_of_parts or self.points:
             return ("centre", "origin", *self.points)
         (only,) = self.parts

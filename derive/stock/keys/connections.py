@@ -181,8 +181,8 @@ class FrictionKeys(Record):
     sliding: Tree | None = key("the coefficient of sliding friction", SCALAR)
     direction: Any = key(
         "`[1, 0]`, `right` or `left`: with `sliding` the direction in which the body slips; in space, leave it out, "
-        "and the friction is opposite to the velocity of slip. Otherwise the direction in which the friction on the "
-        "body is positive",
+        "and the friction is opposite to the velocity of slip. Without `sliding`, the direction in which the friction "
+        "on the body is positive",
         DIRECTION,
     )
     static: Tree | None = key("the coefficient of static friction, if the body does not slip", SCALAR)
@@ -480,7 +480,7 @@ class DashpotKeys(Record):
 
 
 def wire_on(name: Word, known: Connected) -> Deferred[Any]:
-    """Return the wire on which a particle of this name is threaded."""
+    """Return the wire on which the particle of this name is threaded."""
     return Deferred(wire, (material(name, known),), place=name.place)
 
 

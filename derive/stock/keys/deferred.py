@@ -1,6 +1,6 @@
 """Objects that a description specifies, such as bodies and forces. Each object is made only when an answer needs it.
 
-The verbs that make these objects check what moves and what is constant. Such checks need the record of a run.
+The verbs that make these objects check what moves and what is constant. Such checks need the record of the derivation.
 """
 
 from __future__ import annotations

@@ -80,8 +80,8 @@ class Formula:
 
 
 def dimension_of_answer(quantity: Quantity, letters: Mapping[str, Declared]) -> Dimension:
-    """Return the dimension of an answer or, if the answer is a relation, of its right side. An unknown dimension counts
-    as that of a number.
+    """Return the dimension of an answer or, if the answer is a relation, of its right side. An answer of unknown
+    dimension counts as a number.
 
     letters     the symbols of the problem, by name
     """

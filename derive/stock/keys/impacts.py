@@ -55,7 +55,7 @@ class CollisionKeys(Record):
 
     start: WrittenPlace | None = key("one of the places that meet", PLACE, called="from")
     end: WrittenPlace | None = key("the other place", PLACE, called="to")
-    at: WrittenPlace | None = key("in place of `from` and `to`, the place that hits something at rest", PLACE)
+    at: WrittenPlace | None = key("in place of `from` and `to`, the place that hits an object at rest", PLACE)
     of: Tree | None = key(
         "the bodies or particles that meet, if a place does not move with its body: `of: [ball, rod]` for `from` "
         "and `to`, or one name for `at`",

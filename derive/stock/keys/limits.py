@@ -24,7 +24,7 @@ from derive.stock.keys.formulas import OfKnownDimension
 
 
 def limits_of(problem: Problem, known: Mapping[str, Quantity], run: Run) -> list[list[Quantity]]:
-    """Return the steps of each case; none if the case does not apply to the current inputs.
+    """Return the steps of each case; the list of a case is empty if the case does not apply to the current inputs.
 
     Each case is derived in a `Run` of its own, so that the limits of one quantity can have the same symbol.
     """

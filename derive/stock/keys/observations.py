@@ -18,7 +18,7 @@ NONE = "none"
 
 
 def with_known_observations(problem: Problem, faults: Faults) -> Problem:
-    """Return the problem with the chosen kinds of observations that exist; report all other names."""
+    """Return the problem with only those chosen kinds of observations that exist; report all other names."""
     parts = tuple(replace(part, observations=_known(part.observations, faults)) for part in problem.parts)
     return replace(problem, observations=_known(problem.observations, faults), parts=parts)
 
@@ -35,7 +35,7 @@ def _known(words: Sequence[Word] | None, faults: Faults) -> tuple[Word, ...] | N
 def observations_of(
     problem: Problem, known: Mapping[str, Quantity], asked: Sequence[Sequence[str]], run: Run, faults: Faults
 ) -> list[list[Quantity]]:
-    """Return the observations of each part; report the chosen kinds that no answer has.
+    """Return the observations of each part; report each chosen kind of which there is no observation.
 
     An author may choose kinds of observations for the problem or for a part, or `none`.
     """

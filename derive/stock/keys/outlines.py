@@ -34,15 +34,14 @@ from derive.steps.step import Quantity, is_zero
 
 
 def name_of_drawing(body: Body) -> str:
-    """Return the name of the drawing of a body."""
     return body.called.replace(" ", "_") or "body"
 
 
 def drawn(answers: Any, about: str = "", is_named: bool = False, key: str = "", shown: Sequence[str] = ()) -> None:
     """Draw the outline of a body, by default under the name of the body.
 
-    about      the name of a point; if it is `centre` and the corners of the body are symmetric about it, the axes begin
-        there
+    about      the name of a point; if it is `centre` and the corners of the body are symmetric about one point, the
+        axes begin there
     is_named   whether `about` is a point that the problem names, such as a pivot
     shown      the marks of SHOWS that are drawn in addition to the outline
     """
@@ -73,7 +72,7 @@ def _centre(answers: Any, origin: Point) -> list[Mark]:
 
 
 def _principal(answers: Any, origin: Point) -> list[Mark]:
-    """Return arrows along the principal axes, from the point of the inertia tensor."""
+    """Return arrows along the principal axes; they begin at the point about which the inertia tensor is taken."""
     at = origin.seen(answers.body.point(answers.about).position)
     return [arrow(axis, at, SHORT) for axis in answers.principal_axes]
 

@@ -100,13 +100,13 @@ class ForceKeys(Record):
         "the place where it acts; `ball.contact` is the particle of the body `ball` that touches a surface", PLACE
     )
     of: Word | None = key(
-        "the body or particle on which the force acts, if `at` does not move with it: the contact of a sliding ball; "
-        "`massless` for a massless part",
+        "the body or particle on which the force acts, if `at` does not move with it, as at the contact of a "
+        "sliding ball; `massless` for a massless part",
         TEXT,
     )
     by: Word | None = key(
-        "the body or particle that exerts the force, and on which the opposite force acts: the plank under a sliding "
-        "block; `ground` if no described body exerts the force",
+        "the body or particle that exerts the force, and on which the opposite force acts, such as the plank under a "
+        "sliding block; `ground` if no described body exerts the force",
         TEXT,
     )
     torque: Tree | None = key("in place of `components` and `at`, a torque", SCALAR)

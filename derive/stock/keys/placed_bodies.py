@@ -52,7 +52,8 @@ class MovingBodyKeys(BodyKeys, QuotedKeys):
 
     moments: Tree | None = key(
         "in place of a shape: its three principal moments of inertia or, in a plane, its moment about the axis "
-        "perpendicular to the plane. They are about the centre of mass or, with `middle`, about the point that is held",
+        "perpendicular to the plane. The moments are about the centre of mass or, with `middle`, about the point that "
+        "is held",
         as_written(
             {"anyOf": [SCALAR.schema, {"type": "array", "items": SCALAR.schema, "minItems": 3, "maxItems": 3}]},
             "one moment or three",
@@ -149,7 +150,7 @@ class MovingBodyKeys(BodyKeys, QuotedKeys):
         return letters.of_kind(turned, "turned", "angle")
 
     def _turned_along(self, places: Places, letters: InLetters) -> Expr:
-        """Return the angle of rotation of a rod from its direction. At zero angle the rod points upwards."""
+        """Compute the angle of rotation of a rod from its direction. At zero angle the rod points upwards."""
         name = "along" if self.along else "to"
         if self.shape != "rod":
             message = f"`{name}` gives the direction of a rod, but this body is not a rod"

@@ -167,12 +167,12 @@ def _range(name: str, sort: SortOfLetter, faults: Faults) -> Range | None:
 
 
 def point_called(name: str) -> str:
-    """Return the name that a body has for one of its points."""
+    """Return the name of a point within its body: `centre` for `centre_of_mass`."""
     return "centre" if name == "centre_of_mass" else name
 
 
 def check_not_contact(name: Word) -> None:
-    """Reject the point of contact of a body, unless a force or a drag acts there."""
+    """Reject the point of contact of a body, at which only a force or a drag may act."""
     if name.endswith(f".{CONTACT}"):
         message = f"nothing can be fastened at `{name}`, because other particles of the body touch the surface later"
         help_line = "only `at` of a force or of drag may name this point; a string that unwinds is `wound_on` the body"
@@ -190,8 +190,8 @@ class Places:
         carried: Mapping[Word, WrittenPlace | None] | None = None,
         bodies: Collection[str] = (),
     ):
-        """Set up the places. The name of a particle also denotes its place, the name of a body its centre of mass, and
-        `rod.end` a point of the body `rod`."""
+        """The name of a particle also denotes its place, the name of a body its centre of mass, and `rod.end` a point
+        of the body `rod`."""
         self.carried = {str(name): at for name, at in (carried or {}).items() if at is not None and at.name != name}
         self.written = {str(name): place for name, place in written.items()}
         self.turns = turns
@@ -265,7 +265,6 @@ class Places:
         return each([partial(self.at, start, "from"), partial(self.at, end, "to")])
 
     def axes(self, name: Word) -> Axes:
-        """Return the axes of this name."""
         turns = next((turns for known, turns in self.turns.items() if known == name), None)
         if turns is None:
             help_line = did_you_mean(name, self.turns) or "give them under `axes`"

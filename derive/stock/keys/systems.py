@@ -107,7 +107,7 @@ class SystemKeys(Record):
     )
     functions: Mapping[Word, SortOfLetter] = key(
         "prescribed functions of the time, such as the place of a shaken support: `X: length`, `L: positive length`; "
-        "`X_dot` and `X_ddot` are its rates",
+        "`X_dot` and `X_ddot` are the rates of X",
         FUNCTIONS,
     )
     axes: Mapping[Word, tuple[Mapping[Word, Tree], ...]] = key(
@@ -387,7 +387,6 @@ def _momenta(
 
 
 def _multipliers(keeping: Iterable[Deferred[Any]]) -> dict[str, Declared]:
-    """Return the symbols of constraint forces."""
     names = [name for one in keeping for name in one.forces]
     return {name: FoundLetter(name, scalar(name), "force") for name in names}
 
