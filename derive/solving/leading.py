@@ -120,7 +120,7 @@ def terms_by_arithmetic(value: Any, series: Sequence[Series], x: Symbol, place: 
 
 
 def to_that_order(found: Any, again: Any, whole: bool) -> Verdict:
-    """Compare two sets of terms; a truncated series is confirmed to its order only, a limit (`whole`) exactly."""
+    """Compare two sets of terms; equal terms of a truncated series are an approximation, but a limit (`whole`) is not."""
     verdict = equal(found, again)
     if whole or verdict.grade is Grade.REFUTED:
         return verdict
@@ -130,9 +130,9 @@ def to_that_order(found: Any, again: Any, whole: bool) -> Verdict:
 def rest_vanishes(value: Any, found: Any, x: Symbol, place: Expr, power: Rational) -> Verdict:
     """Compare the remainder at two distances: the remainder divided by the last power kept must shrink.
 
-    The next power may be fractional, as in a + b x^(1/4), so the quotient may shrink less than the distance. Both sides
-    of the value `place` are tested where both are possible, because |m - M| has different leading terms on the two
-    sides of m = M.
+    The next power may be fractional, as in a + b x^(1/4), so the quotient may shrink more slowly than the distance.
+    Both sides of the value `place` are tested where both are possible, because |m - M| has different leading terms on
+    the two sides of m = M.
     """
     for before, after in zip(entries_of(value), entries_of(found), strict=True):
         for side in _sides(x, place):

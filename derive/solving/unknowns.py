@@ -53,8 +53,9 @@ class ValueOf(Fact):
 
 
 def unknown_of(verb: str, given: Any) -> Expr:
-    """The unknown that an argument of a verb means: a symbol, or an expression such as cos(theta). Rejects any other
-    argument."""
+    """The unknown that an argument of a verb names: a symbol, or an expression such as cos(theta). Rejects any other
+    argument.
+    """
     found = getattr(given, "symbol", given)
     if isinstance(found, Symbol) or _letter_within(found) is not None:
         return found
@@ -150,8 +151,8 @@ def polynomial_in(
 ) -> tuple[Expr, list[Dummy]]:
     """Return the residual of an equation with a dummy symbol in place of each unknown, and the list of dummy symbols.
 
-    Factors that contain the symbol of an unknown but not the unknown itself are dropped. For an equation, the page
-    assumes that they do not vanish.
+    Factors that contain the symbol of an unknown but not the unknown itself are dropped. For an equation, the
+    assumption that they do not vanish is recorded.
     """
     left = residual_of(verb, equation, or_value)
     marks = [mark_for(unknown) for unknown in unknowns]

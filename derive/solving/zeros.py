@@ -77,7 +77,7 @@ def zeros_of(force: Expr, q: Symbol) -> list[Zero]:
 
 
 def zeros_nearby(value: Expr, x: Symbol) -> list[Zero]:
-    """All real zeros of a function; if it is periodic, only some of them.
+    """All real zeros of a function; if it is periodic, only a few of them.
 
     Raises `Unsolved` if they are not found.
     """
@@ -176,7 +176,7 @@ def _of_factor(factor: Expr, q: Symbol) -> list[Zero]:
 
 
 def _is_one_turn(value: Expr, parts: int) -> bool:
-    """Whether the value is not known to be outside one turn."""
+    """Whether the value may be within one turn, -pi < value <= pi."""
     return parts == 1 or not value.is_number or bool(-pi < value and value <= pi)
 
 
@@ -328,7 +328,7 @@ def _allowed(zero: Zero, sign: int | None, q: Symbol) -> list[Zero]:
     """Return a zero with this sign if the coordinate can have this value; otherwise return nothing.
 
     If the sign is unknown, a zero of a positive coordinate gets the condition that its value is positive; raise
-    `Unsolved` if it already has another condition. A value such as l^2 needs no condition: its letters are assumed not
+    `Unsolved` if it already has another condition. A value such as l^2 needs no condition: its symbols are assumed not
     to vanish.
     """
     if not q.is_positive:

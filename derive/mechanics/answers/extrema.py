@@ -209,7 +209,8 @@ def _inside(place: Expr, real: Relation | None, within: Within | None, x: Symbol
 
 def _sign_of_distance(ahead: Expr, width: Expr) -> int | None:
     """Return the sign of the distance from an end of the interval; None if no sign holds for all values of the symbols.
-    The width of the interval is taken to be positive."""
+    The width of the interval is assumed to be positive.
+    """
     signs = (sign_for_all(tidied(part)) for part in (ahead, ahead / width))
     return next((sign for sign in signs if sign is not None), None)
 

@@ -260,8 +260,9 @@ def _energy_by_terms(found: Any, value: Any, of: Quantity) -> Any:
 
 
 def _as_written(value: Expr, x: Symbol, place: Expr) -> Expr:
-    """Write a polynomial in x in ascending powers, with the leading term as a factor: 2 pi sqrt(l/g) (1 + A^2/16).
-    Return a sum, and any other value, unchanged."""
+    """Write a product that is a polynomial in x in ascending powers, with the leading term as a factor: 2 pi sqrt(l/g)
+    (1 + A^2/16). Return any other value unchanged.
+    """
     if place != 0 or x not in value.free_symbols or value.is_Add or not value.is_polynomial(x):
         return value
     try:

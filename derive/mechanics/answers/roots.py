@@ -69,9 +69,9 @@ def roots(
     together: str | None = None,
     key: str | None = None,
 ) -> tuple[Quantity, ...]:
-    """Roots of an equation in one letter, in ascending order if it is known: x = (-b +- sqrt(b^2 - 4 a c))/(2 a) for
-    each quadratic factor, x = -b/a for each linear factor. If the unknown is positive, only roots that can be positive
-    are kept.
+    """Roots of an equation in one letter, in ascending order if this order is known: x = (-b +- sqrt(b^2 - 4 a c))/(2
+    a) for each quadratic factor, x = -b/a for each linear factor. If the unknown is positive, only roots that can be
+    positive are kept.
 
     equation   a polynomial equation in the letter; or a result that is not an equation, whose zeros are sought
     letter     the unknown: a letter, a coordinate, a rate, or an expression such as `cos(theta)`

@@ -81,8 +81,9 @@ def _assume_that_it_fits(placed: PlacedBody, curve: Curve, foot: Location) -> No
 
 
 def _has_rims(placed: PlacedBody) -> bool:
-    """Whether a body moves in space, and its outer shape is the convex hull of one or two circles, as for a disc, a
-    hoop, a cylinder or a cone."""
+    """Whether a body moves in space and its outer shape is the convex hull of one or two circles, as for a disc, a
+    hoop, a cylinder or a cone.
+    """
     outline = _outline(placed)
     return not placed.is_plane and outline is not None and outline.is_straight and not outline.is_line
 
