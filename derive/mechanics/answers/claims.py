@@ -98,8 +98,8 @@ def double(facts: Judged) -> bool:
 
 
 def only(facts: Judged) -> bool:
-    """Whether this is the only root that is kept. At all trial numbers for which it is real, each other root of the
-    polynomial is complex, outside the range of the unknown or, for a positive unknown, not positive."""
+    """Whether this is the only root that is kept. At all trial numbers for which this root is real, each other
+    root of the polynomial is complex, outside the range of the unknown or, for a positive unknown, not positive."""
     alone = facts.inputs["count"] == 1 and _polynomial(facts).degree() > 1 and not is_zero(_slope_there(facts))
     return alone and everywhere(trial_points(_letters(facts)), lambda point: _only_there(facts, point))
 

@@ -93,8 +93,8 @@ def limiting_case(
     `put_in` to set letters equal, b = a. If terms are left out, the result has a symbol of its own, `symbol` or
     omega_lim, and results computed from this symbol are approximate.
     Check: numerically, on each possible side of the limit, the omitted part divided by the last power that is kept
-    shrinks on the way to the limit. If terms are also found by adding, multiplying and dividing power series, without a
-    derivative, they are the same terms.
+    shrinks on the way to the limit. If the terms are also found by adding, multiplying and dividing power series,
+    without a derivative, the two results agree.
     Outcomes: finite, vanishes, diverges (only the leading term); small, large, near (to an order); exact (nothing is
     left out).
     Errors: the result does not contain the letter; the letter changes in the motion and does not go to infinity; the

@@ -23,7 +23,7 @@ from derive.algebra.expressions import explicit
 from derive.mechanics.bodies.mapping import inside, letters_in_order
 from derive.mechanics.bodies.regions import Bounds
 
-LETTERS = 2  # number of draws of the symbols
+LETTERS = 2  # number of sets of random numbers for the symbols
 NODES = {1: 60, 2: 28, 3: 20}  # number of variables -> number of nodes for each variable
 FIGURES = 7
 DIGITS = 36  # working digits for the edges of small cells, which are differences of positions

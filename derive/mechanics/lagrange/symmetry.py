@@ -133,8 +133,8 @@ CHANGE_UNDER_SHIFT = Rule(
 
 
 def _change(of: Quantity, xi: Mapping[Symbol, Expr], gain: Expr, key: str) -> Quantity:
-    """Derive the first-order change of L, the sum of dL/dq xi + dL/dq_dot dxi/dt. It must equal the time derivative of
-    `gain`."""
+    """Derive the first-order change of L, the sum of dL/dq xi + dL/dq_dot dxi/dt. This change must equal the time
+    derivative of `gain`."""
     matter = of.needed(Matter)
     moving = [q.symbol for q in coordinates_of(of)]
     L = explicit(of.value)

@@ -55,7 +55,7 @@ class View:
     @property
     def gravity(self) -> list[Symbol]:
         """Return the given accelerations of free fall: they are in a potential energy and not in a kinetic energy. An
-        acceleration in a kinetic energy, or only in a constraint, describes a motion, such as that of a support.
+        acceleration in a kinetic energy, or only in a constraint, describes the motion of a support, for example.
 
         If no step has a potential energy, because the Lagrangian is given, return all given accelerations.
         """
