@@ -152,7 +152,8 @@ def _sides(x: Symbol, place: Expr) -> tuple[int, ...]:
 
 
 def _rest_of_entry(value: Expr, found: Expr, x: Symbol, place: Expr, power: Rational, side: int) -> Verdict:
-    """Compare the remainder close to `place`, or farther away if the remainder has no value close to `place`."""
+    """Compare the remainder of one entry at two distances close to `place`, or at two larger distances if the remainder
+    has no value there."""
     seen = 0
     letters = (letters_of(value) | letters_of(found) | letters_of(place)) - {x}
     for point in islice(points(letters, seed_of(value)), POINTS):

@@ -406,7 +406,8 @@ def slope_vanishes_by(facts: Judged, letter: Any) -> bool:
 
 def names_put_in(facts: Judged, value: Any) -> bool:
     """Whether the value is an equation whose left side has no minus sign, and the substitution of all stated values in
-    the original gives the result or an equivalent equation. The result is not compared if other results are substituted
+    the original gives the result or an equivalent equation. If a rate has changed its sign, the result must be the
+    negative of the value that the substitution gives. The result is not compared if other results are substituted
     too, if rates are replaced too, if an expression such as cos(theta) is replaced, or if a value contains a replaced
     symbol.
     """

@@ -385,8 +385,8 @@ def _sum_of_squares(root: RootOf) -> bool:
 
 
 def _ascending(found: list[RootOf]) -> list[RootOf]:
-    """Sort the roots in ascending order by their numbers; without numbers, swap two roots if the first is known to be
-    the larger one."""
+    """Sort the roots by their numerical values. If a value is not a number, swap two roots if the first is known to be
+    greater than the second."""
     numbers = [with_numbers(root.value) for root in found]
     if all(number.is_real and not number.free_symbols for number in numbers):
         order = sorted(range(len(found)), key=lambda i: numbers[i].evalf(30))

@@ -360,7 +360,7 @@ def _final(told: Sequence[Replacement]) -> dict[Symbol, Expr]:
 
 
 def _at_once(value: Any, told: Sequence[Replacement]) -> Any:
-    """Return the original with all symbols replaced at once by their final values."""
+    """Return the value before the substitutions, with all symbols replaced at once by their final values."""
     final = _final(told)
     if isinstance(value, Relation):
         return Relation(bound(value.left, final), value.operator, bound(value.right, final))

@@ -135,7 +135,7 @@ def spanned(found: Expr, position: ImmutableMatrix, limits: Bounds) -> Verdict:
 
 
 def _edge(place: Callable[..., Any], here: Sequence[Any], k: int) -> list[Any]:
-    """The edge along one variable, by a central difference, per unit of this variable."""
+    """The derivative of the position with respect to variable k, by a central difference."""
     step = mp.mpf(10) ** -(DIGITS // 3)
     ends = ([x + turn * step * (i == k) for i, x in enumerate(here)] for turn in (1, -1))
     return [(one - other) / (2 * step) for one, other in zip(*(place(*end) for end in ends), strict=True)]
