@@ -340,7 +340,7 @@ def _allowed(zero: Zero, sign: int | None, q: Symbol) -> list[Zero]:
 
 
 def _is_square_of_letters(value: Expr) -> bool:
-    """Whether a value that need not be positive is positive if its symbols do not vanish, such as l^2 for a momentum l.
+    """Whether a value that may be zero is positive if its symbols do not vanish, such as l^2 for a momentum l.
 
     If the result is true, record the assumption that these symbols do not vanish.
     """
