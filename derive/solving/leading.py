@@ -120,7 +120,7 @@ def terms_by_arithmetic(value: Any, series: Sequence[Series], x: Symbol, place: 
 
 
 def to_that_order(found: Any, again: Any, whole: bool) -> Verdict:
-    """Compare two sets of terms; a truncated series is confirmed to its order only, a limit (`whole`) exactly."""
+    """Compare two sets of terms. Equal terms of a truncated series are an approximation; equal limits are not."""
     verdict = equal(found, again)
     if whole or verdict.grade is Grade.REFUTED:
         return verdict
@@ -130,9 +130,9 @@ def to_that_order(found: Any, again: Any, whole: bool) -> Verdict:
 def rest_vanishes(value: Any, found: Any, x: Symbol, place: Expr, power: Rational) -> Verdict:
     """Compare the remainder at two distances: the remainder divided by the last power kept must shrink.
 
-    The next power may be fractional, as in a + b x^(1/4), so the quotient may shrink less than the distance. Both sides
-    of the value `place` are tested where both are possible, because |m - M| has different leading terms on the two
-    sides of m = M.
+    The next power may be fractional, as in a + b x^(1/4), so the quotient may shrink more slowly than the distance.
+    Both sides of the value `place` are tested where both are possible, because |m - M| has different leading terms on
+    the two sides of m = M.
     """
     for before, after in zip(entries_of(value), entries_of(found), strict=True):
         for side in _sides(x, place):
@@ -152,7 +152,8 @@ def _sides(x: Symbol, place: Expr) -> tuple[int, ...]:
 
 
 def _rest_of_entry(value: Expr, found: Expr, x: Symbol, place: Expr, power: Rational, side: int) -> Verdict:
-    """Compare the remainder close to `place`, or farther away if the remainder has no value close to `place`."""
+    """Compare the remainder of one entry at two distances close to `place`, or at two larger distances if the remainder
+    has no value there."""
     seen = 0
     letters = (letters_of(value) | letters_of(found) | letters_of(place)) - {x}
     for point in islice(points(letters, seed_of(value)), POINTS):

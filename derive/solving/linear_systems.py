@@ -4,10 +4,11 @@ The matrix G is antisymmetric and describes forces that do no work; the matrix C
 motion a e^(s t) with a column a of amplitudes is possible if det(M s^2 + (G + C) s + K) = 0. There are three classes of
 systems:
 
-conservative   without G and C: a polynomial in lambda = omega^2, where s = i omega; the columns a are real
-gyroscopic     without C: a polynomial in omega^2. It may be the product of a polynomial in omega and its mirror image,
-               one for each sense of rotation. The roots then have simpler formulas
-damped         a polynomial in s; its factors must be linear or quadratic
+conservative   without G and C: the determinant is a polynomial in lambda = omega^2, where s = i omega; the columns a
+               are real
+gyroscopic     without C: the determinant is a polynomial in omega^2. It may be the product of a polynomial in omega and
+               its mirror image, one for each sense of rotation; the roots then have simpler formulas
+damped         the determinant is a polynomial in s; its factors must be linear or quadratic
 """
 
 from __future__ import annotations
@@ -69,7 +70,8 @@ LAMBDA, OMEGA, S = (
     Dummy("omega", positive=True),
     Dummy("s", real=True),
 )  # the symbol of the root in each of the three classes
-# conservative systems: greatest number of coordinates, and, above three coordinates, of coordinates times symbols
+# conservative systems: greatest number of coordinates; for more than three coordinates, also the greatest product of
+# the number of coordinates and the number of symbols
 LARGEST, LETTERS = 12, 40
 LARGEST_WITH_RATES = 4  # greatest number of coordinates of any other system
 FINEST = 60  # for a uniform chain, the angles (a/b) (pi/2) are tried with whole numbers b below this number
@@ -134,7 +136,7 @@ class CharacteristicRoot:
 
     value     for a conservative system, lambda = omega^2; for a gyroscopic system, the frequency or the rate of growth.
               For a damped system, the rate of decay: b/2a for a quadratic factor and b/a for a linear factor
-    sign      1 if the motion oscillates, 0 if it is free, -1 if it grows; None if this is unknown. For a damped system:
+    sign      1 if the motion oscillates, 0 if omega = 0, -1 if it grows; None if this is unknown. For a damped system:
               1 if the motion is underdamped, 0 if critically damped, -1 if overdamped; the sign of b/a for a linear
               factor
     columns   the mode shapes of a conservative system, orthogonal with respect to M; empty if the root has no formula
@@ -196,7 +198,8 @@ class LinearSystem:
     @cached_property
     def is_minimum(self) -> bool:
         """Whether the potential energy is known to have a minimum and the kinetic energy is known to be nowhere
-        negative, so that no motion grows."""
+        negative; then no motion grows.
+        """
         return is_positive_definite(self.stiffness, self.sign) and sign_of_form(self.mass, self.sign) in (0, 1)
 
     def written(self, letter: Symbol) -> Expr:
@@ -218,7 +221,7 @@ class LinearSystem:
         return tuple(sorted((root for each in self.factors for root in self._roots_of(each)), key=in_order))
 
     def _roots_of(self, factor: Factor) -> list[CharacteristicRoot]:
-        raise NotImplementedError  # as for `factors`
+        raise NotImplementedError
 
     @staticmethod
     def _factored(determinant: Expr, root: Symbol, degree: int) -> list[tuple[Poly, int]]:
@@ -251,10 +254,10 @@ def _check_size(size: int, fits: bool, what: str, help: str | None = None) -> No
 
 @dataclass(frozen=True)
 class Conservative(LinearSystem):
-    """The matrix K - lambda M with symmetric K and M.
+    """A conservative system: its matrix is K - lambda M, with symmetric K and M.
 
-    The entries of a mode shape are polynomials in lambda modulo the irreducible factor of which lambda is a root, so it
-    is decided exactly whether a pivot vanishes.
+    The entries of a mode shape are polynomials in lambda modulo the irreducible factor whose root is lambda, so it is
+    decided exactly whether a pivot vanishes.
 
     name   the name of the numbered roots of a factor without root formulas; by default such a factor is rejected
     """
@@ -263,7 +266,7 @@ class Conservative(LinearSystem):
 
     @cached_property
     def scale(self) -> Expr:
-        """The unit of lambda, such as k/m: the common factor of K over the common factor of M."""
+        """The unit of lambda, such as k/m: the common factor of K divided by the common factor of M."""
         return common_factor(list(self.stiffness)) / common_factor(list(self.mass))
 
     @cached_property
@@ -360,10 +363,10 @@ def _discriminant(a: Expr, b: Expr, c: Expr) -> Expr:
 
 
 def _of_chain(part: Poly) -> list[Expr] | None:
-    """The roots 4 sin^2(a pi/2b) of a uniform chain; None for any other polynomial.
+    """The roots 4 sin^2(a pi/2b), b < `FINEST`, of a uniform chain; None for any other polynomial.
 
     Such a polynomial divides T_b(1 - lambda/2) -+ 1, where T_b is a Chebyshev polynomial. The recursion T_(b + 1) = 2 x
-    T_b - T_(b - 1) is computed modulo the polynomial.
+    T_b - T_(b - 1) is computed modulo this polynomial.
     """
     if not part.get_domain().is_ZZ and not part.get_domain().is_QQ:
         return None
@@ -464,7 +467,7 @@ def _presentable(column: MatrixBase) -> MatrixBase:
 
 @dataclass(frozen=True)
 class Gyroscopic(LinearSystem):
-    """The matrix K + i omega G - omega^2 M with antisymmetric G."""
+    """A gyroscopic system: its matrix is K + i omega G - omega^2 M, with antisymmetric G."""
 
     @cached_property
     def factors(self) -> tuple[Factor, ...]:
@@ -544,9 +547,9 @@ class Gyroscopic(LinearSystem):
         return [CharacteristicRoot(root_of(-square if sign == -1 else square), sign, factor) for square, sign in both]
 
     def _sign_of_square(self, square: Expr, factor: Factor) -> int | None:
-        """The sign of one root of a z^2 + b z + c, where z = omega^2; None if it is unknown.
+        """The sign of `square`, a root of a z^2 + b z + c with z = omega^2; None if the sign is unknown.
 
-        Both roots are positive if all `needs` are positive; one root is positive if a c < 0.
+        Both roots are positive if all `needs` are positive; exactly one root is positive if a c < 0.
         """
         signs = [self.sign(need) for need in factor.needs]
         if all(sign == 1 for sign in signs):
@@ -556,8 +559,8 @@ class Gyroscopic(LinearSystem):
         return -1 if signs == [-1] else None
 
     def column(self, root: CharacteristicRoot) -> tuple[Expr, ...] | None:
-        """The amplitudes in terms of the root OMEGA, or of its formula if this is rational; the first nonzero amplitude
-        is 1.
+        """The amplitudes in terms of the root OMEGA, or in terms of its formula if this formula is rational; the first
+        nonzero amplitude is 1.
 
         Return None if the root is repeated or zero, if its `turn` is unknown, or if no simple form is found. For
         a growing motion OMEGA is the rate kappa, with omega = -i kappa: e^(i omega t) = e^(kappa t).
@@ -602,7 +605,7 @@ def _tidy_ratio(ratio: Expr) -> Expr:
 
 @dataclass(frozen=True)
 class Damped(LinearSystem):
-    """The matrix M s^2 + C s + K.
+    """A damped system: its matrix is M s^2 + (G + C) s + K.
 
     A factor a s^2 + b s + c of the determinant has the roots -b/2a +- i omega, with omega^2 = c/a - b^2/4a^2.
     """
@@ -624,7 +627,7 @@ class Damped(LinearSystem):
 
     @cached_property
     def roots(self) -> tuple[CharacteristicRoot, ...]:
-        """One root for each factor, in the order of the factors."""
+        """One `CharacteristicRoot` for each factor, in the order of the factors."""
         return tuple(map(self._root, self.factors))
 
     def _root(self, factor: Factor) -> CharacteristicRoot:

@@ -60,7 +60,7 @@ def presented(value: Expr, *, in_sums: bool = True) -> Expr:
             forms.append(Add(*(tidied(without_sine_below(term)) for term in Add.make_args(value))))
     apart = shortest(forms)
     product = factored(tidy) if size <= LARGEST else tidy
-    return product if length(product) < length(apart) else apart  # a^2 - b^2 is kept
+    return product if length(product) < length(apart) else apart  # a^2 - b^2 is not factored
 
 
 def _has_an_angle_and_its_double(value: Expr) -> bool:
@@ -101,12 +101,12 @@ def _by_cosine(c: Expr, power: Expr) -> Expr:
 
 
 def _turns_under_root(value: Expr) -> bool:
-    """Whether the value has a root of sines or cosines; squares under this root should stay visible."""
+    """Whether sines or cosines are under a root in the value; the squares under this root should stay visible."""
     roots = (power for power in value.atoms(Pow) if not power.exp.is_Integer)
     return any(root.base.has(sin, cos) for root in roots)
 
 
-MOST_LETTERS = 4  # greatest number of symbols of an expression in which squares that include linear terms are completed
+MOST_LETTERS = 4  # greatest number of symbols if the completed squares include linear terms
 LONGEST_SQUARED = 120  # greatest number of operations of a quadratic form in which squares are completed
 
 

@@ -30,7 +30,7 @@ class Isolated(NamedTuple):
 def mark_between(mark: str, sign: int | None) -> str | None:
     """Turn the operator between a (x^n - v) and zero into the operator between x^n and v; `sign` is the sign of a.
 
-    Return None if an inequality would be divided by a factor of unknown sign.
+    Return None if an inequality would be divided by a factor whose sign is unknown.
     """
     return mark if mark in ("=", "!=") else {1: mark, -1: TURNED[mark]}.get(sign or 0)
 
@@ -48,7 +48,7 @@ def isolated(expr: Expr, letter: Symbol) -> Isolated | None:
 
 
 def solved_for_letter(expr: Expr, letter: Symbol) -> Expr | None:
-    """The value of a symbol at which the expression vanishes; None if it is zero or is not found."""
+    """The value of a symbol at which the expression vanishes; None if this value is zero or is not found."""
     found = isolated(expr, letter)
     if found is None or found.value == 0 or found.power > (2 if letter.is_positive else 1):
         return None
@@ -149,7 +149,8 @@ def solved_for_unknown(of: Quantity, difference: Expr, mark: str, unknown: Expr)
     """The relation between a difference and zero, solved for an unknown u. Rejects a difference that cannot be solved
     for u.
 
-    If the difference contains u only as u^2, the relation is solved for u^2 or, if it is safe to take the root, for u.
+    If the difference contains u only as u^2, the relation is solved for u^2 or, if neither u nor the other side can be
+    negative, for u.
     """
     u = mark_for(unknown)
     written, beside = without_factors_beside(with_unknown(difference, unknown, u), unknown, u)
@@ -191,7 +192,7 @@ def divided_out(difference: Expr, alone: Expr, solved: Expr) -> tuple[Expr, ...]
 
 
 class NotLinear(Rejected):
-    """The error for a result that is not linear in an unknown, nor in its square."""
+    """The error for a result that is linear neither in an unknown nor in a power of it."""
 
 
 def unsolvable(of: Quantity, unknown: Expr, factor: Expr | None = None, power: int = 1) -> Rejected:

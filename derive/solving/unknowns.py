@@ -45,16 +45,17 @@ INVERSE = {cos: acos, sin: asin, tan: atan}
 
 @dataclass(frozen=True)
 class ValueOf(Fact):
-    """The unknown of the equation that a root solves. The root can replace this unknown even if the root has a
-    different symbol."""
+    """For a root of an equation, the unknown of this equation. The root can replace this unknown even if the symbol of
+    the root is different."""
 
     missing = "is not a root of an equation"
     unknown: Expr
 
 
 def unknown_of(verb: str, given: Any) -> Expr:
-    """The unknown that an argument of a verb means: a symbol, or an expression such as cos(theta). Rejects any other
-    argument."""
+    """The unknown that an argument of a verb names: a symbol, or an expression such as cos(theta). Rejects any other
+    argument.
+    """
     found = getattr(given, "symbol", given)
     if isinstance(found, Symbol) or _letter_within(found) is not None:
         return found
@@ -122,7 +123,8 @@ def is_number(quantity: Quantity) -> bool:
 
 
 def residual_of(verb: str, equation: Quantity, or_value: bool = False) -> Expr:
-    """The left side of an equation minus its right side; with `or_value`, also a plain value. Rejects anything else."""
+    """The left side of an equation minus its right side, or, with `or_value`, a scalar value itself. Rejects anything
+    else."""
     value = equation.value
     if or_value and is_number(equation):
         return explicit(value)
@@ -150,8 +152,8 @@ def polynomial_in(
 ) -> tuple[Expr, list[Dummy]]:
     """Return the residual of an equation with a dummy symbol in place of each unknown, and the list of dummy symbols.
 
-    Factors that contain the symbol of an unknown but not the unknown itself are dropped. For an equation, the page
-    assumes that they do not vanish.
+    Factors that contain the symbol of an unknown but not the unknown itself are dropped. Without `or_value`, the
+    assumption that these factors do not vanish is recorded.
     """
     left = residual_of(verb, equation, or_value)
     marks = [mark_for(unknown) for unknown in unknowns]

@@ -77,10 +77,8 @@ def zeros_of(force: Expr, q: Symbol) -> list[Zero]:
 
 
 def zeros_nearby(value: Expr, x: Symbol) -> list[Zero]:
-    """All real zeros of a function; if it is periodic, only some of them.
-
-    Raises `Unsolved` if they are not found.
-    """
+    """Real zeros of a function; of a factor that repeats, only a few zeros. Raises `Unsolved` if a factor cannot be
+    solved."""
     numerator = value.as_numer_denom()[0]
     for form in (numerator, tidied(TR8(numerator.expand()))):
         factors = [base for f in Mul.make_args(form) if (base := f.as_base_exp()[0]).has(x)]
@@ -176,7 +174,7 @@ def _of_factor(factor: Expr, q: Symbol) -> list[Zero]:
 
 
 def _is_one_turn(value: Expr, parts: int) -> bool:
-    """Whether the value is not known to be outside one turn."""
+    """Whether the value may be within one turn, -pi < value <= pi."""
     return parts == 1 or not value.is_number or bool(-pi < value and value <= pi)
 
 
@@ -328,7 +326,7 @@ def _allowed(zero: Zero, sign: int | None, q: Symbol) -> list[Zero]:
     """Return a zero with this sign if the coordinate can have this value; otherwise return nothing.
 
     If the sign is unknown, a zero of a positive coordinate gets the condition that its value is positive; raise
-    `Unsolved` if it already has another condition. A value such as l^2 needs no condition: its letters are assumed not
+    `Unsolved` if it already has another condition. A value such as l^2 needs no condition: its symbols are assumed not
     to vanish.
     """
     if not q.is_positive:
@@ -342,7 +340,7 @@ def _allowed(zero: Zero, sign: int | None, q: Symbol) -> list[Zero]:
 
 
 def _is_square_of_letters(value: Expr) -> bool:
-    """Whether a value that need not be positive is positive if its symbols do not vanish, such as l^2 for a momentum l.
+    """Whether a value that may be zero is positive if its symbols do not vanish, such as l^2 for a momentum l.
 
     If the result is true, record the assumption that these symbols do not vanish.
     """

@@ -98,8 +98,8 @@ def double(facts: Judged) -> bool:
 
 
 def only(facts: Judged) -> bool:
-    """Whether this is the only root that is kept. At all trial numbers for which it is real, each other root of the
-    polynomial is complex, outside the range of the unknown or, for a positive unknown, not positive."""
+    """Whether this is the only root that is kept. At all trial numbers for which this root is real, each other
+    root of the polynomial is complex, outside the range of the unknown or, for a positive unknown, not positive."""
     alone = facts.inputs["count"] == 1 and _polynomial(facts).degree() > 1 and not is_zero(_slope_there(facts))
     return alone and everywhere(trial_points(_letters(facts)), lambda point: _only_there(facts, point))
 
@@ -310,7 +310,9 @@ def exact(facts: Judged) -> bool:
 
 
 def _says_what_is_kept(facts: Judged) -> bool:
-    """Whether the equation is the kept terms set to zero, up to a factor that contains no rate and no acceleration."""
+    """Whether the equation states that the kept terms are zero, up to a factor that contains no rate and no
+    acceleration.
+    """
     residual = explicit(facts.result).residual
     moving = [s for s in residual.free_symbols if s.name.endswith(("_dot", "_ddot"))]
     ratio = facts.inputs["kept"] / residual
@@ -404,9 +406,11 @@ def slope_vanishes_by(facts: Judged, letter: Any) -> bool:
 
 def names_put_in(facts: Judged, value: Any) -> bool:
     """Whether the value is an equation whose left side has no minus sign, and the substitution of all stated values in
-    the original gives the result or an equivalent equation. The result is not compared if other results are
-    substituted too, if rates are replaced too, if an expression such as cos(theta) is replaced, or if a value contains
-    a replaced symbol. For a rate with the opposite sign, `turned_first` judges the sign."""
+    the original gives the result or an equivalent equation. If a rate has changed its sign, the result must be the
+    negative of the value that the substitution gives. The result is not compared if other results are substituted
+    too, if rates are replaced too, if an expression such as cos(theta) is replaced, or if a value contains a replaced
+    symbol.
+    """
     told = {v.left: v.right for role, v in facts.inputs.items() if role.rpartition("_")[0] == "value"}
     others = [role for role in facts.quantities if role.rpartition("_")[0] == "other"]
     if value.operator != "=" or value.left.could_extract_minus_sign():
@@ -476,8 +480,9 @@ def equation_in_its_unknown(facts: Judged, outcome: str) -> bool:
 
 
 def _says_its_bound(facts: Judged, outcome: str) -> bool:
-    """Whether a condition for no root has the form "... < 0", because at equality there is still a root; True for other
-    outcomes."""
+    """Whether a condition for no root has the form "... < 0" (if both sides are equal, there is still a root); True for
+    other outcomes.
+    """
     return outcome != "none" or (facts.result.operator == "<" and is_zero(facts.result.right))
 
 
@@ -516,7 +521,7 @@ def word_of_its_mark(facts: Judged, outcome: str) -> bool:
     difference = explicit(facts.inputs["quantity"]) - explicit(facts.inputs["bound"])
     mark = str(facts.inputs["mark"])
     right_word = MARK_OF.get(facts.words["comparison"]) == mark
-    if facts.inputs.get("for_real"):  # roots are real where their discriminant is positive, or not negative
+    if facts.inputs.get("for_real"):  # > for distinct real roots, >= for real roots
         right_word &= mark in (">", ">=") and facts.quantities["quantity"].step.rule == "answers.discriminant"
     radicand = (
         facts.words.get("seen") == "radicand" and facts.quantities["quantity"].step.rule != "answers.discriminant"

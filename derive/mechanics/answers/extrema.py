@@ -209,7 +209,8 @@ def _inside(place: Expr, real: Relation | None, within: Within | None, x: Symbol
 
 def _sign_of_distance(ahead: Expr, width: Expr) -> int | None:
     """Return the sign of the distance from an end of the interval; None if no sign holds for all values of the symbols.
-    The width of the interval is taken to be positive."""
+    The width of the interval is assumed to be positive.
+    """
     signs = (sign_for_all(tidied(part)) for part in (ahead, ahead / width))
     return next((sign for sign in signs if sign is not None), None)
 
@@ -222,8 +223,8 @@ def _apart(condition: Relation) -> Relation:
 
 
 def _places(slope: Expr, x: Symbol, within: Within | None) -> list[Zero]:
-    """Return zeros of the slope, without the zeros that are known not to exist, for example for the numbers of the
-    problem. Without an interval, the zeros of an angle are within one turn. With an interval, only some of the zeros of
+    """Return zeros of the slope. A zero is left out if its condition is known to be false, for example for the given
+    numbers. Without an interval, the zeros of an angle are within one turn. With an interval, only some of the zeros of
     a periodic slope are found."""
     find = zeros_of if within is None else zeros_nearby
     found = find(slope, x) if slope.has(x) else []

@@ -93,8 +93,8 @@ def limiting_case(
     `put_in` to set letters equal, b = a. If terms are left out, the result has a symbol of its own, `symbol` or
     omega_lim, and results computed from this symbol are approximate.
     Check: numerically, on each possible side of the limit, the omitted part divided by the last power that is kept
-    shrinks on the way to the limit. If terms are also found by adding, multiplying and dividing power series, without a
-    derivative, they are the same terms.
+    shrinks on the way to the limit. If the terms are also found by adding, multiplying and dividing power series,
+    without a derivative, the two results agree.
     Outcomes: finite, vanishes, diverges (only the leading term); small, large, near (to an order); exact (nothing is
     left out).
     Errors: the result does not contain the letter; the letter changes in the motion and does not go to infinity; the
@@ -260,8 +260,9 @@ def _energy_by_terms(found: Any, value: Any, of: Quantity) -> Any:
 
 
 def _as_written(value: Expr, x: Symbol, place: Expr) -> Expr:
-    """Write a polynomial in x in ascending powers, with the leading term as a factor: 2 pi sqrt(l/g) (1 + A^2/16).
-    Return a sum, and any other value, unchanged."""
+    """Write a product that is a polynomial in x in ascending powers, with the leading term as a factor: 2 pi sqrt(l/g)
+    (1 + A^2/16). Return any other value unchanged.
+    """
     if place != 0 or x not in value.free_symbols or value.is_Add or not value.is_polynomial(x):
         return value
     try:

@@ -109,7 +109,6 @@ def _solution(
     excluded: Any,
     key: str,
 ) -> Quantity:
-    """Return the step for one unknown."""
     above = matrix.copy()
     above[:, i] = right
     unknown = wanted[i]
@@ -148,7 +147,7 @@ def _solution(
             named={"unknown": unknown},
             outcome_data={"count": Integer(len(wanted)), "place": Integer(i)},
         ),
-        parents=list(given),  # the page shows the equations in this order
+        parents=list(given),  # the page shows the equations in the given order
         scope=Scope(differ=EVERYTHING),
     )
 
@@ -227,6 +226,6 @@ def _key_of(unknown: Expr) -> str:
     unknowns="for: letters, rates, accelerations, forces",
 )
 def _in_results(equations: Sequence[Quantity], unknowns: Letters, key: str) -> tuple[Quantity, ...]:
-    """Solve the equations. The requested name is the key of a single unknown; several unknowns have numbered keys."""
+    """The requested name is the key of a single unknown; several unknowns have numbered keys."""
     keys = [key] if len(unknowns) == 1 else [f"{key}_{i + 1}" for i in range(len(unknowns))]
     return checked(solved_for)(tuple(equations), *unknowns, keys=keys)

@@ -418,7 +418,7 @@ def real_where(roots: Quantity, letter: Any, key: str = "real_where", distinct: 
     The discriminant is a separate step; for a linear equation it is b^2, which does not vanish. If values were
     substituted in the equation, the condition is first shown in letters, if it can be solved in letters.
     Check: as `where`.
-    Outcomes: those of `where`.
+    Outcomes: as for `where`.
     Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1.
     """
     of, of_both, mark = roots.needed(Roots), discriminant(roots), ">" if distinct else ">="

@@ -69,9 +69,9 @@ def roots(
     together: str | None = None,
     key: str | None = None,
 ) -> tuple[Quantity, ...]:
-    """Roots of an equation in one letter, in ascending order if it is known: x = (-b +- sqrt(b^2 - 4 a c))/(2 a) for
-    each quadratic factor, x = -b/a for each linear factor. If the unknown is positive, only roots that can be positive
-    are kept.
+    """Roots of an equation in one letter, in ascending order if this order is known: x = (-b +- sqrt(b^2 - 4 a c))/(2
+    a) for each quadratic factor, x = -b/a for each linear factor. If the unknown is positive, only roots that can be
+    positive are kept.
 
     equation   a polynomial equation in the letter; or a result that is not an equation, whose zeros are sought
     letter     the unknown: a letter, a coordinate, a rate, or an expression such as `cos(theta)`
@@ -385,8 +385,8 @@ def _sum_of_squares(root: RootOf) -> bool:
 
 
 def _ascending(found: list[RootOf]) -> list[RootOf]:
-    """Sort the roots in ascending order by their numbers; without numbers, swap two roots if the first is known to be
-    the larger one."""
+    """Sort the roots by their numerical values. If a value is not a number, swap two roots if the first is known to be
+    greater than the second."""
     numbers = [with_numbers(root.value) for root in found]
     if all(number.is_real and not number.free_symbols for number in numbers):
         order = sorted(range(len(found)), key=lambda i: numbers[i].evalf(30))

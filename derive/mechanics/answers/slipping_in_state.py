@@ -92,7 +92,7 @@ def _replaced_by(result: Quantity) -> tuple[Expr, Expr]:
 
 
 def _check_used(friction: Quantity, normal: Quantity, results: Sequence[Quantity], values: Mapping[str, Expr]) -> None:
-    """Reject a result that changes neither force; `check_values_used` rejects values of letters that do not occur."""
+    """Reject a result that changes neither force, and a value of a letter that does not occur."""
     used = [one for force in (friction, normal) for one in _with_effect(force, results, values)[0]]
     for each in results:
         if each not in used:

@@ -90,8 +90,8 @@ def put_in(
     a prescribed function is given, as a function of the time or as a constant, its rates are substituted too.
     Check: all letters of the original replaced at once by their final values; if `again` is given, also equality with
     this earlier result.
-    A rate from conservation of energy has the opposite sign at a place to which the motion comes after it has turned
-    back. If the motion reaches the place only under a condition, the sentence states this condition.
+    A rate from conservation of energy has the opposite sign at a place that the motion reaches after turning back.
+    If the motion reaches the place only under a condition, the sentence states this condition.
     Outcomes: results (with results), values (with values only), zero (with values only, and the result is zero),
     identity (an equation that always holds after the substitution), again (an earlier result is reproduced), turned (a
     rate that has changed its sign).
@@ -319,8 +319,9 @@ def _plain(of: Quantity, target: Expr, at: Any) -> Expr:
 
 
 def _all_put(value: Any, pairs: Sequence[Replacement], called: str, of: Quantity, told: list[Replacement]) -> Any:
-    """Return the value after these replacements, and append to `told` each replacement that changes the value. Reject a
-    call in which no replacement changes the value."""
+    """Return the value after these replacements, and append to `told` each replacement that changes the value. Reject
+    replacements that together leave the value unchanged.
+    """
     before = value
     for target, at in pairs:
         put = partial(_replaced, target, at)
@@ -359,7 +360,7 @@ def _final(told: Sequence[Replacement]) -> dict[Symbol, Expr]:
 
 
 def _at_once(value: Any, told: Sequence[Replacement]) -> Any:
-    """Return the original with all symbols replaced at once by their final values."""
+    """Return the value before the substitutions, with all symbols replaced at once by their final values."""
     final = _final(told)
     if isinstance(value, Relation):
         return Relation(bound(value.left, final), value.operator, bound(value.right, final))
@@ -367,8 +368,9 @@ def _at_once(value: Any, told: Sequence[Replacement]) -> Any:
 
 
 def arranged(value: Any, moving: Sequence[Symbol]) -> Any:
-    """Simplify a value. Sort an equation of motion by its accelerations. In a relation to zero that contains no
-    acceleration, drop positive factors."""
+    """Simplify a value. Sort an equation of motion by its accelerations. If a relation without accelerations compares a
+    value with zero, drop the positive factors of this value.
+    """
     if isinstance(value, MatrixBase):
         return ImmutableDenseMatrix(value.applyfunc(presented))
     if not isinstance(value, Relation):

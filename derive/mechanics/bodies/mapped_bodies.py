@@ -85,7 +85,7 @@ class GeneralBody(Body):
         fresh = {u: scalar(u.name) for u in limits}
         outside, self._profile = given.xreplace(fresh).as_independent(*fresh.values(), as_Add=False)
         self.given_mass, self.given_density = mass, None if density is None else outside
-        next(inside(self._limits, looks=1))  # raises an error if no draw of the symbols puts the limits in order
+        next(inside(self._limits, looks=1))  # raises an error if no random numbers put the limits in order
         self._mapped = cell(self._position, self._limits)
         if self._mapped == 0:
             message = f"the position of this `{type(self).__name__}` does not depend on all of its variables"

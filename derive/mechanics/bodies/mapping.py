@@ -18,7 +18,7 @@ from derive.algebra.tidy import tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.bodies.regions import Bounds, Point, Region, coordinates
 
-TRIES = 40  # greatest number of draws until every lower limit is below its upper limit
+TRIES = 40  # greatest number of random choices until every lower limit is below its upper limit
 LOOKS = 6  # number of points at which the sign of a cell is evaluated
 
 

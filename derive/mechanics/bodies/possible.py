@@ -2,8 +2,8 @@
 density that changes its sign, a negative mass or size.
 
 The checks of position maps and of parts are numerical: Newton's method on the position map of one part looks for points
-of another part. These checks reject a body only if it is impossible for every draw of its symbols that can be
-evaluated; a symbol with a number in the problem has this number in each draw.
+of another part. The numbers for the symbols are random, except the numbers that the problem gives. These checks reject
+a body only if it is impossible for every set of numbers for which it can be evaluated.
 """
 
 from __future__ import annotations
@@ -111,7 +111,7 @@ def check_parts(parts: Sequence[Any]) -> None:
 
 
 def _faults(pieces: Sequence[Piece], charts: Sequence[Chart]) -> dict[Fault, None]:
-    """Return the faults of the parts for one draw of the symbols, each as a key; empty if the parts can form a body. A
+    """Return the faults of the parts for one set of numbers, each as a key; empty if the parts can form a body. A
     fault at a single sampled point is ignored."""
     found: dict[Fault, int] = {}
     left = False
@@ -183,8 +183,8 @@ def check_map(name: str, position: ImmutableMatrix, limits: Bounds, density: Exp
 def _always(pieces: Sequence[Piece]) -> Fault | None:
     """Return a fault that occurs for every random choice of numbers for the symbols, or None.
 
-    Choices for which the places of the body cannot be evaluated do not count. A fault of only some choices is an
-    accident: two of many rods may overlap in one choice, and two other rods in the next one.
+    Choices for which the places of the body cannot be evaluated do not count. A fault in only some
+    choices is due to the numbers, for example if two of many rods overlap in one choice, and two other rods in another.
     """
     found: list[Fault] | None = None
     letters = {s for piece in pieces for s in piece.letters}

@@ -23,7 +23,7 @@ from derive.algebra.expressions import explicit
 from derive.mechanics.bodies.mapping import inside, letters_in_order
 from derive.mechanics.bodies.regions import Bounds
 
-LETTERS = 2  # number of draws of the symbols
+LETTERS = 2  # number of sets of random numbers for the symbols
 NODES = {1: 60, 2: 28, 3: 20}  # number of variables -> number of nodes for each variable
 FIGURES = 7
 DIGITS = 36  # working digits for the edges of small cells, which are differences of positions
@@ -135,7 +135,7 @@ def spanned(found: Expr, position: ImmutableMatrix, limits: Bounds) -> Verdict:
 
 
 def _edge(place: Callable[..., Any], here: Sequence[Any], k: int) -> list[Any]:
-    """The edge along one variable, by a central difference, per unit of this variable."""
+    """The derivative of the position with respect to variable k, by a central difference."""
     step = mp.mpf(10) ** -(DIGITS // 3)
     ends = ([x + turn * step * (i == k) for i, x in enumerate(here)] for turn in (1, -1))
     return [(one - other) / (2 * step) for one, other in zip(*(place(*end) for end in ends), strict=True)]

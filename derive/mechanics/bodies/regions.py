@@ -47,7 +47,7 @@ class Point:
     axes: ImmutableMatrix = ALONG
 
     def seen(self, place: ImmutableMatrix) -> ImmutableMatrix:
-        """A place of the body, relative to this point and along the axes of this point."""
+        """A place of the body, measured from this point, in components along the axes of the point."""
         way = place - self.position
         return ImmutableDenseMatrix((way if self.axes == ALONG else self.axes.T * way).expand())
 

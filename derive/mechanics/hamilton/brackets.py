@@ -177,7 +177,7 @@ def _written(value: Expr) -> Expr:
 
 
 def _told_among(value: Expr, among: Sequence[Quantity]) -> list[Form]:
-    """Return the line with the result as a number times the symbol of a step; no line if no step has this property."""
+    """Return the line with the result as a number times the symbol of a step; no line if there is no such step."""
     for known in among:
         ratio = tidied(value / explicit(known.value)) if value != 0 else ZERO
         if ratio.is_number and ratio != 0:

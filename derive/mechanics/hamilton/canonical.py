@@ -46,7 +46,7 @@ def hamiltonian(of: Quantity, symbol: str | None = None, key: str = "hamiltonian
 
     of   the Lagrangian, J
 
-    Steps derive the momenta, and the rates in terms of the momenta.
+    Separate steps derive the momenta, and the rates in terms of the momenta.
     Second route: H is T_2 - T_0 + U, where T_2 and T_0 are the parts of T of degree 2 and 0 in the rates. With the
     momenta as functions of the rates, dH/dp is q_dot, and -dH/dq is the sum of F . dr/dq + m v . d(dr/dq)/dt. Here F
     are the magnetic forces and the forces with a potential energy. For charges e in magnetic fields, the time

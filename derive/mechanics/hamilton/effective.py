@@ -152,7 +152,7 @@ def routhian(of: Quantity, *constants: Quantity, symbol: str | None = None, key:
     of          the Lagrangian, J
     constants   momenta of cyclic coordinates, results of `conserved`
 
-    Steps derive the rates of the cyclic coordinates.
+    Separate steps derive the rates of the cyclic coordinates.
     Second route: -dR/dp is the rate of a cyclic coordinate. For each other coordinate, dR/dq_dot is the sum of
     m v . dr/dq, and dR/dq is the sum of F . dr/dq + m v . d(dr/dq)/dt over the mass points and forces. For charges e in
     magnetic fields, the sum of e A . dr/dq is added to dR/dq_dot, and its time derivative is added to dR/dq. With the

@@ -56,8 +56,8 @@ class Collision:
     restitution   the ratio of the speed of separation to the speed of approach
     letter        the symbol of the impulse; without a normal, the symbol of each component of the impulse also has the
                   axis as an index
-    of            the bodies or particles of the start and of the end; None for one that is neither stated nor known
-                  from the place
+    of            two entries, for the start and for the end: the body or particle there; None if it is neither stated
+                  nor known from the place
     given         the normal and the restitution as the author gave them, for a second route
     """
 

@@ -265,8 +265,8 @@ def _velocity(body: Alone) -> Vector:
 
 
 def _by_lagrange(found: Relation, impact: Impact, balance: Balance) -> tuple[Expr, Expr]:
-    """Return left minus right side of the law, and the same for Lagrange's equations, integrated over the impact, each
-    times the change of its coordinate, and added up."""
+    """Return left minus right side of the law, and left minus right side of a sum of Lagrange's equations. For this
+    sum, each equation is integrated over the impact and multiplied by the change of its coordinate."""
     with unrecorded():
         kinetic, kinds = kinetic_energy_of(impact.system), impact.system.coordinates
         of = {s: momentum_jump(impact, kinetic, Coordinate(s, kinds[s])) for s in balance.changes}

@@ -151,7 +151,7 @@ def squares_of_rates(place: Sequence[Expr], moving: Sequence[Symbol]) -> Expr:
 
 
 def power_of(load: Load, moving: Sequence[Symbol]) -> Expr:
-    """Return the power F . v, where v is the time derivative of the point of application."""
+    """Return the power F . v, where v is the velocity of the point of application."""
     velocity = [by_functions_of_time(c, list(moving)).xreplace(dict(load.held)) for c in load.place]
     return Add(*(f * v for f, v in zip(load.force, velocity, strict=True)))
 

@@ -577,7 +577,7 @@ ONE_SIDED = {  # enforcer -> what it would have to do if its force were negative
 
 
 def _check_one_sided(each: Constraint, value: Expr | None) -> None:
-    """Reject a surface that would have to pull in every state, and a string that would have to push."""
+    """Reject a force that is negative in every state, because a surface cannot pull and a string cannot push."""
     if each.enforcer in ONE_SIDED and value is not None and sign_known(explicit(value)) == -1:
         why, help_line = ONE_SIDED[each.enforcer]
         message = f"the force `{each.force}` = {value} is negative in every state, so {why}"

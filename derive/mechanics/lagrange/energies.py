@@ -267,7 +267,7 @@ def kinetic_energy_of(system: System, symbol: str | None = None, key: str = "kin
 
     Here v is the speed of a particle or of a centre of mass, and I is about the centre of mass. If a body is held at a
     point about which its inertia is given or can be derived, the body has no term with v, and I is about this point.
-    Steps derive the square of each speed, each inertia that is not given and, in space, each angular velocity.
+    Separate steps derive the square of each speed, each inertia that is not given and, in space, each angular velocity.
     Second route: half the sum of m v.v over mass points, with their positions differentiated as functions of t.
     Errors: the moments of inertia of a body are known only about a point other than the required one.
     Source: Taylor, *Classical Mechanics*, section 7.1; Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.

@@ -189,7 +189,8 @@ def energy_function_rate(of: Quantity, key: str | None = None) -> Quantity:
 
     of   the energy function h, J
 
-    Steps derive the generalized forces Q. For a constraint linear in the rates, the terms without rates replace df/dt.
+    Separate steps derive the generalized forces Q. For a constraint linear in the rates, the terms without rates
+    replace df/dt.
     Second route: the time derivative of h as a function of t, minus the sum of q_dot (m a - F) . dr/dq, which vanishes
     by d'Alembert's principle.
     Outcomes: conserved (no force outside L does work, and L does not contain the time), changes (only because L

@@ -53,7 +53,7 @@ def noether(
     shift    coordinate -> xi, a formula in coordinates and time: each q becomes q + epsilon xi
     gained   F, a formula in coordinates and time, if the shift adds epsilon dF/dt to L; by default zero
 
-    Steps show that L is invariant up to dF/dt, and derive the momenta.
+    Separate steps show that L is invariant up to dF/dt, and derive the momenta.
     Second route: the time derivative of Q as a function of t is the sum of xi (m a - f) . dr/dq with the forces f; this
     sum vanishes by d'Alembert's principle. Also, Q + F is the sum of m v . dr over the mass points, and of e A . dr
     over charges e in magnetic fields. Here epsilon dr is the displacement by the shift.
@@ -133,8 +133,8 @@ CHANGE_UNDER_SHIFT = Rule(
 
 
 def _change(of: Quantity, xi: Mapping[Symbol, Expr], gain: Expr, key: str) -> Quantity:
-    """Derive the first-order change of L, the sum of dL/dq xi + dL/dq_dot dxi/dt. It must equal the time derivative of
-    `gain`."""
+    """Derive the first-order change of L, the sum of dL/dq xi + dL/dq_dot dxi/dt. This change must equal the time
+    derivative of `gain`."""
     matter = of.needed(Matter)
     moving = [q.symbol for q in coordinates_of(of)]
     L = explicit(of.value)

@@ -1,4 +1,4 @@
-"""Checks of what the forces and constraints of a system act on.
+"""Check the objects on which the forces and constraints of a system act.
 
 The place of a force must be fixed, or move with a part of the system. The gradient of a constraint must not vanish,
 because the constraint force acts along this gradient. Friction between two bodies must act on both of them.

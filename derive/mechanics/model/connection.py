@@ -57,7 +57,6 @@ class Connection(Part):
         return replace(self, forces=tuple(each.moved(known) for each in self.forces))
 
     def on(self, body: Any) -> Sequence[PointForce]:
-        """The forces on one body or particle."""
         return [each for each in self.forces if each.of is body or each.of == body]
 
 

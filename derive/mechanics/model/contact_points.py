@@ -81,8 +81,9 @@ def _assume_that_it_fits(placed: PlacedBody, curve: Curve, foot: Location) -> No
 
 
 def _has_rims(placed: PlacedBody) -> bool:
-    """Whether a body moves in space, and its outer shape is the convex hull of one or two circles, as for a disc, a
-    hoop, a cylinder or a cone."""
+    """Whether a body moves in space and its outer shape is the convex hull of one or two circles, as for a disc, a
+    hoop, a cylinder or a cone.
+    """
     outline = _outline(placed)
     return not placed.is_plane and outline is not None and outline.is_straight and not outline.is_line
 
@@ -127,7 +128,7 @@ def _rims(placed: PlacedBody) -> list[tuple[Expr, Expr]]:
 def _check_lowest(placed: PlacedBody, plane: Surface, place: Location, gap: Expr) -> None:
     """Check that the place of contact is on a rim of the body, and that no place on a rim is nearer to the plane.
 
-    The lowest place of a rim is below the centre of the rim by r sin(a), where r is the radius of the rim and a is the
+    The lowest place of a rim is r sin(a) below the centre of the rim, where r is the radius of the rim and a is the
     angle between the rim and the plane.
     """
     middle = _own(placed, ZERO, ZERO, ZERO)

@@ -138,7 +138,7 @@ def contact(
                the other horizontal axis is perpendicular to the first axis
     sliding    the coefficient of sliding friction mu: the friction mu N opposes the velocity of slip s of the material
                points. In space it is -mu N s/|s|, where s is not zero
-    direction  a vector, "right" or "left". With `sliding`, the material point of the body slips over the surface in
+    direction  "right", "left" or a vector. With `sliding`, the material point of the body slips over the surface in
                this direction; in space it may be left out, and must be left out if the coordinates allow other
                directions of slip. With `rolling` or `static`, the friction on the body is positive in this direction
     static     the coefficient of static friction mu_s: the material points in contact do not move over each other, so
@@ -212,8 +212,9 @@ def _check_carried(touch: Contact, rough: bool) -> None:
 def _check_moves_with_its_material(surface: Surface) -> None:
     """Reject a plane or circle whose shape does not move with the body that carries it, or with its rotating axes.
 
-    A particle of a plane stays on the plane: with its place p, its unit normal n and the velocity v of the material,
-    n . (v(p) - dp/dt) = 0 and dn/dt = omega x n. A particle at the centre of a circle stays at the centre.
+    A particle of a plane must stay on the plane: n . (v(p) - dp/dt) = 0 and dn/dt = omega x n, where p is a place of
+    the plane, n is its unit normal, and v and omega belong to the material. A particle at the centre of a circle must
+    stay at the centre.
     """
     if surface.of is None and not isinstance(surface.moves, Axes) or isinstance(surface, Curve):
         return

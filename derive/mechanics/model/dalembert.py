@@ -137,7 +137,7 @@ class Matter(Fact):
         return bool(self.points or self.loads)
 
     def named(self, routes: Mapping[str, Route]) -> dict[str, Route]:
-        """The second routes by name; a subclass changes the names to show on which facts the routes are based."""
+        """The second routes by name; a subclass may rename them."""
         return dict(routes)
 
     def further_routes(self, q: Symbol) -> dict[str, Route]:

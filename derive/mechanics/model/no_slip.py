@@ -240,8 +240,9 @@ def _solved(
         return Add(*(m * v.subs(known) for m, v in zip(marks, velocity, strict=True))), ZERO
 
     def no_more(relation: Relation) -> tuple[Expr, Expr]:
-        """Check that the condition follows if the particle is at rest: as a further row, the condition does not raise
-        the rank."""
+        """Check that the condition holds if the particle is at rest on the surface: as a further row, the condition
+        does not raise the rank.
+        """
         lines = velocity_of_particle(body, at, ground)
         return Integer(_rank([*lines, relation.residual], moving)), Integer(_rank(lines, moving))
 

@@ -108,7 +108,7 @@ def by_squares(value: Expr) -> Expr:
     return min((value, *forms), key=lambda form: (length(form) + _minuses_below(form), len(form.atoms(Add))))
 
 
-@lru_cache(maxsize=64)  # the solutions of linear equations have the same denominator
+@lru_cache(maxsize=64)  # solutions of the same linear equations have the same denominator
 def _factored_by_squares(value: Expr) -> tuple[Expr, ...]:
     forms = dict.fromkeys(f(value).expand() for f in _SQUARES) if value.has(sin, cos) else [value]
     return tuple(factor(form) for form in forms)

@@ -48,7 +48,7 @@ class Pulley(Connection):
 
 @dataclass(frozen=True)
 class Rim(Pulley):
-    """The rim of a round body that a string turns.
+    """The rim of a round body on which a string is wound, or over which it runs.
 
     of   the body
     """
@@ -64,7 +64,7 @@ class Line(Connection):
     is_rod    whether the line is a rod, which can push as well as pull
     rope      the particle whose mass is distributed along the line; None for a line without mass
     drawn     the symbol of the tension in force diagrams, if the coordinates keep the length constant
-    pieces    the straight pieces, in order, if there is such a symbol; otherwise empty
+    pieces    the straight pieces, in order, if `drawn` is given; otherwise empty
     """
 
     through: tuple[Location | Pulley, ...]
@@ -404,7 +404,8 @@ def _kept_lengths(pieces: Sequence[tuple[Location, Location]], whole: Expr | Non
     """Return the lengths of the pieces if their sum contains no coordinates; otherwise None.
 
     The length of a piece on a fixed line is u or -u. If the sign of u is unknown, it is chosen so that the coordinates
-    cancel; if several choices remain, the sum is the given length, or else it has no minus sign in front.
+    cancel; among several choices, a sum equal to the given length is preferred, then a sum without a leading minus
+    sign.
     """
     kept = []
     for lengths in product(*(_possible_lengths(*piece) for piece in pieces)):

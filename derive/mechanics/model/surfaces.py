@@ -238,7 +238,6 @@ def plane(
 
 
 def _check_motion(surface: Plane) -> None:
-    """Check the motion of the material along the surface."""
     if surface.of is not None and surface.moves is not None:
         message = "the body that carries the surface already determines the motion of the surface"
         raise Rejected(Complaint("twice", message, help="leave out `of` or the motion"))

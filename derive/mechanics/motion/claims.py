@@ -123,7 +123,7 @@ def turned_first(facts: Judged) -> bool:
 
 
 def comes_there(facts: Judged, place: Relation) -> bool:
-    """Whether the sentence names the place to which the motion comes after it has turned back."""
+    """Whether the sentence names the place to which the motion comes after turning back."""
     (come,) = facts.inputs["arrivals"]
     return come.turned and place.operator == "=" and place.sides == (come.unknown, come.place)
 
@@ -258,7 +258,7 @@ def steady(facts: Judged, fact: Steady) -> bool:
 
 
 def friction_and_normal_of_one_contact(facts: Judged, outcome: str) -> bool:
-    """Whether the two forces act at one place, perpendicular to each other, and the coefficient is that of the
+    """Whether the two forces act at one place, perpendicular to each other, and the coefficient belongs to their
     contact."""
     friction, normal = (_constraint_of(facts.quantities[role]) for role in ("friction", "normal"))
     if friction is None or normal is None or friction.limit is None:

@@ -71,7 +71,7 @@ def leaves_contact(force: Quantity, letter: Letter, start: Value, key: str = "le
     letter   the unknown: a coordinate, or a function of a coordinate such as `cos(theta)`
     start    the value of the unknown at the start; the force must be positive at the start or just after it
 
-    If the force depends on a squared rate, q_dot^2 = f(q) by conservation of energy, the motion reaches the place only
+    If the force depends on a squared rate, q_dot^2 = f(q) by conservation of energy, contact is lost at the place only
     if f is positive there. If the sign of f there depends on the symbols, the page states the condition f > 0.
     Factors of the force that are known to be positive, such as sin(theta) for 0 < theta < pi/2, are omitted.
     Check: the force is zero at the place and positive between the start and the place. Witness: the motion of the

@@ -17,7 +17,7 @@ from derive.algebra.equality import Grade, Verdict
 from derive.algebra.expressions import RATES, TIME, rate, scalar
 
 FIGURES = 10  # the change and the integral of the rate must agree to this number of figures, out of 15
-STEPS = (4, 16, 64, 256)  # numbers of steps from t = 0 to t = 1, tried in turn until change and integral agree
+STEPS = (4, 16, 64, 256)  # numbers of steps from t = 0 to t = 1, tried in turn until the change and the integral agree
 PARTS = range(2, 18, 2)  # numbers of parts into which a step is divided, for the extrapolation to zero length
 
 State: TypeAlias = list[complex]  # complex, because a square root may be imaginary for random numbers

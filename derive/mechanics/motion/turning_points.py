@@ -125,8 +125,9 @@ def words_of(arrivals: Sequence[Arrival]) -> dict[str, str]:
 
 
 def _may_end(speed: Quantity) -> str:
-    """Return the word for what may end during the motion: "contact" with a surface that cannot pull, or "taut" for a
-    taut string; otherwise an empty text."""
+    """Return the word for what may end during the motion: "contact" with a surface that cannot pull, or "taut" for the
+    tension of a string; otherwise an empty text.
+    """
     kept = [fact for each in speed.ancestors() if (fact := each.fact(Constrained)) is not None]
     enforcers = {each.enforcer for fact in kept for each in fact.constraints}
     return "contact" if "surface" in enforcers else "taut" if "string" in enforcers else ""

@@ -221,7 +221,7 @@ def changes_for(
 
 
 def _independent(matrix: ImmutableDenseMatrix) -> list[int]:
-    """The indices of rows that are independent and span all rows."""
+    """The indices of rows that are independent and span the row space."""
     rows: list[int] = []
     for i in range(matrix.rows):
         if generic_rank(matrix.extract([*rows, i], range(matrix.cols))) > len(rows):

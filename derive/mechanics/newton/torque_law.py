@@ -169,7 +169,7 @@ def _point(body: Alone, about: str, at_rest: bool) -> About:
 
 
 def _points_at_rest(body: Alone) -> list[About]:
-    """The points at which unknown forces act, first the point with the most of them."""
+    """The points at which unknown forces act, first the point with the most unknown forces."""
     touched = [force.at for force in body.forces if force.at is not None and force.letter is not None]
     return [About("point", at) for at in sorted(dict.fromkeys(touched), key=lambda place: -touched.count(place))]
 

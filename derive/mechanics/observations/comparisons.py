@@ -230,8 +230,9 @@ CIRCLING = Rule(
 
 
 def circling(view: View) -> Observed:
-    """Acceleration that is a constant times the velocity turned by a right angle, so the motion is uniform in a
-    circle."""
+    """Acceleration that is a constant times the velocity turned by a right angle, so the particle moves uniformly on a
+    circle.
+    """
     moving = {q.symbol: q for q in view.values("acceleration")}
     coordinates = dict.fromkeys(q for each in moving.values() for q in each.coordinates if rate(q, 2) in moving)
     for x, y in combinations(sorted(coordinates, key=str), 2):

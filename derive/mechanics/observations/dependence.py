@@ -521,7 +521,7 @@ BELOW = Rule(
 
 
 def below(view: View) -> Observed:
-    """Frequency of oscillation below a given angular velocity; their ratio approaches 1 as the velocity grows."""
+    """Frequency that is below a given angular velocity; their ratio approaches 1 as the angular velocity grows."""
     for of in view.values("angular speed"):
         value = explicit(of.value)
         for letter in [s for s in view.of_kind("angular speed") if s in value.free_symbols]:

@@ -41,7 +41,7 @@ class View:
         return [letter for letter, own in self.letters.items() if own == kind]
 
     def in_order(self, symbols: Collection[Any]) -> list[Symbol]:
-        """Return the given symbols among these, in the order of the problem."""
+        """Return the given symbols that are in `symbols`, in the order of the problem."""
         return [letter for letter in self.letters if letter in symbols]
 
     def values(self, *kinds: str) -> Iterator[Quantity]:
@@ -54,8 +54,8 @@ class View:
 
     @property
     def gravity(self) -> list[Symbol]:
-        """Return the given accelerations of free fall: they are in a potential energy and not in a kinetic energy. An
-        acceleration in a kinetic energy, or only in a constraint, describes a motion, such as that of a support.
+        """Return the given accelerations of free fall: they are in a potential energy and not in a kinetic energy. A
+        given acceleration of a support is left out: it is in a kinetic energy, or only in a constraint.
 
         If no step has a potential energy, because the Lagrangian is given, return all given accelerations.
         """

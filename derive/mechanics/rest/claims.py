@@ -453,8 +453,9 @@ def order_of(*orders: int, more: bool = False) -> Predicate:
 
 
 def shaped(shape: str, at_bound: bool) -> Predicate:
-    """Judge by differentiation whether the first nonzero derivative, from the second on, yields this shape; the step
-    uses a series. If `at_bound` is true, a case must be named, and the second derivative must vanish."""
+    """Judge by differentiation whether the first nonzero derivative, from the second on, yields this shape. If
+    `at_bound` is true, a case must be named, and the second derivative must vanish.
+    """
 
     def is_so(facts: Judged) -> bool:
         q, place = facts.inputs["coordinate"], facts.inputs["place"]

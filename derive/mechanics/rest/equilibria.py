@@ -2,7 +2,7 @@
 exist.
 
 The forces come from a potential energy, or from a Lagrangian with the rates set to zero: then V = -L is an effective
-potential energy. Several coordinates are found one after the other, or together if the forces are linear.
+potential energy. The values of several coordinates are found one after the other, or together if the forces are linear.
 """
 
 from __future__ import annotations

@@ -130,7 +130,8 @@ def _motion(
 
 
 def _slopes(left: Leftover, still: Sequence[Any], first: int, count: int) -> Any:
-    """Return the derivatives with respect to the coordinates, the rates or the accelerations, from differences."""
+    """Return the derivatives of the residuals with respect to the `count` arguments from number `first` on, by central
+    differences."""
     step = mp.mpf(10) ** -(DIGITS // 3)
     found = mp.matrix(count, count)
     for k in range(count):

@@ -1,5 +1,6 @@
-"""Find the values of a symbol for which an equilibrium is stable; a higher order decides whether the value on the
-boundary is one of them."""
+"""Find the values of a symbol for which an equilibrium is stable; a higher order of the energy decides whether the
+value on the boundary is one of them.
+"""
 
 from __future__ import annotations
 

@@ -216,7 +216,8 @@ def perturbation_rate_squared(
 
 
 def _by_differences(value: Expr, disturbed: Disturbed) -> Expr:
-    """Write the moment about the axis first in each difference, (I_z - I_x)(I_z - I_y), if the moments are symbols."""
+    """Write the moment about the axis of rotation first in each difference, (I_z - I_x)(I_z - I_y), if the moments are
+    symbols."""
     found = tidied(value)
     about = disturbed.moments[disturbed.axis]
     across = [disturbed.moments[k] for k in disturbed.across]

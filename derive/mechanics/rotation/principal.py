@@ -216,7 +216,6 @@ def _axis(
     symbol: str,
     key: str,
 ) -> Quantity:
-    """Derive one principal axis."""
     tensor = moments.needed(PrincipalOf).tensor
     is_free = direction.has(angle)
     return establish(

@@ -42,7 +42,7 @@ class LetteredBody(RigidBody):
 
 def symbolic_body(body: Body, about: str = "pivot", symbol: str = "I") -> LetteredBody:
     """Return a body with symbols for its mass, the distance of its centre of mass from a point on the z axis, and the
-    principal moments about this point. Steps derive the values of the symbols.
+    principal moments about this point. Separate steps derive the values of the symbols.
 
     body     a body whose axes at the point are principal axes, with its centre of mass on the z axis
     about    the point, which is the "pivot" of the result

@@ -266,7 +266,7 @@ def principal_angle(inertia: Quantity, symbol: str = "theta", key: str = "princi
     angle = scalar(symbol)
 
     def no_product(found: Expr) -> tuple[Expr, Expr]:
-        """Return the sum of m x'y'/cos 2 theta, and zero, which it must equal.
+        """Return the sum of m x'y'/cos 2 theta, which must vanish, and zero.
 
         Here x'y' = x y cos 2 theta - (x^2 - y^2)/2 sin 2 theta.
         """

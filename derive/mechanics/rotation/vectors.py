@@ -422,8 +422,8 @@ def _angle_by_components(u: Any, v: Any) -> Expr:
 
 
 def _lengths_worked(a: Quantity, b: Quantity, lengths: list[Expr]) -> list[Form]:
-    """Return the line with a.b and the lengths evaluated. For numerical components, explicit sums come first, without
-    the common factors of the components, which cancel."""
+    """Return the line with a.b and the lengths evaluated. If the components are numbers times a common factor, and a.b
+    is a sum, a line with explicit sums comes first; in this line the common factors are cancelled."""
     (size_u, u), (size_v, v) = (size_and_rest(each.value) for each in (a, b))
     forms = [Form(Ratio(tidied(Dot(a.value, b.value)), Factors(*lengths)), "lengths", Level.STANDARD)]
     if u.free_symbols or v.free_symbols:

@@ -132,7 +132,7 @@ DAMPED_RATE = Rule(
 def _rate(equations: DampedModes, characteristic: Quantity, root: CharacteristicRoot, number: str) -> Quantity:
     """Decay rate.
 
-    Outcomes: oscillator, decay, growth.
+    Outcomes: oscillator (the factor is quadratic); for a linear factor decay, or growth (the rate is negative).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.5; Landau, Lifshitz, *Mechanics*, section 25.
     """
     a, _, *rest = root.factor.coefficients
@@ -161,8 +161,8 @@ def _rate(equations: DampedModes, characteristic: Quantity, root: Characteristic
 def _remainder_at(characteristic: Quantity, letter: Symbol, middle: Expr, square: Expr) -> Expr:
     """Return an expression without roots that vanishes if the determinant vanishes at s = middle +- sqrt(square).
 
-    The even and the odd powers of sqrt(square) are separate terms. In the odd powers, an extra symbol replaces one
-    factor sqrt(square), so both terms must vanish.
+    One term has the even powers of sqrt(square). The other term has the odd powers, with an extra symbol in place of
+    one factor sqrt(square), so both terms must vanish.
     """
     mark, weight = Symbol("r_mark"), Symbol("w_mark", real=True)
     value = Poly(_left(characteristic).xreplace({letter: middle + mark}).expand(), mark)

@@ -2,7 +2,7 @@
 
 The equations are M eta_ddot + G eta_dot + K eta = f(t), with the displacements eta and the driving forces f. The
 matrices are the coefficients of the equations of motion at equilibrium. The second route differentiates the momenta of
-the mass points and the generalised forces, including drag and given forces.
+the mass points and the generalized forces, including drag and given forces.
 """
 
 from __future__ import annotations
@@ -56,7 +56,7 @@ def linearised(
     Forces linear in the rates, such as drag, give G. Terms that depend only on the time give the driving forces f. If a
     coordinate is not 0 at equilibrium, its displacement is called eta, or eta_1, eta_2, ... if there are several such
     coordinates.
-    Second route: M, G and K are derivatives of the momenta of the mass points and of the generalised forces.
+    Second route: M, G and K are derivatives of the momenta of the mass points and of the generalized forces.
     Outcomes: generic, displaced (some coordinate is not 0 at equilibrium); with drag: damped, displaced_damped; with a
     driving force: driven, displaced_driven.
     Errors: a force remains at the given equilibrium; the value or the equation of a coordinate is missing; the
@@ -382,7 +382,7 @@ def _of_second_order(
     place: Mapping[Symbol, Expr],
     eta: Sequence[Coordinate],
 ) -> Relation:
-    """Derive the equation from mass points: differentiate momentum and generalised force at equilibrium.
+    """Derive the equation from mass points: differentiate momentum and generalized force at equilibrium.
 
     Momenta and forces are used, because the kinetic energy does not give the forces if cyclic coordinates are
     eliminated.

@@ -80,7 +80,7 @@ def normal_modes(linear: Sequence[Quantity], symbol: str | None = None, key: str
     For a shape: in_phase, opposite, alone (the other coordinate is at rest), generic, uniform (free motion), departing
     (growing), any_of_several (repeated).
     With drag: the characteristic equation has the outcome several (several coordinates) or one (one coordinate).
-    Errors: an equation is missing; a driving force acts; the roots have no closed form, and numbers do not help; with
+    Errors: an equation is missing; a driving force acts; the roots have no closed form and cannot be numbered; with
     drag the modes do not separate; there are too many coordinates or too many symbols.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 6.2 and 6.3.
     """
