@@ -63,9 +63,9 @@ from derive.algebra.samples import (
 )
 from derive.algebra.trig_polynomials import monomial_ratio
 
-MANY = 20  # greatest number of points drawn for each needed point, because some points have no physical meaning
+MANY = 20  # greatest number of points drawn for each point that is needed; points without physical meaning are skipped
 FIRST, POINTS = 2, 26  # numbers of points at which sides are compared before the exact method, and after its failure
-TURNS = 400  # greatest number of points drawn for the other sign of an argument of `Abs` or `sign`
+TURNS = 400  # greatest number of points drawn to find the opposite sign of an argument of `Abs` or `sign`
 FEWEST = 8  # the fewest points at which both sides must have values
 UNTOLD = "undefined at every tested point"
 LETTERS = 6  # derivatives are compared with respect to at most this many symbols

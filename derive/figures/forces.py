@@ -55,7 +55,7 @@ LEAST = Rational(1, 4)  # length of the shortest arrow, relative to the longest 
 # All arrows are enlarged until the shortest arrow at a particle has the length VISIBLE, in units of FORCE points, but
 # at most by the factor LONGER.
 VISIBLE, LONGER = Rational(1, 2), Integer(2)
-ON_A_LINE = Rational(3, 5)  # the least scale of all arrows if each drawing shows a particle with forces on one line
+ON_A_LINE = Rational(3, 5)  # the least factor of all arrows if each drawing shows a particle with forces on one line
 OFF = Rational(1, 30)  # distance between a rod and the arrow of a force along it, relative to the length of the rod
 APART = 5.0  # the distance between the arrows of two forces on the same line, in points
 ALONG = 1.8  # distance between a surface and the arrow of a force along it, on the side of the body, in points

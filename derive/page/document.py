@@ -145,7 +145,7 @@ class _Writer:
         self.pointed_to: tuple[Step, ...] = ()  # the steps whose lines the last sentence about earlier lines mentions
         self.told_before = ""  # the key of a step that shares the sentence of the step before
         self.framed: set[str] = set()  # steps whose result is framed as an answer
-        # Whether a result of an earlier part is framed again: it is the part's only answer, or the part has `box:`.
+        # Whether the current part frames results that an earlier part has framed: it has one framed answer or `box:`.
         self.frames_again = False
         self.unplaced: set[str] = set()  # steps that the page has not yet described
         self.symbols = {step.key: step.symbol for step in derivation.steps}

@@ -25,7 +25,7 @@ from derive.page.wording import Inline, Math, Phrases, Text, filled
 from derive.steps.derivation import Derivation
 from derive.steps.step import NUMBERS, Step
 
-LETTERS = Symbol, MatrixSymbol, type(None)  # a relation has no symbol
+LETTERS = Symbol, MatrixSymbol, type(None)  # None for a relation, which has no symbol
 TO_BE_DONE = (Derivative, Integral, MassIntegral, Partial, Slope, TimeRate)
 
 
@@ -192,7 +192,7 @@ def _law_behind(chain: Sequence[ChainLine], step: Step) -> list[ChainLine]:
 
 
 def _sides(line: ChainLine, step: Step) -> list[Any]:
-    """Return the expressions of a line that hints test."""
+    """Return the expressions of a line that may give a result away."""
     return [line.right] if step.symbol is not None else [line.left, line.right]
 
 

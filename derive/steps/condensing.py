@@ -1,8 +1,6 @@
 """Replace the symbols of earlier results by their values in the lines of a step.
 
 This is done for results whose steps have the manner `taken_in`.
-
-Each new line is compared with the line that it replaces.
 """
 
 from __future__ import annotations

@@ -72,7 +72,7 @@ class Lines:
     put_in    the level from which the law with substituted values is shown; None omits this line
     result    whether the result has a separate line
     arranged  a function that rewrites the result without changing its value
-    motion    rate -> the value of this rate by the equations of motion, which the line of the result uses
+    motion    rate -> its value by the equations of motion; these values are substituted in the line of the result
     means     name -> its value, for names in the left side that are not in the law
     """
 

@@ -59,7 +59,7 @@ class NaturalQuantities:
         if record.may_use_quantities():
             constants = [*proposals, *_named(record.defined_quantities())]
             states = list(_named(_ancestors(inputs)))
-        named = symbol.args[0] if isinstance(symbol, At) else symbol  # the place r_0 of a derivative is not the result
+        named = symbol.args[0] if isinstance(symbol, At) else symbol  # U'' for U''(r_0)
         own: set[Any] = getattr(named, "free_symbols", set())  # omega_0 if the result is omega_0^2
         self._constants = {each.symbol: each for each in constants if each.symbol not in own}
         others = (each for each in states if each.symbol not in own and each.value != result)
