@@ -162,8 +162,8 @@ class CarriedRate(VectorNode):
     with the angular velocity omega. Arguments: A, omega, and the coordinates that move; without coordinates, A changes
     in the body only if it contains the time.
 
-    The value is the rate of the components plus the rate of the rotated vector. The second rate is found by
-    differentiating R(t) A, where R(t) is the rotation by |omega| t about omega, and not as omega x A.
+    The value is the rate of the components plus the rate of the rotated vector. The second rate is not computed as
+    omega x A: R(t) A is differentiated, where R(t) is the rotation by |omega| t about omega.
     """
 
     def _evaluated(self, a: Matrix, omega: Matrix, *moving: Symbol) -> ImmutableMatrix:

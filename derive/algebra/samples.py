@@ -163,7 +163,7 @@ def _shrinks(before: Any, now: Any) -> bool:
 
 
 def value_at(expr: Expr, point: SamplePoint) -> Expr:
-    """The value of an expression at a point, confirmed with a second precision.
+    """The value of an expression at a point, confirmed at a higher precision.
 
     Returns zero if the value shrinks as digits are added. Raises `Undefined` or `NoNumber`.
     """

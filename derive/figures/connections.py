@@ -684,7 +684,7 @@ class Connections:
                     yield BarMark(column_of(at), column_of(at + HOOK * radius * way))
 
     def _towards_end(self, line: Line, k: int) -> Location:
-        """Return the direction in which a string pulls its first end (k = 0) or its last end (k = -1)."""
+        """Return the direction in which a string pulls at its first end (k = 0) or at its last end (k = -1)."""
         pulled, (place, other) = line.through[k], (line.places[k], line.places[1 if k == 0 else -2])
         beside = line.through[1 if k == 0 else -2]
         assert isinstance(pulled, Location)

@@ -91,7 +91,7 @@ def zeros(expr: Expr, variable: Symbol, lower: float, upper: float) -> tuple[flo
     f = lambdify([variable], expr, "math")
     size = max(abs(y) for _, y in points)
     first, *inner, last = points
-    # A zero at an omitted point is found between its neighbours.
+    # Points at which the value is almost zero are left out; the zero is found between their neighbours.
     inner = [(x, y) for x, y in inner if abs(y) > NEAR_ZERO * size]
     found = [_narrowed(f, a, b) for (a, y), (b, z) in pairwise([first, *inner]) if y * z < 0]
     (a, y), (b, z) = [first, *inner][-1], last

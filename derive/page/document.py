@@ -512,7 +512,7 @@ class _Writer:
         return self.rest[0] if self.rest[0].display.told_along else None
 
     def _completed(self, key: str) -> set[str]:
-        """Return the steps that the page has now described."""
+        """Return the steps whose description is complete with this step."""
         self.unplaced.add(key)
         if not self._is_told(key):
             return set()

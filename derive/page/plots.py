@@ -351,7 +351,7 @@ def _ends_up(problem: Problem, plot: Plot, placement: Placement | None) -> tuple
 def _numbers(
     problem: Problem, plot: Plot, placement: Placement | None, known: tuple[Measured, ...], letters: set[Symbol]
 ) -> dict[Any, Expr]:
-    """Return the number of each symbol in the plot, except the symbols that vary."""
+    """Return the given numbers of symbols that do not vary; raise `Rejected` if a symbol in the plot has no number."""
     numbers: dict[Any, Expr] = {letter: explicit(amount) for letter, amount in problem.amounts.items()}
     numbers |= {measured.symbol: measured.si for measured in known}
     missing = sorted(s.name for s in letters - {*numbers, *plot.varies})

@@ -44,4 +44,4 @@ def _same(step: Step, i: int, form: Form, was: Form) -> Evidence:
     verdict = equal(old, new)
     if not verdict:
         raise refused(step.key, f"line {i + 1} changes when the values are substituted", old, new, verdict)
-    return Evidence(f"line {i + 1} with values put in", Compared.LINES, verdict.grade, verdict.detail)
+    return Evidence(f"line {i + 1} with values substituted", Compared.LINES, verdict.grade, verdict.detail)
