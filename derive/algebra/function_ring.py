@@ -145,7 +145,8 @@ class FunctionRing(TrigRing):
             return False
 
     def angle(self, angle: Expr) -> Expr:
-        """The first of the earlier angles that is equal to this angle; if there is none, the angle itself."""
+        """The angle itself; for an angle that `TrigRing` does not handle, the first earlier angle that is equal to it,
+        if there is one."""
         try:
             return super().angle(angle)
         except Outside:

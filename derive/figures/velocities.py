@@ -180,7 +180,6 @@ def _arrow(at: Location, velocity: Location, long: Expr) -> Mark:
 
 
 def _size(vector: Location) -> Expr:
-    """Return the magnitude of a vector."""
     components = [c for c in vector.components if c != 0]
     if len(components) == 1:
         (only,) = components

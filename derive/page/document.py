@@ -525,7 +525,6 @@ class _Writer:
         return key in self.numbers or key in self.selection.needed.in_words and key in self.clauses.told
 
     def _phrase(self, step: Step, follows_words: bool = False) -> tuple[Inline, ...]:
-        """Return the sentence of a step."""
         own = names_of_step(step, self.words, self.dimensions.get(step.symbol))
         override = self.problem.wording.get(step.key, {})
         own |= {"amounts": self._amounts(step), **in_turn(step, self.rest, self.words)}

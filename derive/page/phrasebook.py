@@ -131,7 +131,6 @@ def _phrases_of(file: Path) -> PhraseTable:
 
 
 def _add(page: PhraseTable, topic: PhraseTable) -> None:
-    """Add the phrases of a topic to the phrases of the page."""
     for sort, table in topic.items():
         known = page.setdefault(sort, PhraseTable(page.source, (sort,)))
         for name, phrases in table.items():

@@ -102,7 +102,7 @@ class PhraseData:
     words         name -> key of a term ("about": "corner"); the phrases contain the words for this term
     formulas      role -> a formula that only the sentence contains, and the same formula by another route
     named         role -> a symbol or a place that only the sentence contains, judged by a predicate
-    points_to     role -> a parent that the sentence mentions by its symbol or its number
+    points_to     role -> a quantity that the sentence mentions by its symbol or its number
     outcome_data  further data for judging the outcome
     stands_for    keys of other steps; an answer that asks for one of them gets this step
     """
