@@ -31,7 +31,7 @@ NATURAL = "natural"  # the reason of a line that is written with the symbols of 
 
 @dataclass(frozen=True)
 class NamesValue(Fact):
-    """A mark of a quantity whose symbol may replace its value in the results of later steps."""
+    """A mark on a quantity: its symbol may replace its value in the results of later steps."""
 
 
 @dataclass(frozen=True)
