@@ -1,4 +1,4 @@
-"""Numbers with their units, as nodes: `2 cm`, and a vector or tensor in one unit."""
+"""Nodes for a number with its unit, `2 cm`, and for a vector or tensor whose entries share one unit."""
 
 from __future__ import annotations
 

@@ -20,7 +20,7 @@ from derive.errors import during
 
 
 class Amplitudes(MatrixNode):
-    """A column with one entry for each coordinate. Only the ratios of the entries have a meaning."""
+    """A column with one entry for each coordinate. Only the ratios of the entries are meaningful."""
 
     @property
     def shape(self) -> tuple[Any, Any]:
@@ -49,9 +49,9 @@ class Determinant(ScalarNode):
         return determinant_of(explicit(self.args[0]))
 
     def dimension(self, of: DimensionOf) -> Dimension | None:
-        """The dimension of a product of nonzero entries with one entry from each row and column.
+        """The dimension of one term of the determinant: a product of nonzero entries, one from each row and column.
 
-        The dimension is assumed to be the same for all such products. Return None if there is no such
+        All such products are assumed to have the same dimension. Return None if there is no such
         product, or if the dimension of an entry of the chosen product is unknown.
         """
         matrix = self.args[0]
@@ -67,8 +67,7 @@ class Determinant(ScalarNode):
 def determinant_of(matrix: MatrixBase) -> Expr:
     """Compute the determinant from the characteristic polynomial, without division by a pivot.
 
-    Functions and roots count as symbols of the domain of the entries: without such a domain, SymPy would cancel factors
-    after each step.
+    Symbols replace functions and roots during the computation; otherwise SymPy would cancel factors after each step.
     """
     parts = matrix.atoms(Function, Pow)
     named = {part: Dummy() for part in sorted(parts, key=str) if not (part.is_Pow and part.exp.is_Integer)}
@@ -97,7 +96,7 @@ def expanded_by_rows(matrix: MatrixBase) -> Expr:
     ring, entries = sring(list(matrix))
     size = matrix.shape[0]
     known: dict[tuple[int, ...], Any] = {(): ring.one}
-    for row in reversed(range(size)):  # `known`: columns -> their minor in the rows below
+    for row in reversed(range(size)):  # `known` maps columns to their minor in the rows below
         own = entries[size * row : size * (row + 1)]
         minors: dict[tuple[int, ...], Any] = {}
         for columns, minor in known.items():

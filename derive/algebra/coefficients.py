@@ -27,10 +27,10 @@ PHASE = 2  # number of bits of a monomial before the bits of the first symbol
 class Coefficient(NamedTuple):
     """The coefficient of one product of powers of the symbols.
 
-    `whole()` returns the coefficient, and `terms` is the number of its terms. If the coefficient is a factor without
-    sines and cosines times a factor of sines and cosines only, `angles` is the second factor. `written(number, angles)`
-    returns the product of a number, the first factor and a rewritten second factor, with common factors in front. For
-    any other coefficient, `written` is None.
+    `whole()` returns the coefficient, and `terms` is the number of its terms. The coefficient may be a factor without
+    sines and cosines times a factor of sines and cosines only. Then `angles` is the second factor, and
+    `written(number, other)` returns the product of a number, the first factor and another form of the second factor,
+    with common factors in front. For any other coefficient, `written` is None.
     """
 
     whole: Callable[[], Expr]
@@ -136,7 +136,7 @@ class Expanded(Ring):
         return rest, turning
 
     def factored(self, terms: Terms, number: Rational, other: Expr = S.One) -> Factored:
-        """The product of the sum, `number` and `other`, with the common factors of the terms in front."""
+        """The product of the sum of `terms`, `number` and `other`, with the common factors of the terms in front."""
         if number < 0:
             terms, number = {monomial: -coefficient for monomial, coefficient in terms.items()}, -number
         lowest, content, rest = _in_front(terms)

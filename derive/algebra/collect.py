@@ -15,7 +15,7 @@ from derive.algebra.length import length
 from derive.algebra.lowest_terms import factored
 from derive.algebra.tidy import tidied
 
-LONGEST_PRODUCT = 60  # longest sum (`length`) for which the factored form is tried
+LONGEST_PRODUCT = 60  # greatest `length` of a value whose factored form is tried
 
 
 def by_accelerations(value: Expr, moving: Sequence[Symbol]) -> Expr:
@@ -26,7 +26,8 @@ def with_constants_in_front(value: Expr, moving: Sequence[Symbol]) -> Expr:
     """Write the common factors of a sum in front of it: (2/5) m a^2 (phi_ddot + psi_ddot cos(theta)).
 
     The common factors are a number, constants, sines and cosines. The sum is unchanged if the number and the constants
-    are not the whole coefficient of any term, m l^2 theta_ddot + m g l sin(theta), or if only an integer is common.
+    are not the whole coefficient of any term, m l^2 theta_ddot + m g l sin(theta), or if no constant is common and all
+    coefficients are integers.
     """
     terms = Add.make_args(value)
     if len(terms) < 2:
@@ -48,13 +49,14 @@ def with_constants_in_front(value: Expr, moving: Sequence[Symbol]) -> Expr:
 
 
 def _shared(powers: Sequence[dict[Expr, Expr]]) -> dict[Expr, Expr]:
-    """The bases that all terms have, with the least power; a symbolic power must be the same in all terms."""
+    """The bases that occur in all terms, each with its least power; a base with a symbolic power is included only if
+    its power is the same in all terms."""
     found = {base: {each[base] for each in powers} for base in powers[0] if all(base in each for each in powers)}
     return {base: min(of) for base, of in found.items() if len(of) == 1 or all(n.is_Rational for n in of)}
 
 
 def _powers(product: Expr) -> dict[Expr, Expr]:
-    """The bases of a product and their powers, without the number; a product may contain products."""
+    """The bases of a product and their powers, without rational factors; a factor may itself be a product."""
     found: dict[Expr, Expr] = {}
     for factor in Mul.make_args(product):
         inner = _powers(factor) if factor.is_Mul else {} if factor.is_Rational else dict([factor.as_base_exp()])
@@ -157,7 +159,8 @@ def _with_differences(value: Expr, moving: Collection[Symbol]) -> Expr:
 
 
 def with_differences_of_coordinates(value: Expr, moving: Collection[Symbol]) -> Expr:
-    """Combine terms that contain the difference of two coordinates, m g x + k (x - y), if that is not longer."""
+    """Combine pairs of terms into a multiple of the difference of two coordinates, m g x + k (x - y), if the result is
+    not longer."""
     terms = list(Add.make_args(value.expand()))
     found: list[Expr] = []
     for p, q in permutations(moving, 2):
@@ -289,8 +292,8 @@ def _with_its_rates(coefficient: Coefficient, rates: list[tuple[Symbol, int]], h
 
 
 def _with_one(product: Expr) -> Expr:
-    """Divide a sum by the symbols of the denominator if their product is one of its terms: (1 + r^2/p^2) r_dot^2, not
-    (p^2 + r^2) r_dot^2/p^2."""
+    """Divide a sum by the symbols of the denominator if the product of these symbols is a term of the sum:
+    (1 + r^2/p^2) r_dot^2, not (p^2 + r^2) r_dot^2/p^2."""
     above, below = product.as_numer_denom()
     sums = [part for part in Mul.make_args(above) if part.is_Add]
     number, letters = below.as_coeff_Mul()
@@ -318,7 +321,6 @@ def _times_rates(coefficient: Coefficient, rates: list[tuple[Symbol, int]], halv
 
 
 def _tidied(coefficient: Coefficient, times: Integer) -> Factored:
-    """Tidy a coefficient times a number."""
     if coefficient.written:
         number, turning = tidied(coefficient.angles).as_coeff_Mul()
         if not any(part.as_base_exp()[0].is_Add for part in Mul.make_args(turning)):

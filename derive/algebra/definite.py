@@ -29,7 +29,7 @@ def sign_of_form(matrix: MatrixBase, sign: Sign) -> int | None:
     The sign is 1 for a positive definite form, 0 for a form that is never negative but vanishes in some direction, and
     -1 if the form is negative in some direction.
 
-    The sign 0 needs all principal minors, not only the leading ones.
+    To establish the sign 0, all principal minors are needed, not only the leading ones.
     """
     if is_positive_definite(matrix, sign):
         return 1

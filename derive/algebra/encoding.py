@@ -97,7 +97,7 @@ def decoded(data: Any, named: Callable[[str], Dummy] | None = None) -> Any:
         kind = _CLASSES.get(name) or NODES.get(name)
         if kind is None:
             raise ValueError(f"{name} has no encoding")
-        as_written = {"evaluate": False} if name in {"Add", "Mul", "Pow"} else {}  # else SymPy multiplies out 2(a + b)
+        as_written = {"evaluate": False} if name in {"Add", "Mul", "Pow"} else {}  # SymPy would multiply out 2(a + b)
         return kind(*(made(arg, depth + 1) for arg in args), **as_written)
 
     try:

@@ -63,9 +63,9 @@ from derive.algebra.samples import (
 )
 from derive.algebra.trig_polynomials import monomial_ratio
 
-MANY = 20  # greatest number of points drawn for each needed point, because some points have no physical meaning
+MANY = 20  # greatest number of points drawn for each point that is needed; points without physical meaning are skipped
 FIRST, POINTS = 2, 26  # numbers of points at which sides are compared before the exact method, and after its failure
-TURNS = 400  # greatest number of points drawn for the other sign of an argument of `Abs` or `sign`
+TURNS = 400  # greatest number of points drawn to find the opposite sign of an argument of `Abs` or `sign`
 FEWEST = 8  # the fewest points at which both sides must have values
 UNTOLD = "undefined at every tested point"
 LETTERS = 6  # derivatives are compared with respect to at most this many symbols
@@ -407,7 +407,8 @@ def _same_mark(left: str, right: str, sign: int) -> bool:
 
 
 def _both_squared(left: Relation, right: Relation) -> bool:
-    """Whether one relation is the other one with both sides squared, where neither side is negative."""
+    """Whether squaring both sides of one relation gives the other, up to a positive factor; the squared sides must not
+    be negative."""
     for squares, roots in ((left, right), (right, left)):
         difference = roots.left**2 - roots.right**2
         if difference != 0 and all(side.is_nonnegative or strict_sign_within(side) == 1 for side in roots.sides):
@@ -447,7 +448,7 @@ def _ratio_by_a_letter(above: Expr, below: Expr) -> Expr | None:
 
 
 def _by_cosines(expr: Expr) -> Expr:
-    """Replace tangents, and squares of sines, so that common factors are visible."""
+    """Write tangents as quotients, and squares of sines with cosines, so that common factors are visible."""
     expr = expr.replace(tan, lambda angle: sin(angle) / cos(angle))
     return TR5(expr.expand(), max=8) if expr.has(sin) else expr
 

@@ -158,12 +158,12 @@ class Cross(VectorNode):
 
 
 class CarriedRate(VectorNode):
-    """The rate dA/dt in space of a vector A. The components of A are along axes that rotate with the angular velocity
-    omega. Arguments: A, omega, and the coordinates that move; without coordinates, A changes in the body only if it
-    contains the time.
+    """The rate dA/dt, as seen in space, of a vector A whose components are along axes of the body. The body rotates
+    with the angular velocity omega. Arguments: A, omega, and the coordinates that move; without coordinates, A changes
+    in the body only if it contains the time.
 
-    The value is the rate of the components plus the rate of the rotated vector. The second rate is found by
-    differentiating R(t) A, where R(t) is the rotation by |omega| t about omega, and not as omega x A.
+    The value is the rate of the components plus the rate of the rotated vector. The second rate is not computed as
+    omega x A: R(t) A is differentiated, where R(t) is the rotation by |omega| t about omega.
     """
 
     def _evaluated(self, a: Matrix, omega: Matrix, *moving: Symbol) -> ImmutableMatrix:
@@ -239,7 +239,7 @@ class Group(ScalarNode):
 
 
 class Factors(ScalarNode):
-    """A product with its factors as written, in that order: `a * 3a * [y^3/3]`."""
+    """A product whose factors are shown as written, in the given order: `a * 3a * [y^3/3]`."""
 
     def _evaluated(self, *factors: Expr) -> Expr:
         result: Expr = Integer(1)
@@ -254,7 +254,7 @@ class Factors(ScalarNode):
 
 
 class Terms(ScalarNode):
-    """A sum with its terms as written, in that order, not collected: `8a^5 + 18a^5`."""
+    """A sum whose terms are shown as written, in the given order, not collected: `8a^5 + 18a^5`."""
 
     def _evaluated(self, *terms: Expr) -> Expr:
         result: Expr = Integer(0)
@@ -440,8 +440,8 @@ def bound(expr: Value, values: Mapping[Any, Any]) -> Value:
 
 
 def with_known(value: Expr, known: Mapping[Symbol, Expr], moving: Sequence[Symbol]) -> Expr:
-    """Substitute known coordinates and rates, the constant ones first: with z = 0, the root of r**2 + z**2 becomes r
-    before a formula replaces r."""
+    """Substitute known coordinates and rates, those with constant values first: with z = 0, the root of r**2 + z**2
+    becomes r before a formula replaces r."""
     return value.xreplace(constant_ones(known, moving)).xreplace(dict(known))
 
 

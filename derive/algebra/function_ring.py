@@ -1,9 +1,9 @@
 """Polynomials in symbols and angles, and in roots, absolute values, exponentials and other functions.
 
 A root or an absolute value of a product is split into the roots or absolute values of the factors, as far as the signs
-of the factors allow it. Each becomes a new letter, which is a variable of the ring with a relation, r^q = p or
-|p|^2 = p^2. A power with a sum as its exponent becomes a product, exp(u + v) = exp u exp v. For a function without a
-rule in this module, only one property is used: equal arguments give equal values.
+of the factors allow it. Each of these roots and absolute values becomes a new letter: a variable of the ring with a
+relation, r^q = p or |p|^2 = p^2. A power with a sum as its exponent becomes a product, exp(u + v) = exp u exp v. For a
+function without a rule in this module, only one property is used: equal arguments give equal values.
 
 The new letters may depend on one another, so a form with terms may still be zero. A form without terms is zero,
 provided that it contains no division by zero.
@@ -145,7 +145,8 @@ class FunctionRing(TrigRing):
             return False
 
     def angle(self, angle: Expr) -> Expr:
-        """The first of the earlier angles that is equal to this angle; if there is none, the angle itself."""
+        """The angle itself; for an angle that `TrigRing` does not handle, the first earlier angle that is equal to it,
+        if there is one."""
         try:
             return super().angle(angle)
         except Outside:
@@ -169,7 +170,7 @@ class FunctionRing(TrigRing):
         return Form({powers: 1}, 1, HIGHEST)
 
     def _power_of(self, base: Expr, exponent: Expr) -> Form:
-        """Use b^(u + v) = b^u b^v, and (a b)^u = a^u b^u if a is known not to be negative."""
+        """Expand a power by b^(u + v) = b^u b^v, and by (a b)^u = a^u b^u if a is known not to be negative."""
         powers, product = 0, ONE
         factors = [(self._key(factor), power) for factor, power in factors_under_a_root(base, 1)]
         for number, term in terms_of_angle(exponent):
@@ -193,7 +194,7 @@ class FunctionRing(TrigRing):
         return double._replace(below=2 * double.below)
 
     def _logarithm(self, of: Expr) -> Form:
-        """Use log(a b) = log a + log b if a is known not to be negative."""
+        """Expand a logarithm by log(a b) = log a + log b if a is known not to be negative."""
         logs = [
             Form({1 << self._dependent_place((log, self._key(factor))): power}, reach=1)
             for factor, power in factors_under_a_root(of, 1)

@@ -1,4 +1,4 @@
-"""Definite integrals of the few kinds that solids need, evaluated exactly and fast.
+"""Definite integrals of the few kinds that occur for solid bodies, evaluated exactly and fast.
 
     powers     x^q, including 1/x
     products   x^n sin(m x), x^n cos(m x), x^n exp(m x), by parts
@@ -156,7 +156,7 @@ def _chord_integral(outside: Expr, inside: Expr, y: Symbol, lower: Expr, upper: 
     """The integral of y^m (w^2 - y^2)^(k/2) from -w to w: the substitution y = w sin u gives w^(m+k+1) times a number.
     None for any other integral.
 
-    The result is also None if it is not known that w >= 0, because otherwise the root is not w cos u.
+    The result is also None if it is not known that w >= 0, because the root is w cos u only for w >= 0.
     """
     m, k = 0, 0
     for base, exponent in (factor.as_base_exp() for factor in Mul.make_args(inside)):

@@ -92,7 +92,7 @@ def _with_plus_first(product: Product) -> Product:
 
 
 def _turned(base: Expr, power: int) -> Product:
-    """The factor (-1)^n (-b)^n/b^n, equal to 1: multiplied by it, a product with b^n contains (-b)^n instead."""
+    """The factor (-1)^n (-b)^n/b^n, which equals 1: it replaces b^n in a product by (-1)^n (-b)^n."""
     return Product(S.NegativeOne**power, {base: -power, -base: power})
 
 

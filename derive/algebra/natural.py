@@ -223,8 +223,8 @@ def _with(
 
 
 def compared(left: Expr, mark: str, right: Expr, takes_roots: bool = True) -> Relation:
-    """Divide both sides by common factors, and move a number to the right side. Write gamma < omega_0, not 4 gamma^2 <
-    4 omega_0^2, if both sides are squares of positive expressions."""
+    """Divide both sides by common factors; exchange the sides if only the left side is a number. Write gamma < omega_0,
+    not 4 gamma^2 < 4 omega_0^2, if both sides are squares of positive expressions and `takes_roots` is true."""
     shared = common_factor([left, right])
     if shared.is_positive:
         left, right = tidied(left / shared), tidied(right / shared)
@@ -241,7 +241,7 @@ def compared(left: Expr, mark: str, right: Expr, takes_roots: bool = True) -> Re
 def _relation(
     value: Relation, known: Mapping[Expr, Expr], quantities: Mapping[Symbol, Expr], is_motion: bool
 ) -> Shortened:
-    """Rewrite both sides, but only the right side of an equation that gives a symbol.
+    """Rewrite both sides of a relation, but only the right side of an equation whose left side is a symbol.
 
     An equation whose right side is zero, and a relation with two nonzero sides, are divided by common factors. An
     equation of motion with two nonzero sides is not divided.

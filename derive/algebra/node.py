@@ -112,7 +112,7 @@ def as_expr(value: Any) -> Any:
 
 
 def explicit(expr: Value) -> Value:
-    """The expression with every node evaluated, and matrices without names as explicit matrices."""
+    """Evaluate every node, and write matrix expressions without named matrices as explicit matrices."""
     if isinstance(expr, MatrixBase):
         return ImmutableDenseMatrix(expr.applyfunc(explicit))
     if isinstance(expr, Basic):
@@ -137,8 +137,8 @@ def _carried_out(expr: Basic) -> Value:
 def _definite(integral: Integral) -> Expr:
     """Evaluate a definite integral by the rules of `derive.algebra.integrals` or, if these do not apply, by SymPy.
 
-    If the rules do not apply to an integral with a root, the result is `nan`, which is equal to no value, because SymPy
-    may be wrong or may not terminate.
+    If the rules do not apply to an integral with a root, the result is `nan`, which is equal to no value: for such an
+    integral, SymPy may return a wrong value or may not terminate.
     """
     integrand = explicit(integral.function)
     value = definite(integrand, integral.limits)

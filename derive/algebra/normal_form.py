@@ -1,7 +1,7 @@
 """Decide exactly whether an expression is zero.
 
-Polynomials in symbols, sines and cosines have a normal form (`trig_polynomials`). Other expressions use a ring with
-additional letters for roots, absolute values and other functions.
+Polynomials in symbols, sines and cosines have a normal form (`trig_polynomials`). For other expressions, a ring has
+additional letters that represent roots, absolute values and other functions.
 """
 
 from __future__ import annotations
@@ -84,7 +84,7 @@ def _divisors(expr: Expr) -> set[Expr]:
 
 
 def _is_nothing(divisor: Expr) -> bool:
-    """Whether a divisor is zero everywhere; a quotient that seems zero is then 0/0."""
+    """Whether a divisor is zero everywhere, so that a quotient which seems to be zero is 0/0."""
     if asked(FunctionRing, lambda ring: ring.is_nonzero(ring.form(divisor)), divisor):
         return False
     everywhere = is_zero_everywhere(divisor)
@@ -93,7 +93,7 @@ def _is_nothing(divisor: Expr) -> bool:
 
 def _hides_angles(expr: Expr) -> bool:
     """Whether a sine, cosine or tangent is under a root or in an absolute value, or an angle contains pi or an inverse
-    function. Angles must then be compared."""
+    function."""
     under = (root for root in expr.atoms(Pow, Abs) if not (root.is_Pow and root.exp.is_Integer))
     angles = (function.args[0] for function in expr.atoms(sin, cos, tan))
     return any(each.has(sin, cos, tan) for each in under) or any(each.has(acos, asin, atan, pi) for each in angles)

@@ -72,7 +72,7 @@ class Order:
         return bool(self.positive or self.replaced)
 
     def sign(self, expr: Expr, sign_of: SignOf) -> int | None:
-        """The sign of an expression; None if the relations do not determine the sign."""
+        """The sign of an expression; None if the relations are not found to determine the sign."""
         if expr == 0:
             return 0
         for difference in self.positive:

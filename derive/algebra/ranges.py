@@ -99,7 +99,7 @@ def known_ranges() -> Mapping[Symbol, Range]:
 
 
 def has_meaning(point: Mapping[Expr, Expr]) -> bool:
-    """Whether the point is not known to contradict an assumption of positivity."""
+    """Return False if the point is known to contradict an assumption of positivity, else True."""
     told = (each for each in _POSITIVE.get() if each.free_symbols <= point.keys())
     return all(each.xreplace(dict(point)).evalf(20).is_positive is not False for each in told)
 
@@ -175,13 +175,13 @@ def _drawn_out(root: Pow) -> Expr | None:
 
 def sign_within(expr: Expr) -> int | None:
     """The common sign, 1 or -1, of the values of an expression at all points that are inside the ranges of the symbols
-    and satisfy the assumed relations; None if no common sign is known. The ends of the ranges do not count."""
+    and satisfy the assumed relations; None if no common sign is known. The ends of the ranges are left out."""
     signs = [_sign_of_factor(factor) for factor in Mul.make_args(expr)]
     return None if None in signs else prod(sign for sign in signs if sign)
 
 
 def strict_sign_within(expr: Expr) -> int | None:
-    """As `sign_within`, but the ends that belong to the ranges also count."""
+    """The sign as for `sign_within`, but also at the ends that belong to the ranges."""
     sign = sign_within(expr)
     if sign is None:
         return None
@@ -239,7 +239,6 @@ def _sign_between(least: Expr, greatest: Expr) -> int | None:
 
 
 def _sign_of_sum(total: Expr) -> int | None:
-    """The sign of a sum; None if it is unknown."""
     for sign in (1, -1):
         terms = [sign * term for term in total.args]
         strict = [sign_within(term) == 1 for term in terms]

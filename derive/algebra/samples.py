@@ -46,7 +46,7 @@ WORKING = (60, 160, 420)  # precisions in digits, tried in this order until a co
 SPARE = 20  # working digits that may be lost by rounding, cancellation and large arguments
 
 NEGLIGIBLE = 1e-25  # in a matrix of ordinary numbers, a smaller entry is a rounding error
-RANKS_TRIED = 8  # the most points at which the rank of a matrix is tried
+RANKS_TRIED = 8  # greatest number of points that are drawn to find the rank of a matrix
 
 ORDINARY = (0,)
 TINY, LARGE = (-2, -5, -9, -14), (1, 2, 4, 7)  # powers of ten
@@ -73,7 +73,7 @@ class Sample:
 
 
 def points(letters: set[Expr], seed: int) -> Iterator[SamplePoint]:
-    """Yield points without end, the first ones of ordinary size."""
+    """Yield points without end; the numbers of the first points are of ordinary size."""
     ordered = sorted(letters, key=str)
     source = Random(seed)
     for scales in (ORDINARY, ORDINARY, ORDINARY, *((tiny,) for tiny in TINY), *((large,) for large in LARGE)):
@@ -83,7 +83,7 @@ def points(letters: set[Expr], seed: int) -> Iterator[SamplePoint]:
 
 
 def _of_both_signs(letters: list[Expr], scales: list[int], source: Random) -> Iterator[SamplePoint]:
-    """Two points at which the symbols have opposite signs, where this is allowed."""
+    """Yield two points; each symbol has opposite signs at them, if its assumptions allow both signs."""
     signs = [source.choice((1, -1)) for _ in letters]
     for turn in (1, -1):
         point = {
@@ -163,7 +163,7 @@ def _shrinks(before: Any, now: Any) -> bool:
 
 
 def value_at(expr: Expr, point: SamplePoint) -> Expr:
-    """The value of an expression at a point, confirmed with a second precision.
+    """The value of an expression at a point, confirmed at a higher precision.
 
     Returns zero if the value shrinks as digits are added. Raises `Undefined` or `NoNumber`.
     """
@@ -187,7 +187,7 @@ def value_at(expr: Expr, point: SamplePoint) -> Expr:
 
 
 def is_zero_everywhere(expr: Expr) -> bool | None:
-    """Whether the expression is zero at all sampled points where its value is found; None if no value is found."""
+    """Whether the expression is zero at the sampled points where its value is found; None if no value is found."""
     found: bool | None = None
     letters = letters_of(expr)
     for point in islice(points(letters, seed_of(expr)), 6 if letters else 1):
@@ -259,7 +259,8 @@ def as_sympy(x: Any) -> Expr:
 
 _OF_ZERO = -(10**30)
 # Largest size of a power (the exponent times the number of bits of the base) and largest argument of a function in
-# `_GROWING`; a whole power may have four times this size. Larger values would hide the other terms of a sum.
+# `_GROWING`; a power with an integer exponent may have four times this size. Larger values would hide the other terms
+# of a sum.
 _LARGEST = 300
 _MOST = 60  # greatest number of bits of the integer part of a function's argument
 _GROWING = {"exp", "sinh", "cosh", "tanh", "coth", "sech", "csch", "erf"}

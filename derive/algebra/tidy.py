@@ -214,7 +214,7 @@ def _by_half_angle(value: Expr) -> list[Expr]:
 
 
 def _turned_together(total: Expr) -> Expr:
-    """Combine pairs of terms, c cos a cos b and c sin a sin b, or c sin a cos b and c cos a sin b, into one."""
+    """Combine pairs of terms, c cos a cos b and c sin a sin b, or c sin a cos b and c cos a sin b, into one term."""
     seen: dict[Any, set[int]] = {}
     for n, term in enumerate(total.args):
         number, product = term.as_coeff_Mul()

@@ -281,7 +281,7 @@ class TrigRing(Ring):
         return all(_vanishes_at_root_of_one(powers, order) for powers in sums.values())
 
     def _lowered(self, form: Form, place: int, order: int, of: Form) -> Form:
-        """Replace the known power of a letter by the form `of` that equals it, up to a factor that is a power of
+        """Replace the known power of a letter by the form `of` that equals it. The result is the form times a power of
         `of`."""
         by_power: dict[int, Terms] = {}
         for monomial, coefficient in form.terms.items():

@@ -35,7 +35,7 @@ PAST = 0.3  # length of the part of an axis outside a body, relative to the size
 SHORTEST = 11.0  # length of the shortest dimension line that has room for its two arrowheads, in points
 OUTSIDE = 13.0  # length of the arrows outside a shorter dimension line, in points
 FORCE = 58.0  # unit of the lengths of arrows in force diagrams, in points
-APPLIED = 26.0  # length of a given force in the drawing of a system, in points
+APPLIED = 26.0  # length of the arrow of a given force in the drawing of a system, in points
 ASIDE = 12.0  # distance between a body and its dimension line, in points
 SHORT = 3  # the components of a point are described only if they contain at most this many operations
 RING = 0.16  # radius of a rotation arrow round an axis, relative to the size of the body
@@ -43,7 +43,7 @@ RINGED = 2.8  # radius of the blank ring around a point on a rod, in points
 HOLLOW = 2.3  # radius of the circle for a point on a body, in points
 NEAR_TIP = 0.72  # the place of a label beside the shaft of an arrow, in units of the length of the arrow
 EYE = 3.4  # radius of the circle for an axis along the line of sight, in points
-POSITIVE = 26.0, 11.0  # in points: distance from a particle to its arrow of a positive direction, and half its length
+POSITIVE = 26.0, 11.0  # distance from a particle to the arrow of a positive direction, and half its length; in points
 AROUND_BODY = 115, 169  # in degrees: the part of a circle that the arrow of a positive rotation covers
 ROUND = 10.0  # least radius of the arrow of a `Turn`, in points
 BROKEN = 30.0  # least height of a broken support, in points
@@ -142,8 +142,8 @@ def _along_sight(label: Any, spot: Spot, comes: bool, towards: Spot = (-0.7, 0.7
 
 @dataclass(frozen=True)
 class AxisOfRotation(Mark):
-    """The axis through a point along a direction. It extends beyond the body at both ends; the part before the body is
-    left out if the body would hide it.
+    """The axis through a point along a direction. It extends beyond the body at both ends, but the part before it
+    enters the body is left out if the body would hide this part.
 
     With a rate, a rotation arrow surrounds the axis near its far end, and the label is next to this arrow. The arrow is
     right-handed if the rate is positive.
@@ -171,8 +171,8 @@ class AxisOfRotation(Mark):
         return [line, *_circling(ring, plus(NOUGHT, along, sense), RING * paper.reach, self.label, paper)]
 
     def _start(self, paper: Paper, near: Vector, along: Vector) -> Vector:
-        """Return the start of the line. If the part before the body would be behind the body, the line starts at the
-        body, because otherwise it would seem to leave the body through a front edge."""
+        """Return the start of the line. If the body would hide the part before the line enters the body, the line
+        starts at the body, because otherwise it would seem to leave the body through a front edge."""
         start = plus(near, along, -PAST * paper.reach)
         (x, y), (u, v) = paper.spots(near, start)
         is_behind = dot(along, paper.stance.eye) > 0 and is_within(
@@ -360,7 +360,7 @@ class PositiveRotation(_Single):
 
     radius             the radius of the body
     counterclockwise   whether this sense is counterclockwise
-    to_the_right       whether the arrow is on the right side of the body, because a force is drawn on the left side
+    to_the_right       whether the arrow is on the right side of the body, used if a force is drawn on the left side
     """
 
     radius: Any
@@ -619,8 +619,8 @@ class CentreMark(RingedPoint):
 class Support(_Single):
     """The support of a pivot: a triangle on hatched ground. The ground is lower on the paper than all bodies.
 
-    If a body could strike the ground when it turns about the pivot, the triangle is drawn broken: it is higher than
-    drawn.
+    If a body could strike the ground when it turns about the pivot, a gap in the triangle shows that the triangle is
+    higher than drawn.
     """
 
     def pieces(self, paper: Paper) -> list[Piece]:

@@ -409,7 +409,6 @@ class Connections:
         )
 
     def _floor(self, plane: Plane, contacts: Sequence[Contact]) -> FloorMark:
-        """Return the floor under blocks."""
         height = plane.through.components[1]
         ends = [place for each in self.system.between for place in (each.start, each.end)]
         ends += [place for line in self.lines for place in line.places]
@@ -664,7 +663,6 @@ class Connections:
         return length if length.as_coeff_Mul()[1].is_Symbol and not moving_in(self.system, length) else None
 
     def _link_along(self, line: Line) -> Link:
-        """The link along a straight string or rod."""
         start, end = line.places
         moving = [moving_in(self.system, *place.components) for place in (start, end)]
         return line_between(end, start) if len(moving[1]) < len(moving[0]) else line_between(start, end)
@@ -684,7 +682,7 @@ class Connections:
                     yield BarMark(column_of(at), column_of(at + HOOK * radius * way))
 
     def _towards_end(self, line: Line, k: int) -> Location:
-        """Return the direction in which a string pulls its first end (k = 0) or its last end (k = -1)."""
+        """Return the direction in which a string pulls at its first end (k = 0) or at its last end (k = -1)."""
         pulled, (place, other) = line.through[k], (line.places[k], line.places[1 if k == 0 else -2])
         beside = line.through[1 if k == 0 else -2]
         assert isinstance(pulled, Location)

@@ -22,7 +22,7 @@ MINIMUM, MAXIMUM = "minimum", "maximum"
 # A value at the end of the range counts as zero below this fraction of the greatest value, because the end may be
 # rounded to three figures.
 NEAR_ZERO = 1e-3
-NOISE = 1e-12  # relative size below which the value at an extremum is zero within the precision of floating point
+NOISE = 1e-12  # a value at an extremum counts as zero below this fraction of the greatest value: it is a rounding error
 
 
 @dataclass(frozen=True)
@@ -91,7 +91,7 @@ def zeros(expr: Expr, variable: Symbol, lower: float, upper: float) -> tuple[flo
     f = lambdify([variable], expr, "math")
     size = max(abs(y) for _, y in points)
     first, *inner, last = points
-    # A zero at an omitted point is found between its neighbours.
+    # Points at which the value is almost zero are left out; the zero is found between their neighbours.
     inner = [(x, y) for x, y in inner if abs(y) > NEAR_ZERO * size]
     found = [_narrowed(f, a, b) for (a, y), (b, z) in pairwise([first, *inner]) if y * z < 0]
     (a, y), (b, z) = [first, *inner][-1], last
@@ -101,7 +101,7 @@ def zeros(expr: Expr, variable: Symbol, lower: float, upper: float) -> tuple[flo
 
 
 def meetings(one: Expr, other: Expr, variable: Symbol, lower: float, upper: float) -> tuple[float, ...]:
-    """Return the places in the range at which two curves meet. A common start at zero does not count."""
+    """Return the places in the range at which two curves meet. A common start with the value zero does not count."""
     found = zeros(one - other, variable, lower, upper)
     f, g = (lambdify([variable], each, "math") for each in (one, other))
     start, size = float(f(lower)), max(abs(float(each(upper))) for each in (f, g))

@@ -55,7 +55,7 @@ LEAST = Rational(1, 4)  # length of the shortest arrow, relative to the longest 
 # All arrows are enlarged until the shortest arrow at a particle has the length VISIBLE, in units of FORCE points, but
 # at most by the factor LONGER.
 VISIBLE, LONGER = Rational(1, 2), Integer(2)
-ON_A_LINE = Rational(3, 5)  # the least scale of all arrows if each drawing shows a particle with forces on one line
+ON_A_LINE = Rational(3, 5)  # least factor for all arrows if each drawing shows a particle with forces on one line
 OFF = Rational(1, 30)  # distance between a rod and the arrow of a force along it, relative to the length of the rod
 APART = 5.0  # the distance between the arrows of two forces on the same line, in points
 ALONG = 1.8  # distance between a surface and the arrow of a force along it, on the side of the body, in points
@@ -66,7 +66,7 @@ STANDING, SHORT, SHORTEST = 47.0, Rational(12, 25), Rational(7, 20)
 ROPE = 110.0  # the drawn length of a whole rope, whose pieces are drawn alone, in points
 FOOT = 30.0  # half the length of the piece of a surface under a body, in points
 SLIGHT = 1e-6  # a number below this counts as zero
-NEAR = 0.3  # the greatest small gap between two arrowheads, divided by the length of the arrow
+NEAR = 0.3  # opposite arrows overlap if the gap between their tips is smaller than this part of an arrow
 ANGLE = Rational(63, 100)  # the value of an angle that has no given value, in radians
 NORMALS = ("N", "F_n", "n")  # possible symbols of a normal force that does not appear in the equations
 

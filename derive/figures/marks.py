@@ -319,7 +319,7 @@ class Plot:
     then             the value that the curves keep after their range
     per              the quantities by which the axes are divided, each with its name: horizontal, vertical, and for a
                      phase portrait the energy of the levels
-    energies         energies whose lines the curve of a potential energy shows
+    energies         total energies, drawn as horizontal lines in the plot of a potential energy
     """
 
     key: str

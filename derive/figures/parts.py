@@ -199,7 +199,7 @@ class RopeMark(_Piecewise):
 
 @dataclass(frozen=True)
 class RopeBelowMark(RopeMark):
-    """A string below a table; the table hides the part of the string behind it."""
+    """A string below a table, which hides the part of the string that is behind the table."""
 
     layer: ClassVar[int] = -3
 
@@ -255,7 +255,8 @@ def _beyond(corner: Spot, end: Spot, off: float, side: float) -> Spot:
 
 
 def _shifted_corner(a: Spot, b: Spot, c: Spot, off: float) -> Spot:
-    """Return the corner of a wall of a tube, at the distance `off` from both lines, outside the bend if positive."""
+    """Return the corner of a wall of a tube, at the distance `off` from both lines; if `off` is positive, the corner is
+    outside the bend."""
     (x, y), (u, v) = direction(b, a), direction(b, c)
     sine = max(abs(x * v - y * u), 0.05)
     return b[0] - off * (x + u) / sine, b[1] - off * (y + v) / sine

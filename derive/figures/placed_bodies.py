@@ -33,8 +33,8 @@ from derive.mechanics.model.system import System
 from derive.steps.step import is_zero
 
 ACROSS = column(0, 0, 1)
-# For a top of unknown shape: the height and radius of its cone, the end of its stem, and the length of a shaft,
-# relative to the distance of the centre of mass from the fixed point.
+# Lengths relative to the distance of the centre of mass from the fixed point. For a top of unknown shape: the height
+# and radius of its cone, and the height of the end of its stem. SHAFT: the length of the shaft of a rotating body.
 TOP, WIDE, STEM, SHAFT = Rational(4, 3), Rational(3, 5), Rational(8, 5), Rational(3, 4)
 STEPS = 24  # number of steps along the side of a round body
 

@@ -170,7 +170,7 @@ def _plainly(run: Sequence[Vector], away: Sequence[float], eye: Vector, i: int) 
 
 
 def _runs(curve: Sequence[Vector], eye: Vector, side: float) -> list[list[Vector]]:
-    """Return the parts of a curve on the unit sphere on the side of the viewer, or for `side` -1 on the other side."""
+    """Return the parts of a curve on the unit sphere that face the viewer; for `side` -1, the parts that face away."""
     flags = [side * dot(unit(place), eye) > 0 for place in curve]
     places = list(curve)
     if places[0] == places[-1] and flags[0] and not all(flags):

@@ -140,7 +140,7 @@ class TiedEndMark(Surface):
     """A piece of wall at a fixed end of a string over small pulleys.
 
     string   the string
-    is_last  whether it is the last end of the string, instead of the first
+    is_last  whether the wall is at the last end of the string; otherwise it is at the first end
     """
 
     string: PulleyRopeMark

@@ -265,7 +265,7 @@ WAYS = {"wire": "wire", "edge": "drawn_curve"}  # the names of phrases for the p
 class WayMark(Surface):
     """The curve of a point as one symbol varies over a range, with all other symbols fixed.
 
-    pen   `trace`, `wire` for a solid object, or `edge` for a line
+    pen   `trace` for a path, `wire` for a solid object, or `edge` for a line
     """
 
     place: Position

@@ -54,7 +54,7 @@ def angle_marks(system: System, link: Link) -> Iterable[Mark]:
     turned = angle_of_link(system, link)
     if turned is not None:
         angle, zero = turned
-        # If only the time changes an angle in space, an axis with its rate as a label is drawn in place of the angle.
+        # If only the time changes an angle in space, an axis with the rate of the angle is drawn in place of the angle.
         if len(link.way.components) == 2 or moving_in(system, angle) != {TIME}:
             yield AngleBetween(column_of(link.start), column_of(zero), column_of(link.way), True, label=angle)
     if len(link.way.components) == 3:

@@ -51,7 +51,7 @@ class Moment:
     rates     the rates of coordinates
     pushes    pairs: the components of a given impulse, and the point of application of this impulse
     meeting   the points of impact on bodies
-    flight    the symbols of the Cartesian coordinates of a flight that follows, whose axes start at the origin
+    flight    the Cartesian coordinates of a flight that follows; their axes start at the origin
     """
 
     at: Values = field(default_factory=dict)
@@ -180,7 +180,6 @@ def _arrow(at: Location, velocity: Location, long: Expr) -> Mark:
 
 
 def _size(vector: Location) -> Expr:
-    """Return the magnitude of a vector."""
     components = [c for c in vector.components if c != 0]
     if len(components) == 1:
         (only,) = components
@@ -228,7 +227,7 @@ def later_marks(system: System, moment: Moment, marks: Iterable[Mark]) -> Iterab
     """Yield the rods and round bodies of a plane system, dashed, at positive values of the coordinates that are zero at
     an impact, with the marks of these coordinates.
 
-    marks   the marks of the system at any values of the coordinates
+    marks   the marks of the system, which contain the coordinates as symbols
     """
     outlines = {mark for placed in system.bodies for mark in placed_outline(with_its_shape(placed))}
     zero = [q for q in system.coordinates if moment.at.get(q) == 0 and moment.rates.get(q, ZERO) == 0]
@@ -272,8 +271,8 @@ def is_of_the_moment(mark: Mark, moment: Moment) -> bool:
 
 
 def moment_drawn(system: System, moment: Moment) -> dict[Symbol, Expr]:
-    """Return the values of coordinates and lengths for the drawing of an impact. A coordinate that is a length and
-    changes has a value from before the impact."""
+    """Return the values of coordinates and lengths for the drawing of an impact. If a coordinate is a length that
+    changes, its value is from a time before the impact."""
     found = {q: moment.at.get(q, ZERO) for q in system.coordinates if q in moment.at}
     for placed, letter in (each for at in moment.meeting for each in _met(system, at)):
         length = getattr(placed.body, "length", None)

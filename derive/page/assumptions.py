@@ -16,8 +16,7 @@ ANGLE = unit_of_kind("angle")  # bounds of angles, such as pi/2, are written wit
 
 
 def between_bounds(assumed: Iterable[Relation]) -> list[Relation]:
-    """Join the two numerical bounds of a symbol, and leave out conditions such as sin(alpha) != 0 that these bounds
-    imply."""
+    """Join the two numerical bounds of a symbol: alpha > 0 and alpha < pi/2 become 0 < alpha < pi/2."""
     conditions = list(assumed)
     below, above = _bounds(conditions)
     found: list[Any] = []

@@ -19,7 +19,7 @@ from derive.page.wording import Inline, Math, Phrases, Ref, filled, joined, name
 from derive.steps.derivation import Derivation
 from derive.steps.step import NUMBERS, ONLY_ABOUT, Form, Step
 
-EQUATION_OF = "equation_of_"  # prefix: <<equation_of_ROLE>> in a reason gives the numbers of the equations of that role
+EQUATION_OF = "equation_of_"  # in a reason, <<equation_of_ROLE>> prints the numbers of the equations with this role
 
 
 @dataclass(frozen=True)
@@ -99,7 +99,7 @@ class ChainWriter:
         last = lines[result]
         is_matrix = isinstance(last.right, MatrixBase)
         if last.left is None or is_matrix and (last.right.shape[1] > 1 or _share_a_sum_or_root(last.right)):
-            lines[result] = replace(last, presented=True)  # a common factor in front, tan a for sin a/cos a
+            lines[result] = replace(last, presented=True)  # a common factor is in front, and tan a replaces sin a/cos a
         return tuple(lines)
 
     def _decimals(self, step: Step) -> list[Form]:

@@ -145,7 +145,7 @@ class _Writer:
         self.pointed_to: tuple[Step, ...] = ()  # the steps whose lines the last sentence about earlier lines mentions
         self.told_before = ""  # the key of a step that shares the sentence of the step before
         self.framed: set[str] = set()  # steps whose result is framed as an answer
-        # Whether a result of an earlier part is framed again: it is the part's only answer, or the part has `box:`.
+        # Whether the current part frames results that an earlier part has framed: it has one framed answer or `box:`.
         self.frames_again = False
         self.unplaced: set[str] = set()  # steps that the page has not yet described
         self.symbols = {step.key: step.symbol for step in derivation.steps}
@@ -512,7 +512,7 @@ class _Writer:
         return self.rest[0] if self.rest[0].display.told_along else None
 
     def _completed(self, key: str) -> set[str]:
-        """Return the steps that the page has now described."""
+        """Return the steps whose description is complete with this step."""
         self.unplaced.add(key)
         if not self._is_told(key):
             return set()
@@ -525,7 +525,6 @@ class _Writer:
         return key in self.numbers or key in self.selection.needed.in_words and key in self.clauses.told
 
     def _phrase(self, step: Step, follows_words: bool = False) -> tuple[Inline, ...]:
-        """Return the sentence of a step."""
         own = names_of_step(step, self.words, self.dimensions.get(step.symbol))
         override = self.problem.wording.get(step.key, {})
         own |= {"amounts": self._amounts(step), **in_turn(step, self.rest, self.words)}

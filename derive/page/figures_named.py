@@ -22,7 +22,7 @@ STOPS = (".", ",", ":")
 def figures_mentioned(
     blocks: Sequence[Block], drawings: Mapping[str, m.Recorded], mentioned: Collection[str], words: Phrases
 ) -> tuple[Block, ...]:
-    """Return the blocks of a part in which numbered figures are mentioned, if there is a sentence for the mention.
+    """Return the blocks of a part, with mentions of the numbered figures if there are sentences for them.
 
     drawings    the drawings of the problem, by key
     mentioned   the keys of the drawings that a text of the author mentions

@@ -25,7 +25,7 @@ from derive.page.wording import Inline, Math, Phrases, Text, filled
 from derive.steps.derivation import Derivation
 from derive.steps.step import NUMBERS, Step
 
-LETTERS = Symbol, MatrixSymbol, type(None)  # a relation has no symbol
+LETTERS = Symbol, MatrixSymbol, type(None)  # None for a relation, which has no symbol
 TO_BE_DONE = (Derivative, Integral, MassIntegral, Partial, Slope, TimeRate)
 
 
@@ -178,7 +178,6 @@ class _Hints:
         return any(_of(formula) in self.answers or self._is_answer(formula) for formula in formulas)
 
     def _is_answer(self, formula: Any) -> bool:
-        """Return whether a formula equals an answer."""
         is_plain = isinstance(formula, Basic) and not formula.is_Atom and not formula.has(*TO_BE_DONE)
         return is_plain and any(equal(formula, answer) for answer in self.answers)
 
@@ -192,7 +191,7 @@ def _law_behind(chain: Sequence[ChainLine], step: Step) -> list[ChainLine]:
 
 
 def _sides(line: ChainLine, step: Step) -> list[Any]:
-    """Return the expressions of a line that hints test."""
+    """Return the expressions of a line that may give a result away."""
     return [line.right] if step.symbol is not None else [line.left, line.right]
 
 

@@ -86,8 +86,10 @@ def no_phrase(key: str, rule: str, outcome: str, of_rule: Mapping[str, str]) -> 
 
 
 def read_phrases(folders: Sequence[Path]) -> PhraseTable:
-    """Return the phrases of the last folder, some of them replaced by those of the earlier folders; raise `Rejected`
-    with the line of the error."""
+    """Return the phrases of the last folder; a phrase in an earlier folder replaces the phrase with the same name.
+
+    Raise `Rejected` with the line of an error.
+    """
     *replacing, own = folders
     page = _phrases_of(own / OF_EVERY_PAGE)
     for file in sorted(own.glob("*.yaml")):
@@ -129,7 +131,6 @@ def _phrases_of(file: Path) -> PhraseTable:
 
 
 def _add(page: PhraseTable, topic: PhraseTable) -> None:
-    """Add the phrases of a topic to the phrases of the page."""
     for sort, table in topic.items():
         known = page.setdefault(sort, PhraseTable(page.source, (sort,)))
         for name, phrases in table.items():

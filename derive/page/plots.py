@@ -38,9 +38,9 @@ STEPS = 240  # least number of steps of a curve
 STEPS_OF_TURN, MOST_STEPS = 40, 6000  # number of steps for each extremum of a curve, and greatest number of all steps
 MOST_POINTS = 2  # a panel with more zeros, or with more meeting points of curves, has no marks for them
 PATH_STEPS = 720  # number of steps of a path, which may go round many times
-MOST_MARKED, MOST_IN_TIME = 6, 3  # a curve with more extrema has no marks; the second is for curves against the time
-# numbers with a smaller relative difference are equal; for the places of an extremum and of a name, relative to the
-# range
+MOST_MARKED, MOST_IN_TIME = 6, 3  # greatest number of extrema with marks; the second number is for curves against time
+# Numbers with a smaller relative difference count as equal. The distance of an extremum from a named place is compared
+# with this fraction of the range.
 NEAR = 1e-6
 MOST_TOGETHER = 4  # greatest number of curves in one panel; they differ in the style of their lines
 KEPT = 1 / 3  # length of the part of a curve after its range, on which the curve is constant, divided by the range
@@ -351,7 +351,7 @@ def _ends_up(problem: Problem, plot: Plot, placement: Placement | None) -> tuple
 def _numbers(
     problem: Problem, plot: Plot, placement: Placement | None, known: tuple[Measured, ...], letters: set[Symbol]
 ) -> dict[Any, Expr]:
-    """Return the number of each symbol in the plot, except the symbols that vary."""
+    """Return the given numbers of symbols that do not vary; raise `Rejected` if a symbol in the plot has no number."""
     numbers: dict[Any, Expr] = {letter: explicit(amount) for letter, amount in problem.amounts.items()}
     numbers |= {measured.symbol: measured.si for measured in known}
     missing = sorted(s.name for s in letters - {*numbers, *plot.varies})

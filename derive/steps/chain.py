@@ -153,10 +153,11 @@ def approximation_evidence(
 ) -> tuple[Any, bool, list[Evidence]]:
     """Return three values for a result that may be approximate.
 
-    The first value is the symbol of the exact expression that the result approximates, or None. The second value is
-    whether the result is derived from another approximation. The third value is the evidence.
+    The first value is the symbol or the key of the exact result that this result approximates, or None. The second
+    value is whether the result is derived from another approximation. The third value is the evidence.
 
-    The symbol of a limit or a series must differ from the symbol of the exact expression.
+    The symbol of a limit or a series must differ from the symbol of the exact result, unless the last line is a
+    `Truncated` series.
     """
     last = chain[-1]
     if last.because in ONLY_ABOUT and not isinstance(last.expr, Truncated) and (whole is None or whole == symbol):
@@ -175,7 +176,7 @@ def route_evidence(
     key: str, claim: str, found: tuple[Any, Any] | Verdict, compared: Compared = Compared.ROUTE
 ) -> Evidence:
     """Return the evidence of a route or a check; `found` is a pair of values to compare, or a verdict. Raise
-    `Unverified` if they disagree."""
+    `Unverified` if the values differ or the verdict is negative."""
     if isinstance(found, Verdict):
         left = right = None
         verdict = found

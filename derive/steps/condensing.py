@@ -1,8 +1,6 @@
 """Replace the symbols of earlier results by their values in the lines of a step.
 
 This is done for results whose steps have the manner `taken_in`.
-
-Each new line is compared with the line that it replaces.
 """
 
 from __future__ import annotations
@@ -46,4 +44,4 @@ def _same(step: Step, i: int, form: Form, was: Form) -> Evidence:
     verdict = equal(old, new)
     if not verdict:
         raise refused(step.key, f"line {i + 1} changes when the values are substituted", old, new, verdict)
-    return Evidence(f"line {i + 1} with values put in", Compared.LINES, verdict.grade, verdict.detail)
+    return Evidence(f"line {i + 1} with values substituted", Compared.LINES, verdict.grade, verdict.detail)

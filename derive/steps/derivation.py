@@ -140,7 +140,7 @@ def answering(asked: Iterable[W], steps: Iterable[Step], groups: Mapping[str, tu
     """Return the keys of the steps that these names ask for, each with the name that asks for it.
 
     A name may ask for a group of steps. A group of two conditions may be named by the key of one of them. This key then
-    asks for both conditions, because one condition alone would claim too much.
+    asks for both conditions, because one condition alone is not sufficient.
     """
     steps = list(steps)
     own, instead = {step.key for step in steps}, standing_in(steps)

@@ -72,7 +72,7 @@ class Lines:
     put_in    the level from which the law with substituted values is shown; None omits this line
     result    whether the result has a separate line
     arranged  a function that rewrites the result without changing its value
-    motion    rate -> the value of this rate by the equations of motion, which the line of the result uses
+    motion    rate -> its value by the equations of motion; these values are substituted in the line of the result
     means     name -> its value, for names in the left side that are not in the law
     """
 
@@ -102,7 +102,7 @@ class PhraseData:
     words         name -> key of a term ("about": "corner"); the phrases contain the words for this term
     formulas      role -> a formula that only the sentence contains, and the same formula by another route
     named         role -> a symbol or a place that only the sentence contains, judged by a predicate
-    points_to     role -> a parent that the sentence mentions by its symbol or its number
+    points_to     role -> a quantity that the sentence mentions by its symbol or its number
     outcome_data  further data for judging the outcome
     stands_for    keys of other steps; an answer that asks for one of them gets this step
     """

@@ -128,7 +128,7 @@ def dimension_table(
 
 
 def variables_of_integrals(step: Step, table: Mapping[Any, Dimension | None]) -> Table:
-    """Return the dimensions of the variables in the integrals of a step; None if two integrals disagree.
+    """Return the dimensions of the variables in the integrals of a step; a dimension is None if two integrals disagree.
 
     table   the dimensions of the other names in the lines of the step
     """
@@ -140,7 +140,8 @@ def variables_of_integrals(step: Step, table: Mapping[Any, Dimension | None]) ->
 
 
 def _variables_in(expr: Any, table: Mapping[Any, Dimension | None]) -> Iterator[tuple[Any, Dimension | None]]:
-    """Yield the variables of the integrals in an expression that a page prints."""
+    """Yield the variables of integration that a page prints in an expression, each with its dimension; for an integral
+    over the mass, this is only the position r."""
 
     def of(part: Any, variables: Mapping[Any, Dimension | None] | None = None) -> Dimension | None:
         return dimension_of(part, {**table, **variables} if variables else table)

@@ -44,8 +44,8 @@ class Display:
     abbreviates       whether the symbol of the step may replace the square root that is its value in later steps
     names_formula     whether the sentence names the formula, so that a line within a text needs no left side
     repeats           the key of the equation that the step repeats, if any
-    result_in         names of rules: the lines of an input that such a rule made may already contain the result; the
-                      sentence may then point to these lines
+    result_in         names of rules; if such a rule made an input, the lines of this input may already contain the
+                      result, and the sentence may then point to these lines
     conditions        roles of the conditions in the sentence that are part of the answer
     quoted            whether only the result is shown, unless a part asks for the step or the level is `full`
     verdict           whether the answer is the sentence, and the formula only its reason

@@ -31,7 +31,7 @@ NATURAL = "natural"  # the reason of a line that is written with the symbols of 
 
 @dataclass(frozen=True)
 class NamesValue(Fact):
-    """A mark of a quantity whose symbol may replace its value in the results of later steps."""
+    """A mark on a quantity: its symbol may replace its value in the results of later steps."""
 
 
 @dataclass(frozen=True)
@@ -59,7 +59,7 @@ class NaturalQuantities:
         if record.may_use_quantities():
             constants = [*proposals, *_named(record.defined_quantities())]
             states = list(_named(_ancestors(inputs)))
-        named = symbol.args[0] if isinstance(symbol, At) else symbol  # the place r_0 of a derivative is not the result
+        named = symbol.args[0] if isinstance(symbol, At) else symbol  # U'' for U''(r_0)
         own: set[Any] = getattr(named, "free_symbols", set())  # omega_0 if the result is omega_0^2
         self._constants = {each.symbol: each for each in constants if each.symbol not in own}
         others = (each for each in states if each.symbol not in own and each.value != result)

@@ -5,7 +5,7 @@ Several means are tried:
     exact zero         the normal form of the expression
     factors            for each factor, as written and expanded, the assumptions on its symbols
     ranges, relations  for each factor, the ranges of its symbols and the assumed relations between them
-    squares, roots     even powers that do not vanish, sums that are positive by the geometric mean, and roots
+    squares, roots     even powers that do not vanish, sums that are positive by the AM-GM inequality, and roots
     numbers            the numbers that the problem gives for the symbols, only in `sign_known`
 
 A derivation stays symbolic, so numbers are used only to choose between cases, such as whether a top spins fast enough.

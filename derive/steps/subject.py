@@ -18,8 +18,8 @@ from derive.errors import Complaint, Rejected
 
 
 class Mixed(Enum):
-    """The value of a property in which united subjects differ. It counts as different from every value, including
-    itself. Within one system it counts as equal for two quantities that belong to the whole system."""
+    """The value of a property in which united subjects differ. It counts as different from every value, also from
+    itself, except for two quantities that belong to the whole of one system."""
 
     SEVERAL = "several"
 
@@ -130,8 +130,8 @@ def _apart(key: str, field: str, one: tuple[str, Any], other: tuple[str, Any]) -
 
 
 def called(value: Any) -> str:
-    """Return the name by which a message calls a property; an empty text for a long expression, or for a value of
-    another type without a name."""
+    """Return the name by which a message calls a property; an empty text for a long expression, or for a value that
+    has no name and is neither an expression nor text."""
     if isinstance(value, Mixed):
         return "several"
     name = getattr(value, "called", "") or getattr(value, "name", None)

@@ -100,7 +100,7 @@ def holds_at(condition: Relation, point: Point) -> bool:
 
 
 def signs(value: Any, points: Iterable[Point]) -> set[int | None]:
-    """Return the set of signs of a value at the points; None for a value without a sign."""
+    """Return the set of the signs of a value at the points; it contains None if the value has no sign at a point."""
     found = set[int | None]()
     for point in points:
         try:

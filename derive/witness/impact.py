@@ -87,8 +87,8 @@ def _given_share(of: Impact, trial: Trial, state: State) -> Reals:
 
 def _equations(of: Impact, trial: Trial, state: State) -> tuple[Reals, Reals, Reals, Reals, list[Symbol]]:
     """The mass matrix, and four arrays with an entry for each unknown impulse: the change of the momenta per unit of
-    the impulse, the row that gives the speed along the impulse (here equal to this change), the required speed after
-    the impact, and the symbol."""
+    the impulse, the factors of the rates in the speed along the impulse, the required speed after the impact, and the
+    symbol. The first two of these arrays are equal."""
     matrix, _ = trial.dynamics.inertia(state)
     at = trial.dynamics.placed(state)
     places = iter(at.forces[len(of.impulses) :])

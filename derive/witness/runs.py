@@ -201,8 +201,8 @@ def _margin(claim: Claim) -> Expr | None:
 
 
 def slips(claim: Claim) -> Verdict | None:
-    """Test whether |F| <= mu_s N if and only if the stated condition holds, or whether the body begins to slip at the
-    stated place."""
+    """Test the stated condition: the states of the motion that satisfy it must be those with |F| <= mu_s N or, for the
+    outcome "cannot", the other states. For an outcome in `SLIPS_ALONG`, test where the body begins to slip."""
     if claim.outcome in SLIPS_ALONG:
         return leaves(claim)
     margin, side = _margin(claim), claim.judged.inputs.get("side")

@@ -35,7 +35,7 @@ STAYS = 1e-7  # accuracy of an acceleration if all numbers are of order one
 DOUBLE = 1e-4  # relative accuracy of eigenvalues s, which is low for two nearly equal eigenvalues
 SHORT, MOMENTS = 2.0, 6  # duration of a simulated small motion, and number of times at which it is tested
 ZERO = Integer(0)
-DRAWS = 8  # number of trials
+DRAWS = 8  # number of trials for a statement about stability
 DISPLACED = np.array([-2.0, -1.0, 1.0, 2.0])
 WEIGHTS = np.array([1.0, -8.0, 8.0, -1.0]) / 12
 

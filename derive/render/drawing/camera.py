@@ -23,7 +23,7 @@ from derive.figures.polhodes import order_of
 from derive.figures.space import Stance, Vector, angle_of, cross, dot, plus, size_of, unit
 
 ANGLE = pi / 5
-APART = 0.25  # a smaller distance in the view between a tip and a corner makes the view worse; in body sizes
+APART = 0.25  # a tip that is closer to a corner in the view makes the view worse; relative to the size of the bodies
 OPEN = 0.5  # least cosine, if possible, of the angle between the normal of a flat body and the line of sight
 THIN = 0.1  # greatest thickness of a flat body, relative to its size
 SHARES = (0.8, 0.6, 1.0, 0.7)  # values of coordinates without a number, except angles, in units of `typical`

@@ -17,9 +17,9 @@ ENOUGH = 30.0  # in points: a greater distance from the other curves is not bett
 STEP = 2.0  # in points: the distance between the points that represent a curve
 TRIED = 48  # the approximate number of places along a curve at which a name is tried
 INNER = 9.0  # in points: the distance of a legend from the axes with their ticks
-LONGEST = 0.35  # greatest part of a curve that a gap with its name takes away
-STUB = 15.0  # in points: the least piece of an open curve between a gap with its name and an end of the curve
-TURN = 4.0  # in points: the least distance, if possible, of a gap with its name from a turning point of a closed curve
+LONGEST = 0.35  # greatest part of a curve that the gap for its name takes away
+STUB = 15.0  # in points: the least piece of an open curve between the gap for its name and an end of the curve
+TURN = 4.0  # in points: the least distance, if possible, of the gap in a closed curve from a turning point of the curve
 ENDS = 0.04  # part of a curve at either end that has no name
 
 

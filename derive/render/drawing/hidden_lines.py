@@ -1,4 +1,4 @@
-"""Paper on which marks draw themselves; the paper projects positions to points and finds hidden lines of surfaces.
+"""The paper of a drawing: it projects positions to points, and finds the hidden lines of surfaces.
 
 The surfaces in this module are convex, so an edge is hidden if both faces that meet at it face away from the eye.
 """

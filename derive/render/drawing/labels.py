@@ -19,7 +19,7 @@ from derive.figures.space import Spot, direction, is_within
 
 Extent: TypeAlias = tuple[float, float, float, float]  # left, below, right, above
 
-CLEAR = 1.5  # a label covers a line or another label at a smaller distance, in points
+CLEAR = 1.5  # in points: at a smaller distance, a label counts as covering a line or another label
 LINE, HEAVY = 3.0, 60.0  # cost of covering a point of a line, and of covering another label
 OUTSIDE = 6.0  # cost of a position outside the thing that the label names
 BESIDE, TOGETHER = 9.0, 5.0  # gap in points below which two labels in a row look like a product; cost of such a pair

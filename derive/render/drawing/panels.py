@@ -457,7 +457,7 @@ def _ticks(low: float, high: float, most: float, in_degrees: bool, room: tuple[f
     """Return round numbers with the same number of decimals. In a range of at least 20 degrees, the step is 5, 10, 15,
     30, 45, 90, 180 or 360 degrees.
 
-    If there is room below and above, the numbers continue beyond both ends of the range.
+    If there is enough room beyond an end of the range, the outermost number may be beyond this end.
     """
     span = high - low or abs(high) or 1.0
     tens = 10.0 ** floor(log10(span))

@@ -301,7 +301,7 @@ def _named(inside: Layout, dots: int = 0, style: str = "", accent: str = "") -> 
 
 
 def _subscript(below: Layout) -> str:
-    """Return a subscript as the text in a `Name`, or "" if it is not a word, a number or one Greek letter."""
+    """Return a subscript as the text in a `Name`: letters, digits and commas, or one Greek letter; else ""."""
     if isinstance(below, Name) and not below.subscript:
         return below.base
     text = in_one_line(below).replace(" ", "")

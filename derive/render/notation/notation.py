@@ -97,8 +97,8 @@ def _swings(factor: Expr) -> bool:
 
 
 def _is_root_of_quadratic(total: Expr) -> bool:
-    """Return whether a sum is like the numerator of the quadratic formula: two numbers with a root, or two terms, of
-    which one is a root of a sum."""
+    """Return whether a sum is like the numerator of the quadratic formula: two numbers of which at least one has a
+    square root, or two terms of which exactly one has a square root, and this term contains a sum."""
     roots = [term for term in total.args if _has_root(term)]
     return len(total.args) == 2 and (total.is_number and roots != [] or len(roots) == 1 and roots[0].has(Add))
 

@@ -340,7 +340,6 @@ def _scrolling_pieces(pieces: Sequence[tuple[float, Html]], said: str = "", room
 
 
 def _numbers_of(blocks: Sequence[Block]) -> Iterator[Number]:
-    """Yield the numbers of the equations in the blocks."""
     for block in blocks:
         if isinstance(block, Folded):
             yield from _numbers_of(block.blocks)

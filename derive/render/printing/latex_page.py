@@ -368,7 +368,6 @@ def _is_low(lines: Sequence[Printed]) -> bool:
 
 
 def _sides(line: Printed) -> str:
-    """Return relations and right sides."""
     return " ".join(f"{TEX_OPERATORS[relation].strip()} {latex(side)}" for relation, side in line.sides)
 
 

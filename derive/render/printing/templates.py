@@ -43,7 +43,7 @@ def _filled(templates: Templates, kind: str, template: str, facts: Mapping[str, 
     except TemplateSyntaxError as error:
         at = _line(templates.file(f"{kind}/{error.name or template}"), error.lineno)
         message, help_line = f"the template cannot be read: {_said(error)}", None
-        if unexpected := re.fullmatch(r"(.*unexpected )char '(.*)' at \d+", message):  # the offset in the file
+        if unexpected := re.fullmatch(r"(.*unexpected )char '(.*)' at \d+", message):
             message = f"{unexpected[1]}character `{unexpected[2][-1]}`"
             help_line = "`<<` needs `>>`, and `<%` needs `%>`"
         raise Rejected(Complaint("template", message, at, help=help_line)) from error
@@ -59,7 +59,7 @@ def _filled(templates: Templates, kind: str, template: str, facts: Mapping[str, 
 
 
 def filled_above(templates: Templates, template: str, line: str, facts: Mapping[str, Any]) -> Tex:
-    """Fill the text of a template above a certain line; the result is empty if this fails."""
+    """Fill the text of a template above the text `line`; the result is empty if this fails."""
     with suppress(TemplateError, OSError, UnicodeError):
         above, found, _ = templates.file(f"{LATEX}/{template}").read_text(encoding="utf-8").partition(line)
         if found:
@@ -109,7 +109,8 @@ def _environment(templates: Templates, kind: str) -> Environment:
     ours, safe = ESCAPED[kind]
 
     def printed(value: Any) -> Any:
-        """Escape a printed value unless it is `Tex` or `Html`; an undefined value raises an error when printed."""
+        """Escape a printed value unless it has the type of the template, `Tex` or `Html`; an undefined value raises an
+        error when printed."""
         return value if isinstance(value, ours | Undefined) else ours(safe(str(value)))
 
     made = environment(
