@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 from sympy import Expr, Integer, Pow, Rational, Symbol, sqrt
 
@@ -42,13 +43,13 @@ class Motion:
     def start(self) -> Expr:
         return self.speed.needed(ByEnergy).start
 
-    @property
+    @cached_property
     def values(self) -> list[Expr]:
         """Return F, mu_s N, the squared rate and the start, with the given numbers substituted."""
         mu_N = self.contact.limit.coefficient * self.contact.N
         return [*map(with_numbers, (self.contact.F, mu_N, squared_by_energy(self.speed), self.start))]
 
-    @property
+    @cached_property
     def letters(self) -> set[Symbol]:
         return set().union(*map(letters_of, self.values)) - {self.q}
 
