@@ -1,4 +1,5 @@
-"""The contents of a problem's file before its script is run and its expressions are read. SymPy is not needed."""
+"""The contents of a problem's file, before its script is run and its expressions are read. This module needs no
+SymPy."""
 
 from __future__ import annotations
 
@@ -93,7 +94,7 @@ def schema_of_sorts(kinds: Iterable[str]) -> dict[str, Any]:
 
 
 def _sentences(node: Tree, name: str, faults: Faults) -> dict[str, Prose]:
-    """Read the sentences for a step: one text for each outcome, or one text for any outcome."""
+    """Read the sentences for a step: one text for each outcome, or one text for all outcomes."""
     entries = [(o.text, n) for o, n in node.pairs] if isinstance(node, Mapping) else [(ANY_OUTCOME, node)]
     read = {outcome: read_prose(entry, name, faults) for outcome, entry in entries}
     found = {outcome: prose for outcome, prose in read.items() if prose}
@@ -203,7 +204,7 @@ _A_PLACE, _A_WAY = "the name of a place or its components", "a direction: compon
 
 @dataclass(frozen=True)
 class MarkKeys(Record):
-    """The keys of one of `marks:` of a drawing."""
+    """The keys of one mark under `marks:` of a drawing."""
 
     mark: str | None = key(
         "what is drawn: a `point`, a solid `line`, a `dashed` line, a dimension line for a `length`, the `arrow` of a "
@@ -255,7 +256,7 @@ class MarkKeys(Record):
 
     @property
     def written(self) -> tuple[str, ...]:
-        """Return what the file says about the mark, as texts without places."""
+        """Return the contents of the keys of the mark as texts."""
         named = (self.mark, self.label, self.side, self.size, self.against, self.between)
         return *map(str, named), *map(as_text, (self.at, self.start, self.end, self.along))
 
@@ -269,7 +270,7 @@ MARKS_OF_DRAWING = list_of(
 
 @dataclass(frozen=True)
 class DrawingKeys(Record):
-    """The keys of one of `drawings:`."""
+    """The keys of one drawing under `drawings:`."""
 
     at: Tree | None = key(
         "where the drawing appears: `statement`, the letter of a part, the key of a step that a part asks for "
@@ -375,7 +376,7 @@ class DrawingKeys(Record):
 
 @dataclass(frozen=True)
 class LimitKeys(Record):
-    """The keys of one of `limits:`."""
+    """The keys of one limit under `limits:`."""
 
     of: Word | None = key("the step whose limiting or special case is shown, by its key", TEXT)
     letter: Formula | None = key("the letter or the ratio that is small, large or near a value: `S`, `h/R`", FORMULA)
@@ -391,7 +392,7 @@ class LimitKeys(Record):
 
 
 def _limit(node: Tree, name: str, faults: Faults) -> LimitKeys | None:
-    """Read an entry of `limits:`, which must specify its limit in one way."""
+    """Read an entry of `limits:`, which must have either `of` with `letter`, or `of` with `where`, or only `step`."""
     found = _LIMIT.read(node, name, faults)
     if found is None:
         return None
@@ -408,7 +409,7 @@ def _limit(node: Tree, name: str, faults: Faults) -> LimitKeys | None:
 
 
 def _way(*keys: str) -> dict[str, Any]:
-    """Return the schema of a limit with these keys."""
+    """Return the schema of a limit that has these keys and none of the other keys that specify a limit."""
     others = {"of", "letter", "where", "step"} - {*keys}
     return {"required": list(keys), "not": {"anyOf": [{"required": [key]} for key in sorted(others)]}}
 

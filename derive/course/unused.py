@@ -32,7 +32,7 @@ def unused_in(
 ) -> tuple[Complaint, ...]:
     """Return warnings about entries that have no effect."""
     behind = {each.symbol.name for each in measured} - {*written.values}  # the letters that replace numbers
-    exact = {given.kind.each for given in givens if given.written is not None}  # the kinds with exact numbers
+    exact = {given.kind.each for given in givens if given.written is not None}  # the kinds of exact numbers
     found = [*_letters(written, behind, exact)]
     found += [*_drawings(written), *_points(written)]
     if described is not None:

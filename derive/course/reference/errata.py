@@ -58,7 +58,6 @@ def quoted_erratum(entry: Entry) -> Erratum:
 
 
 def _shown(statement: Statement, entry: Entry, letters: Mapping[str, Symbol]) -> Any:
-    """Return a value or a relation as a page shows it."""
     if len(statement.sides) == 2:  # a side that is a number has the unit of the entry
         bare = replace(entry, unit=None)
         numbers = [not side.letters for side in statement.sides]

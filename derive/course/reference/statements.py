@@ -150,7 +150,7 @@ def stated_groups(problem: Problem) -> list[tuple[Problem, list[Entry]]]:
     """Return the groups about this problem: the problem with the group's input, and the entries. Raise `Rejected` on
     errors.
 
-    Errors in groups for other problems do not matter here.
+    Errors inside groups for other problems are not reported.
     """
     faults = Faults()
     own = [_own_group(problem, faults)] if problem.reference else []
@@ -172,7 +172,6 @@ def stated_groups(problem: Problem) -> list[tuple[Problem, list[Entry]]]:
 
 
 def _own_group(problem: Problem, faults: Faults) -> tuple[Problem, list[Entry]]:
-    """Return the statements in the problem's own file."""
     node = mapping_in(problem.root, problem.path, "a problem").get("reference")
     assert isinstance(node, Mapping)
     group = read_record(OwnKeys, node, "`reference`", faults)
