@@ -1,7 +1,7 @@
 """The documents of a class: for each student a sheet, a key and solutions with the values of the student's variant.
 
 The folder `students/` contains the sheets. The folder `class/` contains the files for the instructor: the solutions,
-the keys and the table of all answers. A later run makes only documents whose inputs have changed.
+the keys and the table of all answers. A later run makes only the documents that are out of date.
 """
 
 from __future__ import annotations
@@ -194,8 +194,8 @@ def made_class(
     scheduler: str = "",
     reseed: bool = False,
 ) -> ClassReport:
-    """Make the documents of the students, except those that are up to date. An error in one variant does not stop the
-    others.
+    """Make the documents of the students, except documents that are up to date. An error in the variant of one student
+    does not stop the work for other students.
 
     seed        by default the seed with which the class was made before
     reseed      whether a seed may differ from the one with which the class was made before
@@ -398,7 +398,8 @@ def _rows(student: Student, problem: str, page: Mapping[str, Any]) -> list[tuple
 
 
 def _remove_others(shared: ClassDocuments, students: Sequence[Student], before: ClassRecord | None) -> None:
-    """Remove the documents of students who left, also if the user removed the folder of the class."""
+    """Remove the documents of earlier students, including the sheets that remain if the user removed the folder of the
+    class."""
     earlier = {record.stem for record in (shared.outputs / CLASS / MADE).glob("*.json")}
     earlier |= {code for code in (before.students if before else ()) if NAME.fullmatch(code)}
     for student in (Student("", code) for code in earlier - {student.code for student in students}):

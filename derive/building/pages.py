@@ -88,7 +88,7 @@ def printed(
 
 
 def rubric_of(problem: Problem, solved: Solved) -> dict[str, dict[str, Fraction]]:
-    """Return the points of the steps of the rubric, by the label of the part and the key of the step; {} without
+    """Return the points that steps earn, by the label of the part and the key of the step; {} if the problem has no
     points."""
     if problem.points is None:
         return {}
@@ -239,7 +239,7 @@ class _Printing:
 
     @cached_property
     def points(self) -> dict[str, tuple[Credit, ...]]:
-        """The points of the steps, by the label of the part."""
+        """The points that steps earn, by the label of the part."""
         values = self.solved.values.values()
         steps = [*self.solved.derivation.steps, *values]
         # The phrases have no task for a rule of an author's script.

@@ -198,7 +198,8 @@ def _structure(root: Path, problem_id: str, given: Chosen, found: OfProblem) -> 
 
 
 def _has_number(quantity: Quantity, letters: set[Symbol]) -> bool:
-    """Whether an answer is a scalar whose letters have numbers; a period that is given as a series does not count."""
+    """Return whether an answer is a scalar whose letters all have numbers, and not a period that is given as a
+    series."""
     value = quantity.value
     if isinstance(value, MatrixBase | Relation) or quantity.fact(WholeSwing) is not None:
         return False

@@ -18,13 +18,13 @@ ACCENTS = (
     "dot",
     "ddot",
     "mathbf",
-)  # a document may change their looks, not their meaning
+)  # commands whose appearance a document may change, but not their meaning
 MOST_UNCLOSED = 100  # after more definitions with unclosed braces than this, the search for definitions ends
 
 
 @dataclass(frozen=True)
 class Macro:
-    """A command with `count` arguments; `default` is the value of the first one if the call omits it."""
+    """A command with `count` arguments; `default` is the value of the first argument if the call omits it."""
 
     name: str
     count: int

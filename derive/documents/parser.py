@@ -126,7 +126,8 @@ class _Reader:
         return token is not None and token.is_command(*names)
 
     def argument(self) -> list[Token]:
-        """Return the tokens of the next argument, which is only the first digit of a number without braces."""
+        """Return the tokens of the next argument. As in TeX, only the first digit of a number without braces is the
+        argument."""
         self.skip_spacing()
         token = self.peek()
         if token is None:
@@ -292,7 +293,7 @@ class _Reader:
         return lower, upper
 
     def limit(self, tokens: list[Token], span: Span) -> Node:
-        """Return a limit or condition: a value, or `x = value`."""
+        """Return a limit, such as `h`, or a condition, such as `z = h`."""
         tokens = without_spaces(tokens)
         equals = _equals_sign(tokens)
         if equals:
@@ -312,7 +313,7 @@ class _Reader:
             return Text(span, "".join(each.text for each in tokens))
 
     def divide(self, factors: list[tuple[str, Node]]) -> None:
-        """Read the denominator after a slash; a run of factors is open between `(a/b)c` and `a/(bc)`."""
+        """Read the denominator after a slash; if several factors follow, keep both readings, `(a/b)c` and `a/(bc)`."""
         self.skip_spacing()
         if self.divided_differentials(factors):
             return

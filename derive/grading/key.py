@@ -42,7 +42,7 @@ from derive.steps.homogeneity import dimension_of, dimension_table
 from derive.steps.step import Step
 
 ONE: Expr = Integer(1)
-# a relation with one of these on its left side states its value
+# a relation whose left side contains one of these states the value of the left side
 _NAMED_RATES = (TimeRate, CarriedRate, BodyRate, Slope, At)
 
 
@@ -65,7 +65,7 @@ class Target:
     of_set   whether the value is a set of numbers, in any order
     scaled   whether the value is known up to a factor only, such as the amplitudes of a mode
     own      the points of the answer in the rubric
-    whole    these points and those of the steps before it
+    whole    the points of the answer and of the steps before it
     """
 
     key: str

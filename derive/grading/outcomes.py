@@ -67,7 +67,7 @@ def share_of(outcome: Outcome, own: Fraction, whole: Fraction) -> Fraction:
     """Return the points for an answer.
 
     own     the points of the answer itself in the rubric
-    whole   these points and the points of the steps before it
+    whole   the points of the answer and of the steps before it
 
     A right answer earns all points. An answer with one slip (a sign, a factor, a term) earns the points of the steps
     before it, or half of the points if the rubric has no such steps. An answer that holds only for special values earns

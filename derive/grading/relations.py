@@ -103,7 +103,8 @@ def _renamed(typed: Relation, goal: Relation, comparison: _Comparison) -> Verdic
 
 
 def _with_function(typed: Relation, goal: Relation) -> Relation | None:
-    """Return a condition on an angle as a condition on its tangent, sine or cosine, as the problem has it."""
+    """Return a condition on an angle as a condition on its tangent, sine or cosine, if the problem states it so; else
+    None."""
     left = goal.left
     if not isinstance(left, sin | cos | tan) or typed.left != left.args[0]:
         return None
@@ -112,7 +113,8 @@ def _with_function(typed: Relation, goal: Relation) -> Relation | None:
 
 
 def angle_of(target: Target, name: Any) -> Target | None:
-    """Return the answer as an angle, if it is a number for the sine, cosine or tangent of the angle with this name."""
+    """Return the answer as an angle, if the right answer is a number for the sine, cosine or tangent of the angle with
+    this name; else None."""
     left = target.value.left
     if not isinstance(left, sin | cos | tan) or left.args[0] != name or target.number is None:
         return None
@@ -149,8 +151,8 @@ def _wrong_inequality(typed: Relation, goal: Relation, key: Key) -> Verdict:
 
 
 def _wrong_equation(comparison: _Comparison, typed: Relation, goal: Relation) -> Verdict:
-    """Return what is wrong with an equation, which is scaled so that one of its terms agrees with one of the right
-    equation."""
+    """Return what is wrong with an equation. For the comparison, the equation is scaled so that one of its terms equals
+    a term of the right equation."""
     key = comparison.key
     given, wanted = sympy.expand(typed.residual), sympy.expand(goal.residual)
     read = comparison.read
