@@ -71,7 +71,7 @@ class ClassRecord:
 def class_to_grade(root: Path, set_id: str, seed: str | None, students: Mapping[str, str] | None) -> ClassRecord | None:
     """Return the class whose answers are graded; None if no class has been made and no roster is given.
 
-    seed       raise `Misused` if it is not the seed of the class, or if there is no class
+    seed       the stated seed, which must be the seed of the class; a seed without a class or a roster is an error
     students   the names of the students in a roster, by their codes; None if no roster is given
     """
     made = ClassRecord.read(root, set_id)

@@ -43,7 +43,7 @@ KINDS = (SHEET, KEY, SOLUTIONS)
 COLUMNS = ("student", "name", "problem", "part", "answer", "formula", "value", "unit", "figures")
 AT_ONCE = 10  # the number of students in one job
 LONGEST_ROSTER = 2_000_000
-RESEED = "leave out `--seed`, or add `--reseed` to give the students other values than on the sheets that they have"
+RESEED = "leave out `--seed`, or add `--reseed`; the students then get values that differ from those on their sheets"
 
 
 @dataclass(frozen=True)
@@ -198,7 +198,7 @@ def made_class(
     does not stop the work for other students.
 
     seed        by default the seed with which the class was made before
-    reseed      whether a seed may differ from the one with which the class was made before
+    reseed      whether `seed` may differ from the seed with which the class was made before
     scheduler   the address of a Dask scheduler, whose workers do the jobs; by default, processes of this machine do the
                 jobs
     """

@@ -3,10 +3,10 @@
 A stored derivation depends on derive's own modules, SymPy and mpmath, on the script and its modules, and on the
 reference. It also depends on these entries of the problem:
 
-    the given values, the symbols, and all other entries that `OF_PAGES`, `IN_PARTS` and `OF_FILES` do not name
-    the answers, forms and cases that parts ask for, and the chosen observations
-    the quantities, ranges, levels, surfaces, curves and labels of plots, and the marks that the problem adds to
-    drawings
+    - the given values, the symbols, and all other entries that `OF_PAGES`, `IN_PARTS` and `OF_FILES` do not name
+    - the answers, forms and cases that parts ask for, and the chosen observations
+    - the quantities, ranges, levels, surfaces, curves and labels of plots
+    - the marks that the problem adds to drawings
 
 It does not depend on templates, or on prose such as the statement and the questions.
 """

@@ -53,7 +53,7 @@ class Wanted:
     only        the formats; by default all formats of a build
     evidence    how much the page shows about its checks
     documents   other documents, such as the key, hints or a rubric
-    width       the width of the reader's text in centimetres, for a fragment
+    width       for a fragment, which another LaTeX document includes: the width of the text there, in centimetres
     """
 
     detail: str | None = None
@@ -105,7 +105,8 @@ class _Printing:
 
     def rendered(self) -> Rendered:
         problem, solved, document, notation = self.problem, self.solved, self.document, self.notation
-        warnings, files, documents = self._warnings(), self.files, self._documents()  # these raise the author's errors
+        # These calls raise `Rejected` if the file of the problem has errors.
+        warnings, files, documents = self._warnings(), self.files, self._documents()
         latex, html = self._latex(), self._html()
         return Rendered(
             id=problem.id,

@@ -45,7 +45,7 @@ class Scratch:
         self.cleanup()
 
 
-@cache  # once per process and folders, even if the process builds often
+@cache  # a process sweeps the same folders only once, even if it builds often
 def sweep(*folders: Path) -> None:
     """Remove unfinished files in these folders, and scratch folders of this user that no process uses."""
     for folder in folders:

@@ -1,5 +1,6 @@
 """Checks of many variants of a problem: the distribution of the answers, and degenerate draws.
 
+A draw is degenerate if the derivation or one of its conditions fails, or if an answer has no real value.
 A structure is one choice of everything that varies except numbers. Each structure is derived once, and the numbers of a
 draw are substituted. For a comparison, a few draws are also derived completely.
 """

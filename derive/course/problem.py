@@ -411,7 +411,7 @@ def run_solve(problem: Problem, record: Run | None = None) -> object:
 
 @contextmanager
 def solving(problem: Problem, record: Run) -> Iterator[None]:
-    """Add the steps of a `with` block to `record`, after the letters, numbers and assumptions of the problem."""
+    """Add to `record` the letters, numbers and assumptions of the problem, and then the steps of a `with` block."""
     record.numbers = {letter: explicit(amount) for letter, amount in problem.amounts.items()}
     written = {given.name: problem.places.get(f"given.{given.name}") for given in problem.givens}
     record.places = {name: place for name, place in written.items() if place}

@@ -286,8 +286,8 @@ class DrawingKeys(Record):
     )
     marks: tuple[MarkKeys, ...] = key(
         "if `solve` is `system`, `body` or `rotation`: [marks](#marks) that are drawn in addition, such as a centre of "
-        "mass, a length, a velocity or an angle. With `solve: body`, marks under another name than that of the body "
-        "make a further drawing of it",
+        "mass, a length, a velocity or an angle. With `solve: body`, marks under a name that is not the name of the "
+        "body make a further drawing of the body",
         MARKS_OF_DRAWING,
     )
     without: tuple[Word, ...] = key(
@@ -344,8 +344,8 @@ class DrawingKeys(Record):
         called="range",
     )
     then: Formula | None = key(
-        "for curves against `t`: the answer or the formula whose value they keep after the range, such as `v_1`; it "
-        "must be their value at the end of the range",
+        "for curves against `t`: the answer or the formula whose value the curves keep after the range, such as `v_1`; "
+        "the curves must have this value at the end of the range",
         FORMULA,
     )
     up: tuple[Formula, ...] | None = key(
@@ -364,7 +364,7 @@ class DrawingKeys(Record):
     )
     cases: tuple[dict[Word, Tree], ...] = key(
         "numbers for letters, one mapping for each curve of a plot; a later mapping needs only the numbers that differ "
-        "from those of the first",
+        "from the numbers of the first mapping",
         list_of(mapping_of(SCALAR, _NUMBERS), "a list of mappings such as `{R: 20 cm, a: 5 cm}`", each="a case"),
     )
     panels: str | None = key(
@@ -431,7 +431,7 @@ class FigureKeys(Record):
     alt: Prose | None = key("what the figure shows, for a reader who does not see it", PROSE, required=True)
     caption: Prose | None = key("the caption, in prose; with a caption the figure has a number", PROSE)
     width: Tree | None = key(
-        "the width, such as `5 cm`; by default that of the file, or less if the page has no room for it",
+        "the width, such as `5 cm`; by default the width stated in the file, or less if the page has no room for it",
         as_written(TEXT.schema, "a length"),
     )
 

@@ -118,7 +118,7 @@ def _documents(node: Tree, name: str, faults: Faults) -> dict[Word, Word] | None
 class CourseKeys(Record):
     """The keys of `course.yaml`, which all sets of the course share."""
 
-    course: Word | None = key("the course", TEXT)
+    course: Word | None = key("the name of the course", TEXT)
     institution: Word | None = key("the university, the department or the school", TEXT)
     instructor: Word | None = key("the instructor of the course", TEXT)
     term: Word | None = key("the term as it is to be printed", TEXT)
@@ -247,7 +247,7 @@ def problem_set(root: Path, set_id: str) -> ProblemSet:
     misspelt = any(nearest(name.text, ["course"]) for name, _ in node.pairs if name.text not in keys_of(SetKeys))
     if not (written.course or of_course.course or misspelt) and node.get("course") is None:
         help_line = f"write it here, or in `{COURSE}` for all sets of the course"
-        faults.error("missing-key", "a set needs `course`: the course", node.place, help=help_line)
+        faults.error("missing-key", "a set needs `course`: the name of the course", node.place, help=help_line)
     faults.stop()
 
     def own(name: str) -> str | None:

@@ -2,8 +2,8 @@
 
     figures: int | None = key("significant figures of the number", FIGURES)
 
-The JSON schema of a reader shows editors what the key allows; its function turns the contents of the key into a checked
-value.
+The JSON schema of a reader shows editors what the key allows; the function of the reader turns the contents of the key
+into a checked value.
 """
 
 from __future__ import annotations

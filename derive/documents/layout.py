@@ -144,7 +144,7 @@ class Row:
 
 @dataclass
 class Block:
-    """A display, or a formula in a sentence; `before` is the text between it and the formula before it."""
+    """A display, or a formula in a sentence; `before` is the text between the previous formula and this one."""
 
     display: bool
     environment: str
@@ -373,8 +373,8 @@ class _Reading:
         return row
 
     def rest_of_side(self, block: Block, cells: list[list[Token]]) -> Row | None:
-        """Add the tokens to the last side of the previous row, if they continue that side, and return the row; otherwise
-        return None."""
+        """Add the tokens to the last side of the previous row if they continue it, and return the row; otherwise return
+        None."""
         tokens = without_spaces([token for cell in cells for token in cell])
         while tokens and tokens[0].is_command(
             "quad", "qquad", ",", ";", " ", "!", ":", "hspace", "phantom", "hphantom"

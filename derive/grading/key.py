@@ -165,7 +165,10 @@ def key_of(
     values: Mapping[str, Step],
     credits: Mapping[str, Mapping[str, Fraction]] | None = None,
 ) -> Key:
-    """Return the key of a derived problem; `credits` are the points of each step of the rubric, by label and key."""
+    """Return the key of a derived problem.
+
+    credits   the points that steps earn, by the label of the part and the key of the step
+    """
     dimensions, _ = dimension_table(problem.dimensions, derivation.steps)
     notation = Notation(dimensions)
     made = _Making(problem, derivation, values, dimensions, notation)

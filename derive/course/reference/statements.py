@@ -88,7 +88,7 @@ class Statement:
 class Entry:
     """One entry of the file.
 
-    states      the value in the document; None if nothing is compared, for a remark or an erratum that is only quoted
+    states      the value in the document; None if nothing is compared, as for an erratum that is only quoted
     right       the value that the document should state, for an erratum
     figures     the significant figures: one number, or one for each component or branch; empty for an exact value
     unit        the unit of every component
@@ -462,7 +462,7 @@ class _EntryReader:
         return read
 
     def statement(self, entry: EntryKeys, put_in: tuple[str, ...], formula: Formula | None) -> Statement | None:
-        """Read the value that an entry states under `states:` or `latex:`, or in the document."""
+        """Read the value of an entry from `states:` or `latex:`, or from the formula that the entry cites."""
         plain, printed, keys = entry.states, entry.latex, keys_of(EntryKeys)
         homogeneous = "erratum" not in entry.values_at and not put_in
         if plain is not None and printed is not None:
