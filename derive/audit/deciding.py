@@ -533,7 +533,7 @@ class Decision:
         if self.claim.relation != "=":
             return Verdict(Outcome.UNDECIDED, "this relation is not checked")
         if self.holds_in_motion_only(left, right):
-            return Verdict(Outcome.UNDECIDED, "this may hold for the motion only, by the equations of motion")
+            return Verdict(Outcome.UNDECIDED, "this may hold only because of the equations of motion")
         if (left.free_symbols ^ right.free_symbols) & set(self.meaning.sums):
             return Verdict(Outcome.UNDECIDED, "sums over an index are compared only as they are written")
         if entries := self.unknown_entries(left, right):

@@ -224,7 +224,7 @@ class _Comparison:
             told = f"with another zero of the energy: it differs by {shown(difference, self.key)}"
             return Verdict(Outcome.CONVENTION, told)
         if is_lagrangian and self.is_rate(difference, moving):
-            told = "it leads to the same equations of motion: it differs by the rate of a function"
+            told = "it leads to the same equations of motion: it differs by the time derivative of a function"
             return Verdict(Outcome.CONVENTION, told)
         return None
 
