@@ -37,7 +37,7 @@ USUAL_SECONDS = 0.3  # the usual processor time of a claim
 MOST_LATE = 40.0  # the limit falls linearly with the seconds beyond the usual time, and would be zero at MOST_LATE
 SECONDS_OF_SEARCH = 2.0  # seconds of processor time for the search for a change that makes a claim right
 MOST_INDICES = 12
-MOST_ROWS = 10  # number of claims whose terms may be missing in the next row
+MOST_ROWS = 10  # number of the last claims in displays whose terms may be missing in a row
 MOST_FIXED = 5  # number of earlier rows that are searched for a slip
 SPECIAL = frozenset({Cue.GIVEN, Cue.PUT_IN, Cue.ZERO, Cue.APPROXIMATE})  # cues that explain why a row has fewer terms
 MOST_READINGS = 8
@@ -323,7 +323,6 @@ class _Auditor:
         return i + 1, j + 1, matrix.rows[i][j].span
 
     def best(self, claim: Claim) -> Verdict:
-        """Return the verdict for the best reading of a claim."""
         first: Verdict | None = None
         reason = ""
         seen: list[tuple[Value, Value]] = []
@@ -549,7 +548,6 @@ class _Auditor:
         return self.document.source.text[span.start : span.end].strip()
 
     def may_be_special(self, claim: Claim) -> bool:
-        """Whether a claim may hold in a special case only."""
         if Cue.APPROXIMATE in claim.row.block.cues:
             return True
         for each in reversed(self.claims[: claim.number]):
@@ -670,7 +668,6 @@ class _Auditor:
     def of_values(
         self, claim: Claim, left: Value, right: Value, meaning: Meaning, cues: frozenset[Cue], thorough: bool = True
     ) -> Verdict:
-        """Return the verdict on a claim whose sides have these values."""
         verdict = Decision(claim, left, right, meaning, self.known, cues, thorough).verdict()
         if verdict.outcome in GOOD:
             return verdict

@@ -133,7 +133,6 @@ def _of(expected: Expected, sections: list[_Section]) -> Compared:
 
 
 def _read(expected: Expected, facts: Facts, meaning: Meaning) -> _Result | None:
-    """Return a result with the values of its sides; None if it cannot be read."""
     document = read_document(source_of(f"$${expected.latex}$$", Format.TEX))
     statements = [statement for row in document.rows for statement in row.statements]
     if len(statements) != 1 or len(statements[0].sides) != 2:

@@ -274,7 +274,6 @@ def _older(shared: ClassDocuments, students: Sequence[Student]) -> Complaint:
 
 
 def _older_set(root: Path, set_id: str, engine: str | None) -> list[Complaint]:
-    """Return a warning if the documents of the last build of the set are out of date."""
     if (
         not Manifest.read(set_folder(root, set_id)).pages
         or not staleness(Asked(root, set_id, (), engine=engine)).reasons

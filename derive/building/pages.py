@@ -189,7 +189,6 @@ class _Printing:
 
     @cached_property
     def files(self) -> Files:
-        """The files of the drawings, if they are requested."""
         if not self.wanted.draws:
             return ()
         drawings = self.solved.drawings
@@ -267,7 +266,6 @@ def _notation(
 
 
 def _source_faults(compared: Sequence[Told], notation: Notation) -> tuple[SourceFault, ...]:
-    """Return the errata of the source and the remarks on the source."""
     if not any(told.erratum or told.remark for told in compared):
         return ()
     from derive.render.notation.from_latex import in_plain_text  # needed by few problems

@@ -142,8 +142,6 @@ def built_set(
 
 
 class _Build:
-    """The state of one build of one set."""
-
     def __init__(
         self,
         root: Path,

@@ -140,7 +140,6 @@ def _kept(cache: Cache, key: str) -> Solved:
 
 
 def _check_characters(problem: Problem) -> None:
-    """Check that prose contains only printable characters."""
     faults = []
     for prose in problem.texts:
         at = unprintable(prose.text)

@@ -209,7 +209,6 @@ def _scalar(node: Tree, wanted: Wanted, where: Place | None = None) -> Scalar:
 
 
 def _value(scalar: Scalar, wanted: Wanted, symbols: Mapping[str, Declared]) -> Expr | Number:
-    """Read a scalar as an expression or as a number with its unit."""
     number = number_with_unit(scalar, wanted, symbols)
     if number is not None:
         _check_sign(number.si, scalar, wanted)

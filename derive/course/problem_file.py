@@ -153,8 +153,6 @@ PLOTTED = Reader({"anyOf": [TEXT.schema, _PAIR]}, _plotted)
 
 
 def _degrees(most: float) -> Reader[float]:
-    """Return the reader of an angle in degrees from `-most` to `most`."""
-
     def read(node: Tree, name: str, faults: Faults) -> float | None:
         number = _DEGREES.fullmatch(node.text.strip()) if isinstance(node, Scalar) else None
         if number is not None and abs(float(number[1])) <= most:

@@ -62,7 +62,6 @@ def _has_open(value: Any) -> bool:
 
 
 def _combined(values: list[Any], facts: Facts) -> Iterator[tuple[list[Any], tuple[Choice, ...]]]:
-    """Yield the combinations of readings of several values."""
     if not values:
         yield [], ()
         return

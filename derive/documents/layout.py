@@ -268,8 +268,6 @@ def _covered(spans: Sequence[Span], position: int) -> Span | None:
 
 
 class _Reading:
-    """Goes through a document from its first to its last formula."""
-
     def __init__(self, source: Source, macros: dict[str, Macro], hidden: list[Span], headings: list[Heading]):
         self.source, self.text, self.macros, self.hidden, self.headings = source, source.text, macros, hidden, headings
         self.count = 0
@@ -340,7 +338,6 @@ class _Reading:
             position = close_at.end()
 
     def read_rows(self, block: Block, inner: Span) -> None:
-        """Read the rows of a formula and the statements in them."""
         try:
             written = _without_definitions(tokens_of(self.text, inner.start, inner.end))
             tokens = _simplified(expanded(written, self.macros))

@@ -423,7 +423,7 @@ class _Reader:
 
     @staticmethod
     def second(applied: Node) -> Node:
-        """Return the bracket after a letter, as a factor of their product."""
+        """Return the bracket of `maybe_applied`, so that it can be a factor of a product."""
         product = applied.alternatives[1] if isinstance(applied, Open) else applied
         return product.factors[1][1] if isinstance(product, Mul) else product
 

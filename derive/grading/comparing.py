@@ -275,7 +275,6 @@ class _Comparison:
         return None
 
     def dimension(self, value: Expr) -> Dimension | None:
-        """Return the dimension of an expression, or None if it cannot be determined."""
         try:
             return dimension_of(value, self.key.dimensions)
         except Inhomogeneous:

@@ -187,7 +187,6 @@ class _Grading:
 
     @staticmethod
     def put_in(statement: _Statement, name: Symbol, value: Read) -> _Statement:
-        """Return a statement in which a letter is replaced by its value."""
         if statement.read is None:
             return statement
 
@@ -345,7 +344,7 @@ class _Grading:
         return replace(verdict_on_value(read, target, self.key), target=target.key), used
 
     def of_set(self, statements: list[_Statement], target: Target) -> tuple[Verdict, list[_Statement]] | None:
-        """Judge a set of values, such as the principal moments, that several statements give."""
+        """Judge a set of values, such as the principal moments, that one or several statements give."""
         names = {each: i for i, each in enumerate(target.symbol)}
         used, values = [], []
         for statement in statements:

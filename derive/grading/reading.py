@@ -119,8 +119,6 @@ class Reader:
 
 @dataclass
 class _InProblem(Meaning):
-    """Finds values in the symbols of a problem."""
-
     names: Names = field(default_factory=Names)
     wholes: Mapping[tuple[str, str], MatrixBase] = field(default_factory=dict)
     unknown: set[Symbol] = field(default_factory=set)
