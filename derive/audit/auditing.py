@@ -494,7 +494,7 @@ class _Auditor:
         left_side = self.last_good_side(claim)
         if claim.right is None or left_side is None or claim.values is None:
             return None
-        if all(isinstance(each, Symbol) for each in claim.values):  # "at theta = theta_1" names a place
+        if all(isinstance(each, Symbol) for each in claim.values):  # such as "at theta = theta_1", which names a place
             return None
         right_node, left_node = readings(claim.right, self.facts)[0][0], readings(left_side, self.facts)[0][0]
         letter = claim.values[0] if isinstance(claim.values[0], Symbol) and not claim.is_step else None

@@ -58,7 +58,7 @@ def _equal(left: Value, right: Value) -> bool:
 
 @dataclass
 class Decision:
-    """The decision on one claim with one reading of its sides."""
+    """The decision on one claim with one reading of its sides. Each test returns None if it does not apply."""
 
     claim: Claim
     left: Value
@@ -148,7 +148,7 @@ class Decision:
         return None
 
     def square(self) -> Verdict | None:
-        """Judge a claim that gives a value to a power of a letter: `v^2 = ...`."""
+        """Judge a claim that gives a value to the square of a letter: `v^2 = ...`."""
         if self.claim.is_step or self.claim.relation not in ("=", ":="):
             return None
         if not (isinstance(self.left, sympy.Pow) and isinstance(self.left.base, Symbol) and self.left.exp == 2):

@@ -292,7 +292,7 @@ def lines_told(trace: int) -> str:
 
 
 def _line_in(trace: str, job: Job) -> Place | None:
-    """Return the innermost running line that belongs to a script in the folder of the problem's file."""
+    """Return the innermost running line that belongs to a script in the folder of the problem's file, or None."""
     for name, line in re.findall(r'^  File "(.+)", line (\d+) in ', trace, re.MULTILINE):
         file = Path(name)
         if job.file and file.parent == job.file.parent:

@@ -408,7 +408,7 @@ def _nothing_is_empty(node: Tree) -> Tree:
 
 
 def _cut_off(before: Tree, key: Scalar, value: Tree) -> Scalar | None:
-    """Return the whole value if a comma inside a bracket has split it."""
+    """Return the whole value if a comma inside a bracket has split it; otherwise None."""
     if not (isinstance(before, Scalar) and before.style == key.style == "" and isinstance(value, Scalar)):
         return None
     source, start = key.source, before.start
@@ -473,7 +473,7 @@ def _syntax_complaint(error: yaml.MarkedYAMLError, source: Source) -> Complaint:
     if "expected <block end>" in problem and here.text[: here.column - 1].strip():
         return syntax("this does not belong to the value before it", "put the whole value in quotes")
     if "expected <block end>" in problem:
-        return syntax("this does not line up with the lines above", "begin keys of one level in one column")
+        return syntax("this does not line up with the lines above", "begin keys of the same level in the same column")
     if "could not find expected ':'" in problem:
         return syntax("a key needs `: ` after it", None, opening)
     if "node content" in problem:

@@ -76,7 +76,7 @@ def macros_of(text: str) -> tuple[dict[str, Macro], list[Span]]:
 
 
 def end_of_group(text: str, start: int) -> int | None:
-    """Return the position after the brace that closes the group that begins at `start`."""
+    """Return the position after the brace that closes the group at `start`; None if the group is not closed."""
     depth, position = 0, start
     while position < len(text):
         char = text[position]

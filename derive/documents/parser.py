@@ -199,7 +199,7 @@ class _Reader:
         return Add(begins.span.to(terms[-1][1].span), tuple(terms))
 
     def sign(self) -> str | None:
-        """Return the next sign; several signs in a row are combined."""
+        """Return the next sign, or None; several signs in a row are combined."""
         sign = None
         while (token := self.peek()) is not None:
             if token.is_mark("+", "-"):
@@ -1501,7 +1501,7 @@ def _orders(node: Node) -> int:
 
 
 def _with_differential_on_top(fraction: Frac) -> list[Node] | None:
-    r"""Return `\frac{dx}{1+x^2}` as `\frac{1}{1+x^2}` and `dx`."""
+    r"""Return `\frac{dx}{1+x^2}` as `\frac{1}{1+x^2}` and `dx`; None if no differential is on top."""
     top = fraction.top
     factors = [each for _, each in top.factors] if isinstance(top, Mul) else [top]
     if not isinstance(factors[-1], Diff):
