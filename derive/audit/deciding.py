@@ -620,8 +620,8 @@ class Decision:
         return Verdict(Outcome.UNDECIDED, "an equation that does not follow from the rows before it")
 
     def is_lagrange_form(self, symbols: set[Symbol]) -> bool:
-        """Whether all derivatives in an equation are of one letter, some with respect to a coordinate and some with
-        respect to a rate."""
+        """Whether an equation looks like Lagrange's equation: its derivatives are of one letter only, by a coordinate
+        and by a rate."""
         derivatives = [self.meaning.derivatives[each] for each in symbols if each in self.meaning.derivatives]
         letters = {letter.identity for letter, _, _ in derivatives}
         dots = {
@@ -677,8 +677,8 @@ def _solves(equation: Expr, letter: Symbol, value: Expr) -> bool:
 
 
 def _combination(wanted: Expr, equations: list[tuple[Expr, int]]) -> tuple[int, ...] | None:
-    """Return the claims of two or three equations whose sum, with some choice of signs, gives a multiple of the wanted
-    equation."""
+    """Return the claims of two or three equations that add up, with some choice of signs, to a multiple of the wanted
+    equation; None if there are none."""
     goal = fingerprint(wanted)
     for count in (2, 3):
         for chosen in combinations(equations, count):

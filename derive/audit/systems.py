@@ -1,8 +1,8 @@
 """What follows from several earlier equations together.
 
-An equation counts as a consequence of others if, at a few points, its coefficients are a linear combination of their
-coefficients. The unknowns are products of the letters that are eliminated. Lagrange's and Hamilton's equations of a
-function that the document defines also belong to the known equations.
+An equation counts as a consequence of other equations if, at a few points, its coefficients are a linear combination of
+the coefficients of the others. The unknowns are products of the letters that are eliminated. Lagrange's and Hamilton's
+equations of a function that the document defines also belong to the known equations.
 """
 
 from __future__ import annotations
@@ -46,8 +46,8 @@ def equations_of(
 ) -> list[Equation]:
     """Return the equations that earlier rows give, the last ones first, with definitions substituted.
 
-    `sure` leaves out conditions in sentences and solutions as functions of the time, which may hold in one case only;
-    `written` leaves out Lagrange's and Hamilton's equations of a function.
+    sure      whether to leave out conditions in sentences and motions x(t), which may hold in one case only
+    written   whether to leave out Lagrange's and Hamilton's equations of a function
     """
     state = (len(known.equations), sum(map(len, known.definitions.values())), without, sure, written)
     if state not in known.kept:

@@ -56,8 +56,11 @@ class Student:
 
 @dataclass
 class ClassReport:
-    """The outcome of a run; `made` counts the students whose documents were made, and `kept` those whose documents were
-    up to date."""
+    """The outcome of a run.
+
+    made   the number of students whose documents were made
+    kept   the number of students whose documents were already up to date
+    """
 
     students: int = 0
     made: int = 0

@@ -525,8 +525,8 @@ class Meaning:
         return None
 
     def of_member(self, term: Expr, index: Symbol, by: Symbol) -> Expr:
-        """Return the derivative by v_k, for example, of the only term of a sum that contains v_k: m_k v_k for the sum
-        of m_i v_i^2/2."""
+        """Return the derivative of a sum by a letter that only one of its terms contains: the derivative of the sum of
+        m_i v_i^2/2 by v_k is m_k v_k."""
         letter = self.symbols.get(by)
         members = [self.symbols.get(each) for each in term.free_symbols if self.has_index(each, index)]
         if letter is None or not any(
@@ -546,8 +546,8 @@ class Meaning:
         return sympy.diff(term.xreplace(put_in), by)
 
     def rate_of(self, symbol: Symbol, by: Symbol, partial: bool) -> Expr:
-        """Return the derivative of a letter with respect to another one: a rate or a symbol for the derivative; zero if
-        the first letter is not known to depend on the other."""
+        """Return the derivative of a letter by another letter: a rate, a symbol for the derivative, or zero if the
+        first letter is not known to depend on the second."""
         if symbol in self.sums:
             term, index, bounds = self.sums[symbol]
             if self.has_index(by, index):

@@ -191,8 +191,8 @@ class _Comparison:
         return None
 
     def is_free(self, chosen: tuple[Symbol, ...]) -> bool:
-        """Whether the Lagrangian changes if the sign of an angle changes, but not if the sign of a coordinate that is
-        not an angle changes as well."""
+        """Whether the sense of an angle matters only relative to another coordinate. The Lagrangian then changes if the
+        angle changes its sign, but not if a coordinate that is not an angle also changes its sign."""
         if len(chosen) != 1 or self.key.kinds.get(chosen[0]) != "angle":
             return False
         lagrangian = next((each.value for each in self.key.steps if "lagrangian" in each.key), None)
@@ -413,8 +413,8 @@ class _Comparison:
         return Verdict(outcome, f"{where}: {wrong[0][1].because}{others}")
 
     def one_for_all(self, value: Expr, right: MatrixBase) -> Verdict:
-        """Judge a number for a matrix: it may be right if the matrix is a multiple of the unit matrix, or a vector with
-        only one nonzero component."""
+        """Judge a single number that is given for a matrix. It may be right for a multiple of the unit matrix, and for
+        a vector with only one nonzero component."""
         rows, columns = right.shape
         if rows == columns and are_surely_equal(value, right[0, 0]) and right == right[0, 0] * sympy.eye(rows):
             return Verdict(Outcome.CONVENTION, "as the moment about every axis")

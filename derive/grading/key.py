@@ -189,8 +189,8 @@ def key_of(
 
 
 def _with_points(targets: list[Target], points: Mapping[str, Fraction] | None) -> Iterator[Target]:
-    """Divide the points of a part among its answers, in proportion to their own points in the rubric, or equally if an
-    answer has no points of its own."""
+    """Divide the points of a part among its answers: in proportion to the points that the rubric gives to the answers,
+    or equally if the rubric gives no points to one of the answers."""
     if points is None:
         yield from (replace(each, own=Fraction(1, len(targets)), whole=Fraction(1, len(targets))) for each in targets)
         return

@@ -55,8 +55,8 @@ class Verdict:
 
 
 def best_of(verdicts: Sequence[Verdict]) -> Verdict:
-    """Return the verdict on a right reading, else on one with a slip, else on one that is right for special
-    values, else on the likeliest."""
+    """Return the verdict on a right reading, else on a reading with one slip, else on a reading that is right for
+    special values, else on the likeliest reading."""
     for accepted in (RIGHT, SLIPS, (Outcome.SPECIAL,)):
         if found := [each for each in verdicts if each.outcome in accepted]:
             return min(found, key=lambda each: each.rank)

@@ -113,8 +113,8 @@ def _with_function(typed: Relation, goal: Relation) -> Relation | None:
 
 
 def angle_of(target: Target, name: Any) -> Target | None:
-    """Return the answer as an angle, if the right answer is a number for the sine, cosine or tangent of the angle with
-    this name; else None."""
+    """If the right answer is a number for the sine, cosine or tangent of the angle `name`, return the right answer for
+    the angle itself; otherwise None."""
     left = target.value.left
     if not isinstance(left, sin | cos | tan) or left.args[0] != name or target.number is None:
         return None
@@ -205,8 +205,8 @@ def _inhomogeneous(comparison: _Comparison, typed: Relation) -> Verdict | None:
 
 
 def _scalings(given: Expr, wanted: Expr) -> list[Expr]:
-    """Return an equation multiplied by factors that make one of its terms equal to a term of the right equation; at
-    most four results, first those with the most equal terms."""
+    """Multiply an equation by factors after which one of its terms equals a term of the right equation. Return at most
+    four results, first the results with the most equal terms."""
     terms = [sympy.Add.make_args(each) for each in (given, wanted)]
     found: dict[Expr, Expr] = {}
     for term in terms[0][:6]:

@@ -124,8 +124,8 @@ def _grouped(value: Expr, expanded: tuple[Expr, ...]) -> list[Expr]:
 
 
 def _inside(answer: Expr, right: Expr, shown: Shown) -> Iterator[Found]:
-    """Yield each single change inside the right formula that gives the answer, and each term of a sum without which the
-    answer would be right."""
+    """Yield each slip that turns the right formula into the answer by a single change inside the formula, and each
+    superfluous term inside a sum of the answer."""
     for count, (outcome, because, changed) in enumerate(_changes(right, shown)):
         if count > MOST_PROPOSALS:
             return

@@ -56,9 +56,8 @@ def read_latex(
 ) -> ReadMath:
     """Read the formula in the declared letters, or raise `Rejected` with the errors and their places.
 
-    `homogeneous=False` is for a formula whose dimensions cannot be compared, for example because it has numbers in
-    place of letters, and for a formula that is known to be wrong. `in_prose=True` is for a formula in prose, which may
-    have units, `\\infty`, and the relations `\\ll`, `\\gg` and `\\to`.
+    homogeneous   whether dimensions are compared; false, for example, for a formula with numbers in place of letters
+    in_prose      whether the formula may have units, `\\infty`, and the relations `\\ll`, `\\gg` and `\\to`
     """
     return _read(scalar, tuple(letters.items()), homogeneous, in_prose)
 
