@@ -207,16 +207,16 @@ class MarkKeys(Record):
     mark: str | None = key(
         "what is drawn: a `point`, a solid `line`, a `dashed` line, a dimension line for a `length`, the `arrow` of a "
         "vector, the arc of an `angle`, the curved arrow of a `turn`, a dashed `circle`, "
-        "the dashed `cone` that a drawn vector describes, or "
-        "a solid `curve`; for one `body` also the `masses` of its parts, its `centre_of_mass`, its `principal_axes`, "
-        "the `direction` of the axis of `moment_about`, or the `element` of its integrals",
+        "the dashed `cone` that a drawn vector describes, or a solid `curve`. For one `body`, also: the `masses` of "
+        "its parts, its `centre_of_mass`, its `principal_axes`, the `direction` of the axis of `moment_about`, or the "
+        "`element` of its integrals",
         one_of(MARKS),
         required=True,
     )
     label: Formula | None = key("the letter, formula or answer that names the mark; by default no label", FORMULA)
     at: Tree | None = key(
         "the place of a point, the start of an arrow, the vertex of an angle, the centre of a turn or a circle, or the "
-        "moving point of a curve; in the drawing of a body, by default the origin; if the body is given by its "
+        "moving point of a curve. In the drawing of a body, the default is the origin; if the body is given by its "
         "moments, the components are numbers relative to the semi-axes of the drawn ellipsoid",
         as_written(_PLACE, _A_PLACE),
     )
@@ -227,14 +227,13 @@ class MarkKeys(Record):
     )
     end: Tree | None = key(
         "the end of a line or of a length; a place on a circle; for a cone, the answer whose arrow the drawing shows; "
-        "for an angle, the direction of its second side or a "
-        "place on it",
+        "for an angle, the direction of its second side or a place on it",
         as_written(_PLACE, _A_PLACE),
         called="to",
     )
     along: Tree | None = key(
         "the direction of an arrow, or of the axis of a turn, a circle or a cone: components, `x`, `y` or `z`, or the "
-        "name of an answer that is a vector; a turn in a plane is counterclockwise by default, and clockwise with "
+        "name of an answer that is a vector. A turn in a plane is counterclockwise by default, and clockwise with "
         "`[0, 0, -1]`",
         as_written(_WAY, _A_WAY),
     )
@@ -295,7 +294,7 @@ class DrawingKeys(Record):
     )
     view: tuple[float, float] | None = key(
         "for a drawing in space: the direction from which it is seen, `front` (from x), `side` (from -y), `top` (from "
-        "z) or its angles; by default a view in which vectors and faces are visible, such as `{azimuth: 25, "
+        "z) or its angles. The default is a view in which vectors and faces are visible, such as `{azimuth: 25, "
         "elevation: 18}`",
         VIEW,
     )
@@ -304,8 +303,8 @@ class DrawingKeys(Record):
     )
     plot: tuple[Formula, ...] | None = key(
         "if `solve` is `system`, `body` or `rotation`: the answer whose curve is drawn, such as `potential_energy`; or "
-        "two answers or formulas, such as `[path_x, path_z]`, whose path is drawn; `equilibria` draws a bifurcation "
-        "diagram",
+        "two answers or formulas, such as `[path_x, path_z]`, whose path is drawn. With `equilibria`, a bifurcation "
+        "diagram is drawn",
         PLOTTED,
     )
     curves: tuple[Word, ...] = key(
@@ -332,8 +331,8 @@ class DrawingKeys(Record):
         list_of(FORMULA, "a list of values such as `[-5 J, m*g*l]`"),
     )
     over: dict[Word, tuple[Formula, ...]] = key(
-        "for a phase portrait: a coordinate and its momentum, each with its two ends; for a bifurcation diagram: the "
-        "coordinate with its two ends, if the vertical axis should not show all equilibria",
+        "for a phase portrait: a coordinate and its momentum, each with its two ends. For a bifurcation diagram: the "
+        "coordinate with its two ends; by default, the vertical axis shows all equilibria",
         mapping_of(ENDS),
     )
     ends: tuple[Formula, ...] | None = key(
@@ -357,7 +356,8 @@ class DrawingKeys(Record):
     )
     per: tuple[Formula, ...] = key(
         "the quantities by which the two axes of a plot are divided, such as `[r_0, G*M*m/r_0]`: answers or formulas, "
-        "the horizontal axis first; `1` leaves an axis in its unit; a phase portrait needs a third one for its levels",
+        "the horizontal axis first. `1` leaves an axis in its unit; a phase portrait needs a third quantity, for its "
+        "levels",
         list_of(FORMULA, "a list of quantities such as `[r_0, G*M*m/r_0]`", each="a quantity"),
     )
     cases: tuple[dict[Word, Tree], ...] = key(
@@ -366,7 +366,7 @@ class DrawingKeys(Record):
         list_of(mapping_of(SCALAR, _NUMBERS), "a list of mappings such as `{R: 20 cm, a: 5 cm}`", each="a case"),
     )
     panels: str | None = key(
-        "whether several curves or paths are `together` in one panel or `apart`; by default, `curves` are together, "
+        "whether several curves or paths are `together` in one panel or `apart`. By default, `curves` are together, "
         "and the curves of `cases` are together if they have the same range and comparable sizes",
         one_of(PANELS),
     )
@@ -454,8 +454,8 @@ class ProblemKeys(Record):
         SYMBOLS,
     )
     given: Mapping | None = key(
-        "the arguments of `solve()`, by the names of its parameters: an expression, `2 cm`, or a list of them; if "
-        "`solve` is `system`, `body` or `rotation`, the description of the system, body or rotation",
+        "the arguments of `solve()`, by the names of its parameters: an expression, `2 cm`, or a list of these. If "
+        "`solve` is `system`, `body` or `rotation`: the description of the system, body or rotation",
         GIVEN,
     )
     define: Definitions = key(
