@@ -63,7 +63,7 @@ class Complaint:
     argument: str = ""
 
     def shown(self) -> str:
-        """Show the error as rustc prints it: place and message, the line, a caret, notes, help."""
+        """Return the error in the style of the Rust compiler: place and message, the line, a caret, notes, help."""
         head = f"{self.severity}[{self.code}]: {self.message}"
         if self.place is None:
             return "\n".join([head, *self._footer("")])

@@ -47,7 +47,7 @@ class Answer:
 
     value   the SymPy expression that the page prints; for a relation, the whole relation
     sympy   the expression as plain SymPy text, which can be read without derive; for two roots, a list of two texts
-    number  the numerical value with its unit, if there is one
+    number  the numerical value with its unit as text; empty if there is none
     grade   the grade of its evidence: proved, sampled, definition or approximation
     """
 

@@ -1,8 +1,8 @@
 """Units: the exact size of each unit in the SI, as the product of a rational number and a power of pi.
 
 `rpm` is pi/30 rad/s and not 0.10472, so a number substituted at the end is exact (docs/decisions/0003-units.md).
-An angle is a number, but each unit records its power of an angle, so that `cm/rev` is rejected as the unit of a length,
-and degrees as the unit of a cosine.
+An angle is a number. A unit also records to which power it contains a unit of angle, so that `cm/rev` is rejected for a
+length, and degrees for a cosine.
 """
 
 from __future__ import annotations
@@ -101,7 +101,7 @@ class Unit:
 
 
 def read_unit(text: str, place: Place | None = None) -> Unit:
-    """Read `kg m^2/s` as a unit; a `/` divides by the one factor after it, as in `m/s/s` or `N m/rad`."""
+    """Read `kg m^2/s` as a unit; a `/` divides only by the next factor, as in `m/s/s` or `N m/rad`."""
     text = text.strip()
     if not text or len(text) > MAX_TEXT:
         rejected("unknown-unit", "a unit is missing" if not text else "this unit is too long", place)

@@ -3,9 +3,9 @@
 assumptions     equations and kinds of letters that the reader of the document states
 claims          what a document claims: pairs of neighbouring sides of its statements, in their order
 knowledge       the definitions, equations and numbers that earlier rows gave
-systems         what earlier equations give together: combinations, equations of motion, roots
+systems         what follows from several earlier equations: combinations, equations of motion, roots
 fingerprint     the values of an expression at fixed points
-numeric         numbers for expressions and nodes at such points
+numeric         numbers for expressions and nodes at fixed points
 points          points at which earlier equations hold
 dimensions      the dimensions that the rows give to letters, and the row that contradicts all others
 deciding        the verdict on one claim

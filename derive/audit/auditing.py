@@ -34,10 +34,10 @@ from derive.documents.syntax import Add, Cases, Int, Letter, Mat, Node, Open, Te
 SECONDS = 3.0  # seconds of processor time for one claim
 LEAST_SECONDS = 0.4  # the limit for a claim once a document has used much time
 USUAL_SECONDS = 0.3  # the usual processor time of a claim
-MOST_LATE = 40.0  # the limit falls linearly with the seconds beyond the usual time; at this number it would be zero
+MOST_LATE = 40.0  # the limit falls linearly with the seconds beyond the usual time, and would be zero at MOST_LATE
 SECONDS_OF_SEARCH = 2.0  # seconds of processor time for the search for a change that makes a claim right
 MOST_INDICES = 12
-MOST_ROWS = 10  # number of claims whose terms may be missing in the next row
+MOST_ROWS = 10  # number of the last claims in displays whose terms may be missing in a row
 MOST_FIXED = 5  # number of earlier rows that are searched for a slip
 SPECIAL = frozenset({Cue.GIVEN, Cue.PUT_IN, Cue.ZERO, Cue.APPROXIMATE})  # cues that explain why a row has fewer terms
 MOST_READINGS = 8
@@ -56,7 +56,7 @@ class Audit:
     facts: Facts
     claims: list[Claim]
     unread: list[tuple[Row, str]] = field(default_factory=list)
-    compared: list[Compared] = field(default_factory=list)  # the answers of a derivation
+    compared: list[Compared] = field(default_factory=list)  # the results of a derivation, compared with the document
 
 
 def claims_of(document: Document) -> tuple[list[Claim], Facts, list[tuple[Row, str]]]:
@@ -110,7 +110,7 @@ def claims_of(document: Document) -> tuple[list[Claim], Facts, list[tuple[Row, s
 
 
 def scope_of(document: Document, row: Row) -> int:
-    """Return the number of the heading that begins the problem or section of a row; -1 before the first one."""
+    """Return the number of the heading that begins the problem or section of a row; -1 if there is no such heading."""
     for index in range(row.block.heading, -1, -1):
         heading = document.headings[index]
         if heading.level <= 1 or _NEW_SCOPE.search(heading.text):
@@ -131,10 +131,10 @@ def audited(
     expected: Sequence[Expected] = (),
     progress: Callable[[int, int], None] | None = None,
 ) -> Audit:
-    """Return the verdict on each claim of a document.
+    """Return the audit of a document, with a verdict on each of its claims.
 
     assumed    equations that hold everywhere, although the document does not state them
-    declared   the kinds of letters
+    declared   the kinds of letters that the reader of the document declares
     expected   results of a derivation, with which the document is compared
     """
     claims, facts, unread = claims_of(document)
@@ -153,7 +153,7 @@ def audited(
 
 @dataclass(frozen=True)
 class Fix:
-    """A change of an earlier row with which a wrong claim holds."""
+    """A change of an earlier row after which `claim` would follow."""
 
     claim: Claim
     earlier: Claim
@@ -172,7 +172,7 @@ class _Auditor:
         self.claims: list[Claim] = []
 
     def begin(self, scope: int) -> None:
-        """Begin a problem or section; the rows of earlier ones are not used."""
+        """Begin a problem or section, and forget what the rows of earlier problems and sections gave."""
         self.scope = scope
         self.meaning.scope = scope
         self.known = self.scopes[scope] = self.assumptions()
@@ -323,7 +323,6 @@ class _Auditor:
         return i + 1, j + 1, matrix.rows[i][j].span
 
     def best(self, claim: Claim) -> Verdict:
-        """Return the verdict for the best reading of a claim."""
         first: Verdict | None = None
         reason = ""
         seen: list[tuple[Value, Value]] = []
@@ -396,7 +395,7 @@ class _Auditor:
         if any(isinstance(each, Int) for side in sides for each in side.walk()):
             return  # a letter of an integrand may depend on the variable of integration
         if not claim.is_step and not claim.row.block.display:
-            return  # an equation in a sentence may hold in the case that the sentence describes
+            return  # an equation in a sentence may hold only in the case that the sentence describes
         edit = self.near_edit(claim, self.known)
         if edit is not None and edit.kind == "index" and not ("_" in edit.was and "_" in edit.meant):
             return  # r and r_0 are names of one quantity, in general and in a special case
@@ -480,7 +479,7 @@ class _Auditor:
         return found
 
     def known_without(self, earlier: Claim, claim: Claim) -> Known:
-        """Return what the rows up to a claim give if one earlier row is left out."""
+        """Return what the rows up to `claim` give if the row `earlier` is left out."""
         kept, self.known = self.known, self.assumptions()
         try:
             for each in self.claims[: claim.number + 1]:
@@ -491,11 +490,11 @@ class _Auditor:
             self.known = kept
 
     def near_edit(self, claim: Claim, known: Known) -> Edit | None:
-        """Return one change with which a claim follows from what other rows give."""
+        """Return one change of a side after which a claim would follow from other rows; None if no change is found."""
         left_side = self.last_good_side(claim)
         if claim.right is None or left_side is None or claim.values is None:
             return None
-        if all(isinstance(each, Symbol) for each in claim.values):  # "at theta = theta_1" names a place
+        if all(isinstance(each, Symbol) for each in claim.values):  # such as "at theta = theta_1", which names a place
             return None
         right_node, left_node = readings(claim.right, self.facts)[0][0], readings(left_side, self.facts)[0][0]
         letter = claim.values[0] if isinstance(claim.values[0], Symbol) and not claim.is_step else None
@@ -535,7 +534,7 @@ class _Auditor:
                     fix.claim.verdict.because += f"; or the slip is in line {earlier.row.line}: {meant}"
 
     def blame_odd_dimensions(self) -> None:
-        """Report rows whose terms contradict the dimensions that the other rows give."""
+        """Report in each problem or section the row whose terms contradict the dimensions that all other rows give."""
         by_scope: dict[int, list[Claim]] = {}
         for claim in self.claims:
             by_scope.setdefault(scope_of(self.document, claim.row), []).append(claim)
@@ -549,7 +548,6 @@ class _Auditor:
         return self.document.source.text[span.start : span.end].strip()
 
     def may_be_special(self, claim: Claim) -> bool:
-        """Whether a claim may hold in a special case only."""
         if Cue.APPROXIMATE in claim.row.block.cues:
             return True
         for each in reversed(self.claims[: claim.number]):
@@ -562,7 +560,7 @@ class _Auditor:
         return False
 
     def terms_before(self, claim: Claim) -> list[Node]:
-        """Return the terms of the last displays and of the claim itself."""
+        """Return the terms of the last claims in displays, up to this claim."""
         rows = [each for each in self.claims[: claim.number + 1] if each.row.block.display]
         sides = [side for each in reversed(rows[-MOST_ROWS:]) for side in (each.left, each.right) if side is not None]
         return terms_in(sides, self.shown)
@@ -582,7 +580,7 @@ class _Auditor:
         return bool(left.free_symbols - right.free_symbols)
 
     def suggest(self, claim: Claim, left_side: Node, verdict: Verdict) -> None:
-        """Find the nearest change of the right side that makes the claim hold."""
+        """Suggest the nearest change of the right side after which the claim holds, or else a lost term."""
         assert claim.right is not None and claim.values is not None
         right_node = readings(claim.right, self.facts)[0][0]
         until = process_time() + SECONDS_OF_SEARCH
@@ -590,7 +588,7 @@ class _Auditor:
             self.find_lost_term(claim, verdict)
 
     def find_lost_term(self, claim: Claim, verdict: Verdict) -> None:
-        """Find a term of the left side that is missing on the right side."""
+        """Suggest a term of the left side that is missing on the right side."""
         if claim.values is None or claim.row.block.cues & SPECIAL:
             return
         left, right = (self.expanded(each) for each in claim.values)
@@ -651,7 +649,7 @@ class _Auditor:
         return found[-1][0][0] if found else value
 
     def of_missing_differential(self, claim: Claim, left_side: Node) -> Verdict | None:
-        """Report an integral without a differential if one change makes the claim right."""
+        """Return the verdict on an integral without a differential; None unless one change makes the claim right."""
         assert claim.right is not None
         if not any(isinstance(each, Int) for each in claim.right.walk()):
             return None
@@ -670,7 +668,6 @@ class _Auditor:
     def of_values(
         self, claim: Claim, left: Value, right: Value, meaning: Meaning, cues: frozenset[Cue], thorough: bool = True
     ) -> Verdict:
-        """Return the verdict on a claim whose sides have these values."""
         verdict = Decision(claim, left, right, meaning, self.known, cues, thorough).verdict()
         if verdict.outcome in GOOD:
             return verdict
@@ -710,7 +707,7 @@ class _Auditor:
         return found[-1].value if found else None
 
     def last_good_side(self, claim: Claim) -> Node | None:
-        """Return the left side, or an earlier side of the chain if the left side has no value."""
+        """Return the left side, or the nearest earlier side of the chain that has a value; None if there is none."""
         asked = claim
         while claim.before is not None and (
             claim.left is None or claim.before.right is None or claim.before.values is None
@@ -761,7 +758,7 @@ class _Auditor:
         return any(letter in equation.free_symbols for equation, _ in self.known.equations)
 
     def remember(self, claim: Claim, believed: bool = False) -> None:
-        """Remember a definition or an equation for the rows that follow."""
+        """Remember what a claim gives to the rows that follow: definitions, an equation or a bound."""
         if claim.values is None or claim.verdict is None:
             return
         if self.is_special_case(claim):

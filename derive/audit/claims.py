@@ -69,8 +69,8 @@ class Claim:
     before: Claim | None = None  # the claim whose right side is the left side of this claim
     verdict: Verdict | None = None
     values: tuple[Value, Value] | None = None
-    decimals: tuple[tuple[Value, int], ...] = ()  # the decimals in its sides, with their digits after the point
-    from_head: bool = False  # compared with the first side of its chain, because the sides between have no value
+    decimals: tuple[tuple[Value, int], ...] = ()  # each decimal in its sides, with the number of digits after the point
+    from_head: bool = False  # whether it is compared with the first side of the chain; the sides between have no value
     tags: tuple[str, ...] = field(default_factory=tuple)
 
     @property

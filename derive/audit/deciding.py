@@ -1,7 +1,7 @@
 """The verdict on one claim: whether its right side follows from its left side and from what earlier rows gave.
 
 A claim holds, for example, if its sides are equal after definitions are substituted, or if it follows from earlier
-equations. A claim `differs` if numbers show that its sides are not equal.
+equations. A claim differs, for example, if numbers show that its sides are not equal.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ MOST_COMBINED = 6  # number of the last equations that are combined
 LARGEST_GOAL = 400  # equations with more operations are not compared after substitution
 MOST_SIGNS = 3  # number of absolute values whose signs are tried
 STRICT = ("<", ">", "<<", ">>", "!=")
-CONVERTED = 0.01  # two bounds with a greater relative difference are not one bound in different units
+CONVERTED = 0.01  # two bounds with a greater relative difference do not count as one bound in different units
 SMALL = (Rational(1, 100), Rational(1, 1000))
 
 
@@ -58,7 +58,7 @@ def _equal(left: Value, right: Value) -> bool:
 
 @dataclass
 class Decision:
-    """The decision on one claim with one reading of its sides."""
+    """The decision on one claim with one reading of its sides. Each test returns None if it does not apply."""
 
     claim: Claim
     left: Value
@@ -66,7 +66,7 @@ class Decision:
     meaning: Meaning
     known: Known
     cues: frozenset[Cue]
-    thorough: bool = True  # also combine earlier equations; true only for the likeliest reading
+    thorough: bool = True  # whether earlier equations are also combined, which takes long
 
     def verdict(self) -> Verdict:
         for test in (
@@ -118,7 +118,7 @@ class Decision:
         return len(number.free_symbols) > 1
 
     def definition(self) -> Verdict | None:
-        """Judge a claim that gives a value to a letter without a value."""
+        """Judge a claim that gives a value to a letter for the first time."""
         if self.claim.relation not in ("=", ":=", "~"):
             return None
         if isinstance(self.left, MatrixBase) and isinstance(self.right, MatrixBase) and not self.claim.is_step:
@@ -148,7 +148,7 @@ class Decision:
         return None
 
     def square(self) -> Verdict | None:
-        """Judge a claim that gives a value to a power of a letter: `v^2 = ...`."""
+        """Judge a claim that gives a value to the square of a letter: `v^2 = ...`."""
         if self.claim.is_step or self.claim.relation not in ("=", ":="):
             return None
         if not (isinstance(self.left, sympy.Pow) and isinstance(self.left.base, Symbol) and self.left.exp == 2):
@@ -533,7 +533,7 @@ class Decision:
         if self.claim.relation != "=":
             return Verdict(Outcome.UNDECIDED, "this relation is not checked")
         if self.holds_in_motion_only(left, right):
-            return Verdict(Outcome.UNDECIDED, "this may hold for the motion only, by the equations of motion")
+            return Verdict(Outcome.UNDECIDED, "this may hold only because of the equations of motion")
         if (left.free_symbols ^ right.free_symbols) & set(self.meaning.sums):
             return Verdict(Outcome.UNDECIDED, "sums over an index are compared only as they are written")
         if entries := self.unknown_entries(left, right):
@@ -571,7 +571,7 @@ class Decision:
         return found is not None and found[1] < wanted
 
     def unknown_entries(self, left: Value, right: Value) -> list[Symbol]:
-        """Return the entries of matrices to which no row gives a value, if the sides are matrices."""
+        """Return letters that name entries of matrices, such as I_12, if the sides are matrices."""
         if not isinstance(left, MatrixBase) or not isinstance(right, MatrixBase) or left.shape[1] == 1:
             return []
         letters = self.meaning.symbols
@@ -582,7 +582,8 @@ class Decision:
         ]
 
     def with_several_values(self) -> Symbol | None:
-        """Return a letter of one side only, or of its definition, that has several values in one part."""
+        """Return a letter that has several values in one part; only letters that one side lacks, and letters in their
+        definitions, are searched."""
         one_side = self.left.free_symbols ^ self.right.free_symbols
         for symbol in sorted(one_side, key=str):
             definition = self.known.latest(symbol)
@@ -619,8 +620,8 @@ class Decision:
         return Verdict(Outcome.UNDECIDED, "an equation that does not follow from the rows before it")
 
     def is_lagrange_form(self, symbols: set[Symbol]) -> bool:
-        """Whether all derivatives in an equation are of one letter, some with respect to a coordinate and some with
-        respect to a rate."""
+        """Whether an equation looks like Lagrange's equation: its derivatives are of one letter only, by a coordinate
+        and by a rate."""
         derivatives = [self.meaning.derivatives[each] for each in symbols if each in self.meaning.derivatives]
         letters = {letter.identity for letter, _, _ in derivatives}
         dots = {
@@ -644,7 +645,7 @@ class Decision:
     def special_case(self, left: Value, right: Value) -> bool:
         if any((letter := self.meaning.symbols.get(each)) is not None and letter.dots
                for each in left.free_symbols - right.free_symbols):  # fmt: skip
-            return True  # at rest
+            return True  # the right side may be the value at rest
         lost = (left.free_symbols - right.free_symbols) & (self.left.free_symbols - self.right.free_symbols)
         return bool(lost) and bool(self.cues & {Cue.GIVEN, Cue.PUT_IN, Cue.USING, Cue.SINCE})
 
@@ -676,8 +677,8 @@ def _solves(equation: Expr, letter: Symbol, value: Expr) -> bool:
 
 
 def _combination(wanted: Expr, equations: list[tuple[Expr, int]]) -> tuple[int, ...] | None:
-    """Return the claims of two or three equations whose sum, with some choice of signs, gives a multiple of the wanted
-    equation."""
+    """Return the claims of two or three equations that add up, with some choice of signs, to a multiple of the wanted
+    equation; None if there are none."""
     goal = fingerprint(wanted)
     for count in (2, 3):
         for chosen in combinations(equations, count):
@@ -766,7 +767,8 @@ def small_letters(symbols: set[Symbol], meaning: Meaning) -> list[tuple[Symbol, 
 def order_of_error(
     left: Expr, right: Expr, meaning: Meaning, among: list[tuple[Symbol, ...]] | None = None
 ) -> tuple[tuple[Symbol, ...], int] | None:
-    """Return letters in which two sides agree to the leading order, and the order of the difference."""
+    """Return small letters in which two sides agree to the leading order, and the order of their difference; None if
+    there are no such letters."""
     symbols = left.free_symbols | right.free_symbols
     for letters in among or small_letters(symbols, meaning):
         slopes = []
@@ -795,7 +797,7 @@ def _degree(value: Expr, letters: tuple[Symbol, ...]) -> int:
 
 
 def _approximate_multiple(wanted: Expr, equation: Expr, meaning: Meaning) -> bool | None:
-    """Whether an equation agrees to the leading order with an earlier one times a number or a product of letters."""
+    """Whether one equation agrees to the leading order with a multiple of an earlier equation."""
     symbols = wanted.free_symbols | equation.free_symbols
     for letters in filter(None, [changing_letters(symbols, meaning)]):
         scale = Symbol("epsilon_", positive=True)

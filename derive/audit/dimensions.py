@@ -1,8 +1,8 @@
 """The dimensions of the letters of a problem, found from its own equations, and the row that contradicts all others.
 
-Each equation says that its terms have one dimension. Together with what a few letters usually are (t is a time, m is a
-mass, g is an acceleration), the equations determine the dimensions of the other letters. A row is reported if it
-contradicts the other rows, and these agree with each other.
+All terms of an equation must have the same dimension. Together with the usual meaning of a few letters (t is a time, m
+is a mass, g is an acceleration), the equations determine the dimensions of the other letters. A row is reported if it
+contradicts the other rows and these agree with each other.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ class Unclear(Exception):
 class Equation:
     """A product of letters with its dimension."""
 
-    source: int  # the number of a claim, or -1
+    source: int  # the number of a claim, or -1 for the usual dimension of a letter
     form: Form
     powers: tuple[Fraction, ...] = (Fraction(0),) * 3
 

@@ -1,7 +1,7 @@
 """The comparison of a document with the results of a derivation, so that a wrong method is found, too.
 
-The results arrive as LaTeX and are read like the rows of the document, so that both are written in the same letters.
-Each problem is compared with the sections that state steps of its derivation.
+The results are given as LaTeX and read like the rows of the document, so that a letter means the same in both. Each
+problem is compared with the sections that state steps of its derivation.
 """
 
 from __future__ import annotations
@@ -133,7 +133,6 @@ def _of(expected: Expected, sections: list[_Section]) -> Compared:
 
 
 def _read(expected: Expected, facts: Facts, meaning: Meaning) -> _Result | None:
-    """Return a result with the values of its sides; None if it cannot be read."""
     document = read_document(source_of(f"$${expected.latex}$$", Format.TEX))
     statements = [statement for row in document.rows for statement in row.statements]
     if len(statements) != 1 or len(statements[0].sides) != 2:
@@ -236,7 +235,8 @@ class _Section:
             found.status, found.claim = Status.DIFFERS, claim.number
 
     def entries_of(self, result: _Result) -> Claim | None:
-        """Return the last of the claims that state the entries of a list or matrix one by one."""
+        """Return the claim that states the last entry of a list or matrix, if each entry is stated by itself; otherwise
+        None."""
         found = None
         for entry in result.entries:
             found = next((claim for claim in self.claims if claim.values is not None and any(

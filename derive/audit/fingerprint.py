@@ -1,6 +1,7 @@
 """The values of an expression at a few fixed points, which show quickly that two expressions are not equal.
 
-At each point, the number of a letter depends only on its name, so that the values of each expression are computed once.
+At each point, the number of a letter depends only on the letter's name, so the values of an expression are computed
+only once.
 """
 
 from __future__ import annotations

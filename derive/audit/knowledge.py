@@ -14,10 +14,10 @@ from derive.documents.meaning import Meaning, Value
 from derive.documents.syntax import Letter
 
 ROUNDS = 8  # rounds of substitution
-LARGEST = 4000  # the most operations of an expression after substitution
+LARGEST = 4000  # the greatest number of operations in an expression after substitution
 LAST_EQUATIONS = 24
 MOMENTA = ("p", "l", "L", "J", "ell")
-ASSUMED = -1  # stands for the number of a claim if the equation is assumed
+ASSUMED = -1  # replaces the number of a claim if an equation is assumed
 
 
 @dataclass
@@ -112,7 +112,8 @@ class Known:
         return found[-1] if found else self.computed(symbol)
 
     def computed(self, symbol: Symbol) -> Definition | None:
-        """Return the value of a rate or of a derivative whose letter is defined."""
+        """Return the value of a rate, of a derivative or of a function at a place, computed from the definition of its
+        letter; None if this letter has no definition."""
         if symbol in self.meaning.evaluations:
             function, variable, at = self.meaning.evaluations[symbol]
             inner = self.latest(function)
@@ -222,7 +223,7 @@ class Known:
             yield values, tuple(dict.fromkeys(used))
 
     def with_numbers(self, *values: Value) -> tuple[tuple[Value, ...], tuple[int, ...]]:
-        """Return the values after substituting numbers that claims give to letters, and these claims."""
+        """Return the values after substituting the numbers that claims give to letters, and the claims used."""
         free = set().union(*(each.free_symbols for each in values))
         found = {symbol: each[-1] for symbol, each in self.numbers.items() if symbol in free}
         put_in = {symbol: each.value for symbol, each in found.items()}

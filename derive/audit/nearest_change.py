@@ -41,7 +41,7 @@ class Nearness:
     known: Known
     letters: Sequence[Letter]
     shown: Shown
-    written: bool = False  # only the equations that the document writes are used
+    written: bool = False  # whether only the equations that the document writes are used
     terms: Sequence[Node] | None = None  # terms that may be lost; None if the row may hold in a special case only
 
     def points(self, letter: Symbol | None = None) -> list[Numbers]:
@@ -87,7 +87,8 @@ class Nearness:
         return sorted(islice(found, MOST_CHANGES), key=lambda each: each.cost)
 
     def of_claim(self, left: Node, right: Node, letter: Symbol | None, is_step: bool) -> Edit | None:
-        """Return the cheapest change of a side with which a claim that does not follow would follow."""
+        """Return the cheapest change of a side after which a claim would follow; None if it already follows, or if no
+        change is found."""
         points = self.points(letter)
         if len(points) < 2:
             return None
@@ -114,8 +115,8 @@ class Nearness:
         return None
 
     def lost_term(self, difference: Expr) -> Expr | None:
-        """Return a term that is missing: with it, the equation is a multiple of an earlier one. Return None if none is
-        found."""
+        """Return the missing term with which an equation would be a multiple of an earlier equation; None if no such
+        term is found."""
         if self.terms is None or difference.has(Integral):
             return None
         wanted = expand(expanded(self.known, difference, sure=True)[0])
@@ -146,7 +147,8 @@ class Nearness:
         return behind - {letter}
 
     def of_root(self, side: Node, letter: Symbol, equation: Expr) -> Edit | None:
-        """Return the cheapest change with which a side is a root of an equation for a letter."""
+        """Return the cheapest change after which a side would be a root of an equation for `letter`; None if no change
+        is found."""
         points = [Numbers(self.meaning, self.defined(None), point) for point in range(POINTS)]
         for edit in self.edits(side):
             try:

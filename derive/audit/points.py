@@ -17,14 +17,14 @@ from derive.audit.systems import Equation
 from derive.audit.time_limit import FAULTS
 from derive.documents.meaning import Meaning
 
-STEPS = 12  # the most steps of Newton's method
-TRIED = 8  # the most starting points of Newton's method
+STEPS = 12  # the greatest number of steps of Newton's method
+TRIED = 8  # the greatest number of starting points of Newton's method
 SLOPE = 1e-6  # the relative change of a letter with which a slope is computed
-SMALL = 1e-10  # an equation with a smaller residual, relative to its terms, is satisfied
+SMALL = 1e-10  # an equation with a smaller residual, relative to its terms, counts as satisfied
 DAMPING = 1e-9  # the relative increase of the diagonal of the linear system
 SMALLEST = 1e-3  # the smallest absolute value of a letter
 LARGEST = 1e3  # the largest absolute value of a letter
-WEIGHTS = (0.05, 0.3, 1.0)  # of the changes of constants, of letters that change with time, of rates
+WEIGHTS = (0.05, 0.3, 1.0)  # the weights of the changes of constants, of letters that change with time, and of rates
 
 Numbers = dict[Symbol, complex]
 

@@ -218,7 +218,6 @@ def _note(audit: Audit, claim: Claim) -> str:
 
 
 def sentences(audit: Audit, verdict: Verdict) -> list[str]:
-    """Return a verdict as sentences."""
     found = [_sentence(verdict.because)]
     if verdict.counterexample:
         found.append(_sentence(f"for example {verdict.counterexample}"))

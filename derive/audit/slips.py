@@ -1,4 +1,4 @@
-"""The nearest single change that makes a wrong side right, and why an author may have made it."""
+"""The nearest single change that makes a wrong side right, and the slip of the author that this change corrects."""
 
 from __future__ import annotations
 
@@ -16,7 +16,8 @@ OTHER_FUNCTION = {"sin": "cos", "cos": "sin", "sinh": "cosh", "cosh": "sinh", "t
 
 @dataclass(frozen=True)
 class Edit:
-    """One change of a side: where, what is written there, and what would be right."""
+    """One change of a side. `node` is the side after the change, `was` is the text at `span`, and `meant` is the text
+    that would be right."""
 
     node: Node
     span: Span
@@ -55,7 +56,7 @@ def nearest_edit(
 
 
 def edits_of_side(node: Node, letters: Sequence[Letter], shown: Callable[[Span], str]) -> Iterator[Edit]:
-    """Yield the single changes of a whole side."""
+    """Yield the single changes of a side, including a reversed sign of the whole side."""
     if not isinstance(node, Add):
         was = shown(node.span)
         yield Edit(Add(node.span, (("-", node),)), node.span, was, f"-{was}", "sign", 1.0)
@@ -91,7 +92,7 @@ def _with_term_inside(value: Any, term: Node, shown: Callable[[Span], str]) -> I
 
 
 def edits_of(node: Node, letters: Sequence[Letter], shown: Callable[[Span], str]) -> Iterator[Edit]:
-    """Yield the single changes of a side."""
+    """Yield the single changes of a node and of the nodes inside it."""
     yield from _here(node, letters, shown)
     for each in fields(node):
         value = getattr(node, each.name)

@@ -1,8 +1,8 @@
-"""What earlier equations give together, and where a new equation contradicts them.
+"""What follows from several earlier equations together.
 
-An equation counts as a consequence of others if, at a few points, its coefficients are a linear combination of their
-coefficients. The unknowns are products of the letters that are eliminated. Lagrange's and Hamilton's equations of a
-function that the document defines also belong to the known equations.
+An equation counts as a consequence of other equations if, at a few points, its coefficients are a linear combination of
+the coefficients of the others. The unknowns are products of the letters that are eliminated. Lagrange's and Hamilton's
+equations of a function that the document defines also belong to the known equations.
 """
 
 from __future__ import annotations
@@ -46,8 +46,8 @@ def equations_of(
 ) -> list[Equation]:
     """Return the equations that earlier rows give, the last ones first, with definitions substituted.
 
-    `sure` leaves out conditions in sentences and solutions as functions of the time, which may hold in one case only;
-    `written` leaves out Lagrange's and Hamilton's equations of a function.
+    sure      whether to leave out conditions in sentences and motions x(t), which may hold in one case only
+    written   whether to leave out Lagrange's and Hamilton's equations of a function
     """
     state = (len(known.equations), sum(map(len, known.definitions.values())), without, sure, written)
     if state not in known.kept:
@@ -138,7 +138,8 @@ def rates(value: Expr, meaning: Meaning, known: Known) -> Iterator[Expr]:
 
 
 def lagrange_equations(known: Known, last: int = 1) -> list[tuple[Symbol, Expr, int]]:
-    """Return Lagrange's equations of the last Lagrangians that rows give to a letter: coordinate, left side, claim."""
+    """Return Lagrange's equations of the last values that rows give to each letter L. Each equation is a tuple of its
+    coordinate, its left side and the number of the claim."""
     found = []
     for symbol, definitions in list(known.definitions.items()):
         letter = known.meaning.symbols.get(symbol)
@@ -325,7 +326,8 @@ class System:
         return [values.get(each, 0j) for each in columns]
 
     def consistent(self, columns: Sequence[tuple[int, ...]], at: Numbers) -> list[int]:
-        """Return equations that do not contradict each other."""
+        """Return the positions of equations that do not contradict each other; an equation that contradicts earlier
+        equations is left out."""
         kept: list[int] = []
         rows: list[list[complex]] = []
         constant = [0j] * (len(columns) - 1) + [1 + 0j]

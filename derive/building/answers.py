@@ -25,7 +25,7 @@ Rows = list[tuple[str, ...]]
 def answers_of(root: Path, problem_id: str) -> Rows:
     """Return the table of the names that parts of a problem may ask for: a row of headings, then a row for each name.
 
-    The answers come first, then the other steps, and last the offered answers that cannot be derived for this problem.
+    The answers come first, then the other steps, and last the answers that cannot be derived for this problem.
     """
     problem = load_problem(root, problem_id)
     record = Run()

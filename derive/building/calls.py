@@ -28,7 +28,6 @@ class Calls:
 
     @cached_property
     def earlier(self) -> dict[str, str]:
-        """The calls stored by earlier builds."""
         blocks = (self.cache.get(self.key) or b"").decode().split(BETWEEN)
         return {key: text for key, _, text in (block.partition("\n") for block in blocks if block)}
 

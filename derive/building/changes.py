@@ -46,8 +46,8 @@ class Change:
 
 
 def changes(before: Mapping[str, Any], after: Mapping[str, Any]) -> list[Change]:
-    """Return every difference: first those in the input and the questions, then those in results and sentences, then
-    all others."""
+    """Return every difference: first the differences in the input and the questions, then in results and sentences,
+    then in drawings, numbers, references and warnings."""
     parts = list(_paired(before["parts"], after["parts"]))
     return [
         *_table("given", _given(before), _given(after)),

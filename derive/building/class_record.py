@@ -25,7 +25,7 @@ class ClassRecord:
 
     @classmethod
     def read(cls, root: Path, set_id: str) -> ClassRecord | None:
-        """Return the record; None if no class has been made here."""
+        """Return the record; None if there is no readable record."""
         try:
             kept = json.loads((set_folder(root, set_id) / RECORD).read_bytes())
             students = {str(code): str(name) for code, name in kept["students"].items()}
@@ -69,9 +69,10 @@ class ClassRecord:
 
 
 def class_to_grade(root: Path, set_id: str, seed: str | None, students: Mapping[str, str] | None) -> ClassRecord | None:
-    """Return the class whose answers are graded; None if no class has been made and none is described.
+    """Return the class whose answers are graded; None if no class has been made and no roster is given.
 
-    students   the students of a roster, by their codes; None if no roster is given
+    seed       the stated seed, which must be the seed of the class; a seed without a class or a roster is an error
+    students   the names of the students in a roster, by their codes; None if no roster is given
     """
     made = ClassRecord.read(root, set_id)
     if made is not None:

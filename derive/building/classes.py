@@ -1,7 +1,7 @@
 """The documents of a class: for each student a sheet, a key and solutions with the values of the student's variant.
 
 The folder `students/` contains the sheets. The folder `class/` contains the files for the instructor: the solutions,
-the keys and the table of all answers. A later run makes only documents whose inputs have changed.
+the keys and the table of all answers. A later run makes only the documents that are out of date.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ KINDS = (SHEET, KEY, SOLUTIONS)
 COLUMNS = ("student", "name", "problem", "part", "answer", "formula", "value", "unit", "figures")
 AT_ONCE = 10  # the number of students in one job
 LONGEST_ROSTER = 2_000_000
-RESEED = "leave out `--seed`, or add `--reseed` to give the students other values than on the sheets that they have"
+RESEED = "leave out `--seed`, or add `--reseed`; the students then get values that differ from those on their sheets"
 
 
 @dataclass(frozen=True)
@@ -56,8 +56,11 @@ class Student:
 
 @dataclass
 class ClassReport:
-    """The outcome of a run; `made` counts the students whose documents were made, and `kept` those whose documents were
-    up to date."""
+    """The outcome of a run.
+
+    made   the number of students whose documents were made
+    kept   the number of students whose documents were already up to date
+    """
 
     students: int = 0
     made: int = 0
@@ -194,11 +197,11 @@ def made_class(
     scheduler: str = "",
     reseed: bool = False,
 ) -> ClassReport:
-    """Make the documents of the students, except those that are up to date. An error in one variant does not stop the
-    others.
+    """Make the documents of the students, except documents that are up to date. An error in the variant of one student
+    does not stop the work for other students.
 
     seed        by default the seed with which the class was made before
-    reseed      whether a seed may differ from the one with which the class was made before
+    reseed      whether `seed` may differ from the seed with which the class was made before
     scheduler   the address of a Dask scheduler, whose workers do the jobs; by default, processes of this machine do the
                 jobs
     """
@@ -274,7 +277,6 @@ def _older(shared: ClassDocuments, students: Sequence[Student]) -> Complaint:
 
 
 def _older_set(root: Path, set_id: str, engine: str | None) -> list[Complaint]:
-    """Return a warning if the documents of the last build of the set are out of date."""
     if (
         not Manifest.read(set_folder(root, set_id)).pages
         or not staleness(Asked(root, set_id, (), engine=engine)).reasons
@@ -398,7 +400,8 @@ def _rows(student: Student, problem: str, page: Mapping[str, Any]) -> list[tuple
 
 
 def _remove_others(shared: ClassDocuments, students: Sequence[Student], before: ClassRecord | None) -> None:
-    """Remove the documents of students who left, also if the user removed the folder of the class."""
+    """Remove the documents of earlier students, including the sheets that remain if the user removed the folder of the
+    class."""
     earlier = {record.stem for record in (shared.outputs / CLASS / MADE).glob("*.json")}
     earlier |= {code for code in (before.students if before else ()) if NAME.fullmatch(code)}
     for student in (Student("", code) for code in earlier - {student.code for student in students}):

@@ -1,14 +1,14 @@
 """A derivation as stored between builds. A page with new wording uses the stored derivation.
 
 A stored derivation depends on derive's own modules, SymPy and mpmath, on the script and its modules, and on the
-reference. It also depends on the problem:
+reference. It also depends on these entries of the problem:
 
-    all entries except those named below, such as the given values and the symbols
-    the answers, forms and cases that parts ask for, and the chosen observations
-    the quantities, ranges, levels, surfaces, curves and labels of plots, and the marks that the problem adds to
-    drawings
+    - the given values, the symbols, and all other entries that `OF_PAGES`, `IN_PARTS` and `OF_FILES` do not name
+    - the answers, forms and cases that parts ask for, and the chosen observations
+    - the quantities, ranges, levels, surfaces, curves and labels of plots
+    - the marks that the problem adds to drawings
 
-It does not depend on other prose or on templates.
+It does not depend on templates, or on prose such as the statement and the questions.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from derive.figures.marks import Recorded
 from derive.steps.derivation import Derivation, from_json, to_json
 from derive.steps.step import Step
 
-# Entries of a problem that do not change its steps, or of which `steps_key` includes the relevant parts. Any other
+# Entries of a problem that do not change its steps, or whose relevant parts `steps_key` includes one by one. Any other
 # entry is included as a whole.
 OF_PAGES = {"title", "statement", "points", "wording", "show", "strategy", "note", "figure", "places", "warnings"}
 IN_PARTS = {"parts", "drawings", "observations", "script", "script_path"}

@@ -29,7 +29,7 @@ class Paper:
 
 
 def papers_of(root: Path, documents: Documents) -> list[Paper]:
-    """Return documents of a set with their names."""
+    """Return these documents of a set with their printed names and the addresses of their files."""
     names = phrases(templates_of(root)).labels["documents"]
     page = {kind: ((f"{file}.html", "HTML"),) for kind, file in documents if kind in ON_A_PAGE}
     return [Paper(names[kind], ((f"{file}.pdf", "PDF"), *page.get(kind, ()))) for kind, file in documents]
@@ -59,10 +59,7 @@ def listed(root: Path, found: Sequence[Paper]) -> str:
 
 
 def list_again(root: Path, set_id: str, record: Callable[[Manifest], None] | None = None) -> None:
-    """Update the list of documents on the page of a set. Commands other than a build call this after they wrote or
-    removed files.
-
-    The page is not changed if a user has edited it.
+    """Update the list of documents on the page of a set, unless a user has edited this page.
 
     record   a function that records a file that the command wrote; None if it wrote no file
     """

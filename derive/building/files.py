@@ -64,7 +64,7 @@ def of_system(error: OSError, what: str = "the system refuses") -> BuildFailed |
 
 @contextmanager
 def writing(path: Path) -> Iterator[None]:
-    """If the system refuses to write `path`, raise an error for the user."""
+    """Raise `BuildFailed` if the system refuses to write `path` in the `with` block."""
     try:
         yield
     except OSError as error:

@@ -19,7 +19,8 @@ from derive.grading.outcomes import Outcome, Verdict
 _REPORT = "this is a bug in derive: report it with the answer and the files of the problem"
 CHUNK = 200  # the greatest number of answers in one job
 
-# the number of the row, the name of the part, the answer, and the student; None: the values of the problem itself
+# the number of the row, the name of the part, the answer, and the student; without a student, the answer is compared
+# with the values of the problem itself
 Asked = tuple[int, str, str, str | None]
 
 

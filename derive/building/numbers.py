@@ -44,7 +44,6 @@ class _Answer:
 
     @property
     def why(self) -> str:
-        """The reason why the answer has no number."""
         if self.missing:
             return f"{_listed(self.missing)} {'has' if len(self.missing) == 1 else 'have'} no value"
         at = {letter: explicit(self.numbers[letter]) for letter in self.letters}

@@ -53,7 +53,7 @@ class Wanted:
     only        the formats; by default all formats of a build
     evidence    how much the page shows about its checks
     documents   other documents, such as the key, hints or a rubric
-    width       the width of the reader's text in centimetres, for a fragment
+    width       for a fragment, which another LaTeX document includes: the width of the text there, in centimetres
     """
 
     detail: str | None = None
@@ -88,7 +88,7 @@ def printed(
 
 
 def rubric_of(problem: Problem, solved: Solved) -> dict[str, dict[str, Fraction]]:
-    """Return the points of the steps of the rubric, by the label of the part and the key of the step; {} without
+    """Return the points that steps earn, by the label of the part and the key of the step; {} if the problem has no
     points."""
     if problem.points is None:
         return {}
@@ -105,7 +105,8 @@ class _Printing:
 
     def rendered(self) -> Rendered:
         problem, solved, document, notation = self.problem, self.solved, self.document, self.notation
-        warnings, files, documents = self._warnings(), self.files, self._documents()  # these raise the author's errors
+        # These calls raise `Rejected` if the file of the problem has errors.
+        warnings, files, documents = self._warnings(), self.files, self._documents()
         latex, html = self._latex(), self._html()
         return Rendered(
             id=problem.id,
@@ -188,7 +189,6 @@ class _Printing:
 
     @cached_property
     def files(self) -> Files:
-        """The files of the drawings, if they are requested."""
         if not self.wanted.draws:
             return ()
         drawings = self.solved.drawings
@@ -239,7 +239,7 @@ class _Printing:
 
     @cached_property
     def points(self) -> dict[str, tuple[Credit, ...]]:
-        """The points of the steps, by the label of the part."""
+        """The points that steps earn, by the label of the part."""
         values = self.solved.values.values()
         steps = [*self.solved.derivation.steps, *values]
         # The phrases have no task for a rule of an author's script.
@@ -266,7 +266,6 @@ def _notation(
 
 
 def _source_faults(compared: Sequence[Told], notation: Notation) -> tuple[SourceFault, ...]:
-    """Return the errata of the source and the remarks on the source."""
     if not any(told.erratum or told.remark for told in compared):
         return ()
     from derive.render.notation.from_latex import in_plain_text  # needed by few problems

@@ -55,7 +55,7 @@ def _files(root: Path, revision: str, commit: str, folders: Sequence[str]) -> li
 
 
 def _contents(root: Path, revision: str, names: Sequence[bytes]) -> Iterator[bytes]:
-    """Yield the contents of objects."""
+    """Yield the content of each object of git, in the order of `names`."""
     found = _git(root, "cat-file", "--batch", told=b"".join(name + b"\n" for name in names))
     said = BytesIO(found.stdout)
     for name in names:

@@ -1,4 +1,4 @@
-"""Temporary folders that are always removed; the next build removes the folders of a killed process.
+"""Temporary folders. A process removes its own folders; the next build removes the folders of killed processes.
 
 A lock is released when its process ends, so a locked folder is in use, and an unlocked folder can be removed.
 """
@@ -45,7 +45,7 @@ class Scratch:
         self.cleanup()
 
 
-@cache  # once per process, even if it builds often
+@cache  # a process sweeps the same folders only once, even if it builds often
 def sweep(*folders: Path) -> None:
     """Remove unfinished files in these folders, and scratch folders of this user that no process uses."""
     for folder in folders:

@@ -174,7 +174,6 @@ def _check_characters(root: Path, heading: ProblemSet) -> None:
 
 
 def _facts(root: Path, heading: ProblemSet, problems: Sequence[Listed]) -> dict[str, Any]:
-    """Return the data that the template of a whole document can use."""
     words: Phrases = phrases(templates_of(root), heading.language)
     return {
         "set_id": Tex(heading.id),

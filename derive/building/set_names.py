@@ -35,7 +35,7 @@ def set_folder(root: Path, set_id: str) -> Path:
 
 
 def set_names(root: Path) -> list[str]:
-    """Return the sets below the root, without reading them."""
+    """Return the sets below the root that have a valid name, without reading their files."""
     folders = sorted(path.parent.name for path in (root / "problems").glob("*/set.yaml"))
     return [name for name in folders if not wrong_set_name(name)]
 

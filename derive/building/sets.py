@@ -142,8 +142,6 @@ def built_set(
 
 
 class _Build:
-    """The state of one build of one set."""
-
     def __init__(
         self,
         root: Path,
@@ -450,7 +448,7 @@ class _Build:
         self._put(job, partial(self._was_typeset, pdf, source, texts))
 
     def _was_typeset(self, pdf: str, source: str, texts: Mapping[str, str | bytes], outcome: Outcome) -> None:
-        """Write the text and the source after their PDF, so that they match."""
+        """Write the TeX source and the texts only after the PDF was made, so that these files belong together."""
         self.ended(Ended("failed" if outcome.error else "typeset", f"{self.set_id}/{pdf}", outcome.seconds))
         name = pdf.removesuffix(".pdf")
         if name in [file for _, file in self.documents] and outcome.error:

@@ -81,7 +81,8 @@ def _key() -> bytes:
 
 
 def _read_key(file: Path) -> bytes | None:
-    """Return the key if it is complete, belongs to this user, and no other user may read or write it."""
+    """Return the key in the file; None if it is incomplete, belongs to another user, or other users may read or write
+    it."""
     try:
         facts = os.lstat(file)
         private = stat.S_ISREG(facts.st_mode) and facts.st_uid == os.getuid() and not facts.st_mode & 0o077

@@ -94,7 +94,7 @@ def rendered(
 def answer_key(root: Path, problem_id: str, cache: Cache = NO_CACHE, chosen: Chosen | None = None) -> Key:
     """Return the answers of a problem or of a variant, with their points, for the grader; raise `DeriveError` if there
     are errors."""
-    from derive.grading.key import key_of  # it loads the reader of formulas
+    from derive.grading.key import key_of  # imported here, because it loads the reader of formulas
 
     begun = time.time_ns()
     problem, faults = problem_and_faults(root, problem_id, chosen)
@@ -140,7 +140,6 @@ def _kept(cache: Cache, key: str) -> Solved:
 
 
 def _check_characters(problem: Problem) -> None:
-    """Check that prose contains only printable characters."""
     faults = []
     for prose in problem.texts:
         at = unprintable(prose.text)
@@ -158,7 +157,7 @@ def derived(
     """Return the derivation, the steps that evaluate answers numerically, all results with their ancestors, and the
     record of the run.
 
-    faults   the errors that do not affect any step are added to it; by default they are raised
+    faults   collects the errors that do not affect any step; by default these errors are raised
     """
     run = record.Run(memory=memory)
     try:
@@ -198,7 +197,7 @@ def derived(
 
 
 def _compared_before(step: Step, others: Iterable[Step]) -> bool:
-    """Return whether another answer has the same comparison of numbers; a page prints it once."""
+    """Return whether another answer has the same comparison of numbers, which a page prints only once."""
     return step.rule == COMPARISON.name and step.chain in [other.chain for other in others]
 
 

@@ -200,7 +200,8 @@ def _by_format(engine: Engine, source: Path, tex: str, timeout: float, formats: 
 
 
 def _passes(engine: Engine, source: Path, timeout: float, *options: str, most: int = PASSES) -> str | None:
-    """Run the engine until its log requests no further run, at most `most` times; return the output of a failed run."""
+    """Run the engine until its log requests no further run, at most `most` times. Return the output of a run that
+    fails, or None."""
     log = source.with_suffix(".log")
     for _ in range(most):
         try:

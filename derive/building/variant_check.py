@@ -1,5 +1,6 @@
 """Checks of many variants of a problem: the distribution of the answers, and degenerate draws.
 
+A draw is degenerate if the derivation or one of its conditions fails, or if an answer has no real value.
 A structure is one choice of everything that varies except numbers. Each structure is derived once, and the numbers of a
 draw are substituted. For a comparison, a few draws are also derived completely.
 """
@@ -198,7 +199,8 @@ def _structure(root: Path, problem_id: str, given: Chosen, found: OfProblem) -> 
 
 
 def _has_number(quantity: Quantity, letters: set[Symbol]) -> bool:
-    """Whether an answer is a scalar whose letters have numbers; a period that is given as a series does not count."""
+    """Return whether an answer is a scalar whose letters all have numbers, and not a period that is given as a
+    series."""
     value = quantity.value
     if isinstance(value, MatrixBase | Relation) or quantity.fact(WholeSwing) is not None:
         return False

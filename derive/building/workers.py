@@ -96,7 +96,7 @@ class _Worker:
     job: Job
     child: ForkProcess
     pipe: Connection
-    trace: int  # a pipe: a worker that is stopped writes the lines that it was running
+    trace: int  # a pipe to which a worker that is stopped writes the lines that it was running
     started: float = field(default_factory=time.monotonic)
 
     @property
@@ -232,7 +232,6 @@ def _outcome(worker: _Worker) -> Outcome | None:
 
 
 def _stopped(job: Job, code: str, message: str, help_: str, trace: str, notes: Iterable[str] = ()) -> BuildFailed:
-    """Return the error about a worker that stopped without an answer."""
     place = (_line_in(trace, job) or Place(job.shown_as, 1)) if job.file else None
     if place and place.path == job.shown_as and (reference := _reference_in(trace, job)):
         place, help_ = Place(reference, 1), f"check what this file states about {job.name}"
@@ -293,7 +292,7 @@ def lines_told(trace: int) -> str:
 
 
 def _line_in(trace: str, job: Job) -> Place | None:
-    """Return the innermost running line that belongs to a script in the folder of the problem's file."""
+    """Return the innermost running line that belongs to a script in the folder of the problem's file, or None."""
     for name, line in re.findall(r'^  File "(.+)", line (\d+) in ', trace, re.MULTILINE):
         file = Path(name)
         if job.file and file.parent == job.file.parent:
@@ -325,7 +324,7 @@ def _child(job: Job, pipe: Connection, lifeline: tuple[int, int], trace: int, li
     # A worker is short-lived, so it needs little garbage collection.
     gc.freeze()
     gc.set_threshold(100_000, 50, 50)
-    # The output of a script is for the user, not part of the answer.
+    # The output of a script is for the user and not part of the worker's result.
     os.dup2(2, 1)
     sys.stdout = sys.stderr
     value, error = attempt(job, trace)

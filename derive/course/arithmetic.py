@@ -1,7 +1,7 @@
 """Values under construction: the data of each part of an expression, and the checks when parts are combined.
 
-Both readers, of plain expressions and of LaTeX, build their values here. The terms of a sum must have the same
-dimension, nothing is divided by zero, and a value that would be too large is rejected before it is computed.
+The readers of plain expressions and of LaTeX build their values here. The terms of a sum must have the same dimension.
+A divisor that is known to be zero is rejected, and so is a value that would be too large, before it is computed.
 """
 
 from __future__ import annotations
@@ -70,8 +70,8 @@ class Term:
 
 
 class Arithmetic:
-    """The operations of a reader on terms of one text. An operation rejects operands that it cannot combine, and
-    reports their place in the text."""
+    """The operations on the terms of one text. An operation reports operands that it cannot combine, at their place in
+    the text."""
 
     max_terms = MAX_TERMS
 

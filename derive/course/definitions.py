@@ -18,7 +18,7 @@ from derive.errors import Faults, rejected
 
 @dataclass(frozen=True)
 class Defined(Declared):
-    """A defined quantity: its formula, in the declared letters and in quantities that are defined before it."""
+    """A defined quantity. Its formula contains declared letters and quantities that are defined earlier."""
 
     formula: Expr = field(kw_only=True)
     of_dimension: Dimension = field(kw_only=True)
@@ -34,7 +34,7 @@ def read_defined(
     """Return the defined quantities in the order of the file.
 
     letters  the declared letters
-    moving   the names that a formula must not contain, because they change in time
+    moving   the names of letters that change in time, which a formula must not contain
     """
     found: dict[str, Defined] = {}
     ranges = {letter.symbol: letter.lies for letter in letters.values() if letter.lies}

@@ -91,13 +91,13 @@ def read_expression(
 
 
 def names_in(scalar: Scalar) -> list[Word]:
-    """Return the names in an expression, including names of units, each with its place."""
+    """Return the names of letters and units in an expression, each with its place; leave out `pi` and functions."""
     names = (m for m in _TOKEN.finditer(scalar.text) if m.lastgroup == "name" and m[0] not in RESERVED)
     return [scalar.piece(m.start(), m.end() - m.start()).word for m in names]
 
 
 def letters_in(scalar: Scalar) -> list[Word]:
-    """Return the names in an expression without the units after numbers, such as `deg` in `30 deg`."""
+    """Return the same names as `names_in`, but without units after numbers, such as `deg` in `30 deg`."""
     tokens = [m for m in _TOKEN.finditer(scalar.text) if m.lastgroup != "space"]
     units = {
         unit.start()
@@ -241,7 +241,6 @@ class _Parser(Arithmetic):
         self.refuse("expression", f"something is missing {found}", token.start, token.end)
 
     def measured(self, number: _Token) -> Term:
-        """Read a number with its unit."""
         start, end = number.start, self.token.end
         self.at += 1
         piece = self.scalar.piece(start, end - start)

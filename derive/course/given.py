@@ -123,7 +123,7 @@ def read_givens(
 
 
 def read_measured(name: Word, node: Tree, symbols: Mapping[str, Declared]) -> Measured:
-    """Read an entry of `values:`: a number, with its unit, for a declared symbol."""
+    """Read the number of a declared symbol, with its unit."""
     declared = symbols.get(name)
     if declared is None:
         help_line = did_you_mean(name, symbols) or "declare it under `symbols:`"
@@ -144,7 +144,7 @@ def read_measured(name: Word, node: Tree, symbols: Mapping[str, Declared]) -> Me
 
 
 def read_numbers(written: Mapping[Word, Tree], symbols: Mapping[str, Declared], faults: Faults) -> tuple[Measured, ...]:
-    """Read the numbers of `values:`, or of one of the cases of a plot."""
+    """Read the numbers of `values:`, or of one case of a plot."""
     found = []
     for name, value in written.items():
         with faults:
@@ -209,7 +209,6 @@ def _scalar(node: Tree, wanted: Wanted, where: Place | None = None) -> Scalar:
 
 
 def _value(scalar: Scalar, wanted: Wanted, symbols: Mapping[str, Declared]) -> Expr | Number:
-    """Read a scalar as an expression or as a number with its unit."""
     number = number_with_unit(scalar, wanted, symbols)
     if number is not None:
         _check_sign(number.si, scalar, wanted)
@@ -287,7 +286,7 @@ def value_in_prose(
 ) -> Given | None:
     """Return a value of a description for prose that mentions it by its path; None if prose cannot state it.
 
-    measured   the numbers of the description; a number is found here by its place in the file
+    measured   the numbers of the description; each is identified by its place in the file
     """
     if isinstance(node, MappingNode):
         return None
@@ -329,10 +328,9 @@ class NumbersAsLetters:
 
     def letter(self, scalar: Scalar, name: str, kind: str, of: int = 1) -> Expr | None:
         """Return the value that replaces a number with a unit: zero, an exact angle, a letter, or minus a letter.
+        Return None if the text is an expression.
 
         of   the number of values that belong together, such as 3 for the sides of a box
-
-        Return None if the text is an expression.
         """
         if is_more_than_unit(scalar.text, self.letters.symbols):
             return None
@@ -397,7 +395,7 @@ def _given(name: str, kind: Asked, value: tuple[Expr | Number, ...] | Direction,
             # Zero is exact in every unit, so it needs no letter.
             exprs.append(Integer(0))
             continue
-        # If the kind is positive, the letter is the absolute value of the number, and the sign is a factor.
+        # If the kind is positive, the letter replaces the absolute value of the number, and the sign is a factor.
         sign = -1 if about_kind(kind.each).positive and entry.number < 0 else 1
         size = entry.si * sign
         # Equal numbers share a letter, so that a cube stays a cube. If all entries are small integer multiples of the

@@ -1,4 +1,4 @@
-"""Numbers with units, as a file writes them, and the values that these numbers specify."""
+"""Numbers with units, read from their text in a file."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ def is_number_with_unit(scalar: Scalar) -> bool:
 
 
 def number_with_unit(scalar: Scalar, wanted: Wanted, symbols: Mapping[str, Declared]) -> Number | None:
-    """Read a number with its unit, such as `1.5 kg`; return None if the text is an expression."""
+    """Read a number with its unit, such as `1.5 kg`; return None if the text is an expression or has no unit."""
     if re.fullmatch(r"\s*[+-]?\d+,\d+(\s.*)?", scalar.text):
         raise Rejected(decimal_comma(scalar.text, scalar.place))
     match = _NUMBER_UNIT.fullmatch(scalar.text)

@@ -37,8 +37,8 @@ class DecimalSign(StrEnum):
 
 @dataclass(frozen=True)
 class Language:
-    """The language of pages, by the name of its folder of phrases, and their decimal sign. If `decimal` is None, pages
-    have the decimal sign of the language."""
+    """The language of pages. `name` is the folder of its phrases; if `decimal` is None, pages have the usual decimal
+    sign of the language."""
 
     name: str = "en"
     decimal: DecimalSign | None = None

@@ -1,7 +1,6 @@
 """The files of a new problem, copied from a pattern or from an existing problem.
 
-No work of the author is lost: existing files are not overwritten. The file of a set gains an entry in its list of
-problems.
+Existing files are not overwritten, except that the file of a set gains an entry in its list of problems.
 """
 
 from __future__ import annotations
@@ -58,7 +57,7 @@ def begun(
 
 
 def _for_editors(folder: Path, schema: Path) -> str:
-    """Return the line that names the schema of a file."""
+    """Return the comment that tells an editor the schema of a file."""
     return f"# yaml-language-server: $schema={relpath(schema, folder)}\n"
 
 
@@ -102,7 +101,6 @@ def _copied(root: Path, like: str) -> tuple[str, str]:
 
 
 def _with_problem(root: Path, path: str, name: str) -> str:
-    """Return the text of a set's file with one more problem."""
     text, faults = _read(root / path), Faults()
     listed = mapping_in(root, path, "a set").get("problems")
     if not isinstance(listed, Sequence) or not listed.items:

@@ -1,8 +1,8 @@
 """A figure of the author: the key `figure:` of a problem names a PDF, SVG or PNG file next to the problem.
 
-The file is data of another program, so it is checked: its place, its size and its kind. The private data of drawing
-programs are removed from an SVG. A script, a reference to another file, or an element other than shapes, text, styles
-and pictures inside the file is an error.
+Another program made the file, so its place, size and format are checked. The private data of drawing programs are
+removed from an SVG. An SVG is rejected if it has a script, a reference to another file, or an element that is not a
+shape, text, a style or an embedded picture.
 """
 
 from __future__ import annotations
@@ -61,7 +61,8 @@ class OwnFigure:
 def read_figure(
     root: Path, problem: str, written: FigureKeys | None, drawings: tuple[Placement, ...], faults: Faults
 ) -> OwnFigure | None:
-    """Return the figure of a problem; the path of its file begins in the folder of the file `problem`."""
+    """Return the figure of a problem, or None after an error. The path in `written` is relative to the folder of the
+    file `problem`."""
     if written is None or written.file is None or written.alt is None:  # a missing key is already reported
         return None
     place, kind = written.file.place, written.file.rpartition(".")[2].lower()
@@ -94,7 +95,6 @@ def read_figure(
 
 
 def _content(root: Path, problem: str, name: Word, faults: Faults) -> bytes | None:
-    """Return the content of a file next to a problem; None after an error."""
     folder = (root / problem).parent
     shown = (Path(problem).parent / name).as_posix()
     try:
@@ -166,6 +166,6 @@ def _unwanted(tree: ElementTree.Element) -> str:
 
 
 def _refers(style: str) -> bool:
-    """Return whether a style may load a file. A backslash counts too, because an escaped character could hide the
+    """Return whether a style may load a file. A backslash counts too, because an escape could hide the reference to a
     file."""
     return bool(_URL.search(style)) or "@import" in style.lower() or "\\" in style

@@ -145,7 +145,6 @@ FORM_OF_SET = Reader({**_FORM.schema, "minProperties": 1}, _form_of_set)
 
 
 def _forms(node: Tree, name: str, faults: Faults) -> dict[str | None, AnswerForm]:
-    """Return the form of each answer by its key. A form for all answers has the key `None`."""
     if not isinstance(node, Mapping):
         wrong_type(faults, f"`{name}`", _FORM_IS, node)
         return {}
@@ -156,7 +155,7 @@ def _forms(node: Tree, name: str, faults: Faults) -> dict[str | None, AnswerForm
 
 @dataclass(frozen=True)
 class Question(Record):
-    """One part of a problem. The key `None` of `forms` is for all answers."""
+    """One part of a problem. `forms` has the form of each answer by its key; the key `None` is for all answers."""
 
     ask: Prose = key(
         "the question, in prose; `<<cases>>` stands for the numbers in the cases of the part's plot",

@@ -63,7 +63,7 @@ class Placement:
         up        the ends of the vertical axis of curves
         energies  the energies that are drawn as lines in the plot of a potential energy
         per       the quantities by which the axes of a plot are divided
-        panels    whether curves are together in one panel or apart; None by default
+        panels    whether curves are together in one panel or apart
     levels, over   for a phase portrait: the value on each curve, and the ranges of the two axes; for a bifurcation
                    diagram, `over` has the range of the vertical axis
         letters   the letters that formulas of a plot may contain, by name
@@ -105,12 +105,12 @@ class Placement:
 
     @property
     def shows(self) -> tuple[str, ...]:
-        """Return the names of the marks of a body, such as its centre of mass."""
+        """Return the names of those marks that belong to a body, such as its centre of mass."""
         return tuple(str(mark.mark) for mark in self.marks if mark.mark in MARKS_OF_BODY)
 
     @property
     def adds(self) -> tuple[MarkKeys, ...]:
-        """Return the marks that the problem places itself."""
+        """Return the other marks, such as points and lines, whose places the problem states."""
         return tuple(mark for mark in self.marks if mark.mark not in MARKS_OF_BODY)
 
     @property
@@ -126,8 +126,7 @@ class Placement:
 def placements(
     drawings: Table[Word, DrawingKeys], symbols: Table[str, Declared], parts: int, faults: Faults
 ) -> tuple[Placement, ...]:
-    """Read every entry of `drawings:`. Names in an entry, such as those of steps, are checked after the script has
-    run."""
+    """Read every entry of `drawings:`. Names of steps in an entry are checked only after the script has run."""
     return tuple(
         Placement(
             key=name,

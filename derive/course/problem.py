@@ -1,7 +1,7 @@
-"""A problem as checked values: its YAML, its script, and the match of `given:` to the signature of `solve()`.
+"""A problem as checked values, read from its YAML file and its script.
 
-`load_problem` reports the errors of a file together. Names in prose and answer keys are checked later, where the steps
-are known.
+`load_problem` reports the errors of a file together. Names in prose and the keys of answers are checked later, when the
+steps are known.
 """
 
 from __future__ import annotations
@@ -126,7 +126,7 @@ class Problem:
 
     @property
     def letters(self) -> tuple[Declared, ...]:
-        """All letters of the problem."""
+        """The declared letters, and the letters that the description introduces."""
         return (*self.symbols.values(), *(self.described.letters.values() if self.described else ()))
 
     @property
@@ -156,7 +156,7 @@ class Problem:
         return [pair for numbers in (self.amounts, *cases) for pair in numbers.items()]
 
     def keys_in_cases(self, part: Question, answers: Iterable[str]) -> list[str]:
-        """Return the keys of the numbers of these answers in each case."""
+        """Return the keys of the numbers of these answers in each case, such as `torque_in_case_ii`."""
         return [f"{answer}_in_case_{case}" for case in self.cases_of(part) for answer in answers]
 
     @property
@@ -249,9 +249,9 @@ def problem_and_faults(root: Path, problem_id: str, chosen: Chosen | None = None
 def _check_choices(
     root: Path, problem_id: str, written: ProblemKeys, script: Script | StockScript, faults: Faults
 ) -> None:
-    """Report the errors that each choice of a variation causes; the other values are those of the file. An error at
-    another place of the file is reported at the choice if a given value varies. If a number of `values:` varies, such
-    an error is left out, because it may depend on other numbers, too."""
+    """Report the errors that a choice of one variation causes while all other values are the values in the file. If a
+    given value varies, an error at another place of the file is reported at the choice. If a number of `values:`
+    varies, an error at another place is left out, because it may depend on other numbers, too."""
     for variation in written.variants:
         known: set[tuple[str, Place]] = set()
         for number in variation.tried:
@@ -361,7 +361,7 @@ def _check_marks_of_body(drawing: Placement, script: Script | StockScript | None
 
 
 def _check_panels(drawing: Placement, faults: Faults) -> None:
-    """Check the keys of a drawing that are only for some plots."""
+    """Report keys of a drawing that have no effect on a drawing of its sort."""
     if drawing.panels and max(len(drawing.cases), len(drawing.curves)) < 2:
         message = f"`panels` has no effect on `{drawing.key}`, which has only one curve"
         faults.error("unused-key", message, drawing.place, help="leave it out, or add `cases`")
@@ -384,7 +384,6 @@ def _check_panels(drawing: Placement, faults: Faults) -> None:
 
 
 def _check_portrait(drawing: Placement, faults: Faults) -> None:
-    """Check the keys of a phase portrait."""
     extra = drawing.against or (drawing.range.ends[0] if drawing.range else None)
     if drawing.panels:
         message = f"`panels` has no effect on the phase portrait `{drawing.key}`: each case has its own panel"
@@ -412,7 +411,7 @@ def run_solve(problem: Problem, record: Run | None = None) -> object:
 
 @contextmanager
 def solving(problem: Problem, record: Run) -> Iterator[None]:
-    """Add the steps of a `with` block to `record`, after the letters, numbers and assumptions of the problem."""
+    """Add to `record` the letters, numbers and assumptions of the problem, and then the steps of a `with` block."""
     record.numbers = {letter: explicit(amount) for letter, amount in problem.amounts.items()}
     written = {given.name: problem.places.get(f"given.{given.name}") for given in problem.givens}
     record.places = {name: place for name, place in written.items() if place}
@@ -483,7 +482,7 @@ def _script(root: Path, path: str, name: Word | None, faults: Faults) -> tuple[s
 
 @dataclass(frozen=True)
 class Pinned:
-    """The input of `solve()`."""
+    """The checked contents of `symbols:`, `given:` and `values:`."""
 
     symbols: dict[str, Declared]
     givens: tuple[Given, ...]
@@ -538,7 +537,8 @@ OF_ONE_VALUE = ("undeclared-symbol", "wrong-kind", "wrong-type", "not-positive",
 
 
 def _are_superfluous_keys(faults: Faults, given: Mapping) -> bool:
-    """Whether the only errors are superfluous keys of entries."""
+    """Return whether the only errors are unknown keys of entries under `given:`, none of which resembles a known
+    key."""
     at_top = {name.place for name, _ in given.pairs}
     return all(
         each.code == "unknown-key" and (each.help or "").startswith(THE_KEYS_ARE) and each.place not in at_top
@@ -547,7 +547,6 @@ def _are_superfluous_keys(faults: Faults, given: Mapping) -> bool:
 
 
 def _errors_of_values(reading: Callable[[Faults], object]) -> Faults:
-    """Return the errors of a reading that concern single values."""
     found = Faults()
     with found:
         reading(found)

@@ -1,4 +1,5 @@
-"""The contents of a problem's file before its script is run and its expressions are read. SymPy is not needed."""
+"""The contents of a problem's file, before its script is run and its expressions are read. This module needs no
+SymPy."""
 
 from __future__ import annotations
 
@@ -93,7 +94,7 @@ def schema_of_sorts(kinds: Iterable[str]) -> dict[str, Any]:
 
 
 def _sentences(node: Tree, name: str, faults: Faults) -> dict[str, Prose]:
-    """Read the sentences for a step: one text for each outcome, or one text for any outcome."""
+    """Read the sentences for a step: one text for each outcome, or one text for all outcomes."""
     entries = [(o.text, n) for o, n in node.pairs] if isinstance(node, Mapping) else [(ANY_OUTCOME, node)]
     read = {outcome: read_prose(entry, name, faults) for outcome, entry in entries}
     found = {outcome: prose for outcome, prose in read.items() if prose}
@@ -152,8 +153,6 @@ PLOTTED = Reader({"anyOf": [TEXT.schema, _PAIR]}, _plotted)
 
 
 def _degrees(most: float) -> Reader[float]:
-    """Return the reader of an angle in degrees from `-most` to `most`."""
-
     def read(node: Tree, name: str, faults: Faults) -> float | None:
         number = _DEGREES.fullmatch(node.text.strip()) if isinstance(node, Scalar) else None
         if number is not None and abs(float(number[1])) <= most:
@@ -203,21 +202,21 @@ _A_PLACE, _A_WAY = "the name of a place or its components", "a direction: compon
 
 @dataclass(frozen=True)
 class MarkKeys(Record):
-    """The keys of one of `marks:` of a drawing."""
+    """The keys of one mark under `marks:` of a drawing."""
 
     mark: str | None = key(
         "what is drawn: a `point`, a solid `line`, a `dashed` line, a dimension line for a `length`, the `arrow` of a "
         "vector, the arc of an `angle`, the curved arrow of a `turn`, a dashed `circle`, "
-        "the dashed `cone` that a drawn vector describes, or "
-        "a solid `curve`; for one `body` also the `masses` of its parts, its `centre_of_mass`, its `principal_axes`, "
-        "the `direction` of the axis of `moment_about`, or the `element` of its integrals",
+        "the dashed `cone` that a drawn vector describes, or a solid `curve`. For one `body`, also: the `masses` of "
+        "its parts, its `centre_of_mass`, its `principal_axes`, the `direction` of the axis of `moment_about`, or the "
+        "`element` of its integrals",
         one_of(MARKS),
         required=True,
     )
     label: Formula | None = key("the letter, formula or answer that names the mark; by default no label", FORMULA)
     at: Tree | None = key(
         "the place of a point, the start of an arrow, the vertex of an angle, the centre of a turn or a circle, or the "
-        "moving point of a curve; in the drawing of a body, by default the origin; if the body is given by its "
+        "moving point of a curve. In the drawing of a body, the default is the origin; if the body is given by its "
         "moments, the components are numbers relative to the semi-axes of the drawn ellipsoid",
         as_written(_PLACE, _A_PLACE),
     )
@@ -228,14 +227,13 @@ class MarkKeys(Record):
     )
     end: Tree | None = key(
         "the end of a line or of a length; a place on a circle; for a cone, the answer whose arrow the drawing shows; "
-        "for an angle, the direction of its second side or a "
-        "place on it",
+        "for an angle, the direction of its second side or a place on it",
         as_written(_PLACE, _A_PLACE),
         called="to",
     )
     along: Tree | None = key(
         "the direction of an arrow, or of the axis of a turn, a circle or a cone: components, `x`, `y` or `z`, or the "
-        "name of an answer that is a vector; a turn in a plane is counterclockwise by default, and clockwise with "
+        "name of an answer that is a vector. A turn in a plane is counterclockwise by default, and clockwise with "
         "`[0, 0, -1]`",
         as_written(_WAY, _A_WAY),
     )
@@ -255,7 +253,7 @@ class MarkKeys(Record):
 
     @property
     def written(self) -> tuple[str, ...]:
-        """Return what the file says about the mark, as texts without places."""
+        """Return the contents of the keys of the mark as texts."""
         named = (self.mark, self.label, self.side, self.size, self.against, self.between)
         return *map(str, named), *map(as_text, (self.at, self.start, self.end, self.along))
 
@@ -269,7 +267,7 @@ MARKS_OF_DRAWING = list_of(
 
 @dataclass(frozen=True)
 class DrawingKeys(Record):
-    """The keys of one of `drawings:`."""
+    """The keys of one drawing under `drawings:`."""
 
     at: Tree | None = key(
         "where the drawing appears: `statement`, the letter of a part, the key of a step that a part asks for "
@@ -285,8 +283,8 @@ class DrawingKeys(Record):
     )
     marks: tuple[MarkKeys, ...] = key(
         "if `solve` is `system`, `body` or `rotation`: [marks](#marks) that are drawn in addition, such as a centre of "
-        "mass, a length, a velocity or an angle. With `solve: body`, marks under another name than that of the body "
-        "make a further drawing of it",
+        "mass, a length, a velocity or an angle. With `solve: body`, marks under a name that is not the name of the "
+        "body make a further drawing of the body",
         MARKS_OF_DRAWING,
     )
     without: tuple[Word, ...] = key(
@@ -296,7 +294,7 @@ class DrawingKeys(Record):
     )
     view: tuple[float, float] | None = key(
         "for a drawing in space: the direction from which it is seen, `front` (from x), `side` (from -y), `top` (from "
-        "z) or its angles; by default a view in which vectors and faces are visible, such as `{azimuth: 25, "
+        "z) or its angles. The default is a view in which vectors and faces are visible, such as `{azimuth: 25, "
         "elevation: 18}`",
         VIEW,
     )
@@ -305,8 +303,8 @@ class DrawingKeys(Record):
     )
     plot: tuple[Formula, ...] | None = key(
         "if `solve` is `system`, `body` or `rotation`: the answer whose curve is drawn, such as `potential_energy`; or "
-        "two answers or formulas, such as `[path_x, path_z]`, whose path is drawn; `equilibria` draws a bifurcation "
-        "diagram",
+        "two answers or formulas, such as `[path_x, path_z]`, whose path is drawn. With `equilibria`, a bifurcation "
+        "diagram is drawn",
         PLOTTED,
     )
     curves: tuple[Word, ...] = key(
@@ -333,8 +331,8 @@ class DrawingKeys(Record):
         list_of(FORMULA, "a list of values such as `[-5 J, m*g*l]`"),
     )
     over: dict[Word, tuple[Formula, ...]] = key(
-        "for a phase portrait: a coordinate and its momentum, each with its two ends; for a bifurcation diagram: the "
-        "coordinate with its two ends, if the vertical axis should not show all equilibria",
+        "for a phase portrait: a coordinate and its momentum, each with its two ends. For a bifurcation diagram: the "
+        "coordinate with its two ends; by default, the vertical axis shows all equilibria",
         mapping_of(ENDS),
     )
     ends: tuple[Formula, ...] | None = key(
@@ -343,8 +341,8 @@ class DrawingKeys(Record):
         called="range",
     )
     then: Formula | None = key(
-        "for curves against `t`: the answer or the formula whose value they keep after the range, such as `v_1`; it "
-        "must be their value at the end of the range",
+        "for curves against `t`: the answer or the formula whose value the curves keep after the range, such as `v_1`; "
+        "the curves must have this value at the end of the range",
         FORMULA,
     )
     up: tuple[Formula, ...] | None = key(
@@ -358,16 +356,17 @@ class DrawingKeys(Record):
     )
     per: tuple[Formula, ...] = key(
         "the quantities by which the two axes of a plot are divided, such as `[r_0, G*M*m/r_0]`: answers or formulas, "
-        "the horizontal axis first; `1` leaves an axis in its unit; a phase portrait needs a third one for its levels",
+        "the horizontal axis first. `1` leaves an axis in its unit; a phase portrait needs a third quantity, for its "
+        "levels",
         list_of(FORMULA, "a list of quantities such as `[r_0, G*M*m/r_0]`", each="a quantity"),
     )
     cases: tuple[dict[Word, Tree], ...] = key(
         "numbers for letters, one mapping for each curve of a plot; a later mapping needs only the numbers that differ "
-        "from those of the first",
+        "from the numbers of the first mapping",
         list_of(mapping_of(SCALAR, _NUMBERS), "a list of mappings such as `{R: 20 cm, a: 5 cm}`", each="a case"),
     )
     panels: str | None = key(
-        "whether several curves or paths are `together` in one panel or `apart`; by default, `curves` are together, "
+        "whether several curves or paths are `together` in one panel or `apart`. By default, `curves` are together, "
         "and the curves of `cases` are together if they have the same range and comparable sizes",
         one_of(PANELS),
     )
@@ -375,7 +374,7 @@ class DrawingKeys(Record):
 
 @dataclass(frozen=True)
 class LimitKeys(Record):
-    """The keys of one of `limits:`."""
+    """The keys of one limit under `limits:`."""
 
     of: Word | None = key("the step whose limiting or special case is shown, by its key", TEXT)
     letter: Formula | None = key("the letter or the ratio that is small, large or near a value: `S`, `h/R`", FORMULA)
@@ -391,7 +390,7 @@ class LimitKeys(Record):
 
 
 def _limit(node: Tree, name: str, faults: Faults) -> LimitKeys | None:
-    """Read an entry of `limits:`, which must specify its limit in one way."""
+    """Read an entry of `limits:`, which must have either `of` with `letter`, or `of` with `where`, or only `step`."""
     found = _LIMIT.read(node, name, faults)
     if found is None:
         return None
@@ -408,7 +407,7 @@ def _limit(node: Tree, name: str, faults: Faults) -> LimitKeys | None:
 
 
 def _way(*keys: str) -> dict[str, Any]:
-    """Return the schema of a limit with these keys."""
+    """Return the schema of a limit that has these keys and none of the other keys that specify a limit."""
     others = {"of", "letter", "where", "step"} - {*keys}
     return {"required": list(keys), "not": {"anyOf": [{"required": [key]} for key in sorted(others)]}}
 
@@ -430,7 +429,7 @@ class FigureKeys(Record):
     alt: Prose | None = key("what the figure shows, for a reader who does not see it", PROSE, required=True)
     caption: Prose | None = key("the caption, in prose; with a caption the figure has a number", PROSE)
     width: Tree | None = key(
-        "the width, such as `5 cm`; by default that of the file, or less if the page has no room for it",
+        "the width, such as `5 cm`; by default the width stated in the file, or less if the page has no room for it",
         as_written(TEXT.schema, "a length"),
     )
 
@@ -455,8 +454,8 @@ class ProblemKeys(Record):
         SYMBOLS,
     )
     given: Mapping | None = key(
-        "the arguments of `solve()`, by the names of its parameters: an expression, `2 cm`, or a list of them; if "
-        "`solve` is `system`, `body` or `rotation`, the description of the system, body or rotation",
+        "the arguments of `solve()`, by the names of its parameters: an expression, `2 cm`, or a list of these. If "
+        "`solve` is `system`, `body` or `rotation`: the description of the system, body or rotation",
         GIVEN,
     )
     define: Definitions = key(

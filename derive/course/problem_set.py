@@ -62,7 +62,7 @@ class ProblemSet:
 
     @property
     def facts(self) -> list[str]:
-        """What a title page says about the course and the document, in the order in which it is printed."""
+        """The lines of a title page about the course and the document, in the order in which they are printed."""
         known = (self.course, self.institution, self.instructor, self.term, self.date, self.student)
         return [fact for fact in known if fact]
 
@@ -118,7 +118,7 @@ def _documents(node: Tree, name: str, faults: Faults) -> dict[Word, Word] | None
 class CourseKeys(Record):
     """The keys of `course.yaml`, which all sets of the course share."""
 
-    course: Word | None = key("the course", TEXT)
+    course: Word | None = key("the name of the course", TEXT)
     institution: Word | None = key("the university, the department or the school", TEXT)
     instructor: Word | None = key("the instructor of the course", TEXT)
     term: Word | None = key("the term as it is to be printed", TEXT)
@@ -170,8 +170,8 @@ def ids_in_order(root: Path) -> list[str]:
 
 
 def problem_paths(root: Path) -> dict[str, str]:
-    """Map ids to files with valid names, relative to the root: `problems/hw9/block.yaml`,
-    `problems/library/rotation/wheel.yaml`."""
+    """Return the file of each problem by the problem's id. Paths are relative to the root, such as
+    `problems/hw9/block.yaml` or `problems/library/rotation/wheel.yaml`; files without a valid name are left out."""
     top = root / "problems"
     files = [file for depth in ("*/*.yaml", "*/*/*.yaml") for file in sorted(top.glob(depth), reverse=True)]
     found = [file.relative_to(top) for file in files if file.stem not in _NOT_PROBLEMS]
@@ -180,7 +180,7 @@ def problem_paths(root: Path) -> dict[str, str]:
 
 
 def found_path(root: Path, problem_id: str) -> str | None:
-    """Return the file of one problem, if it exists."""
+    """Return the file of one problem, relative to the root; None if it does not exist."""
     set_id, _, name = problem_id.partition("/")
     if not (NAME.fullmatch(set_id) and NAME.fullmatch(name)) or name in _NOT_PROBLEMS:
         return None
@@ -247,7 +247,7 @@ def problem_set(root: Path, set_id: str) -> ProblemSet:
     misspelt = any(nearest(name.text, ["course"]) for name, _ in node.pairs if name.text not in keys_of(SetKeys))
     if not (written.course or of_course.course or misspelt) and node.get("course") is None:
         help_line = f"write it here, or in `{COURSE}` for all sets of the course"
-        faults.error("missing-key", "a set needs `course`: the course", node.place, help=help_line)
+        faults.error("missing-key", "a set needs `course`: the name of the course", node.place, help=help_line)
     faults.stop()
 
     def own(name: str) -> str | None:
@@ -323,7 +323,6 @@ def _logo(root: Path, path: Word, faults: Faults) -> bytes | None:
 
 
 def _course(root: Path, faults: Faults) -> CourseKeys:
-    """Return the contents of `course.yaml`."""
     if not (root / COURSE).is_file():
         return CourseKeys({}, {})
     return read_record(CourseKeys, mapping_in(root, COURSE, "a course"), "a course", faults)
@@ -338,7 +337,7 @@ def _clashes(documents: dict[Word, Word], problems: List[str], faults: Faults) -
 
 
 def mapping_in(root: Path, path: str, what: str, quickly: bool = False) -> Mapping:
-    """Return the mapping that a file must contain."""
+    """Return the contents of a file, or raise `Rejected` if they are not a mapping."""
     node = read_yaml(root / path, path, quickly)
     if not isinstance(node, Mapping):
         raise Rejected(Complaint("wrong-type", f"{what} must be a mapping, but this is {shape_of(node)}", node.place))

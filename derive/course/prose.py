@@ -1,10 +1,14 @@
 r"""Prose as an instructor writes it: plain text with mentions and formulas.
 
-`<<name>>` stands for a symbol, a given value or a derived result, `<<body.sides>>` for a value inside another one,
-`<<eq torque>>` for the equation number of the step `torque`,
-`<<figure axes>>` for the number of the drawing `axes`, and `<<problem top>>` for the number of another problem of the
-set. `$y = x^2/(2b)$` is a formula in LaTeX. It is parsed when the page is made (`derive.page.formulas`), and its
-letters are the letters of the problem. Between double dollar signs, it has a line of its own. `\$` is a dollar sign.
+- `<<name>>` is a symbol, a given value or a derived result.
+- `<<body.sides>>` is a value inside another value.
+- `<<eq torque>>` is the equation number of the step `torque`.
+- `<<figure axes>>` is the number of the drawing `axes`.
+- `<<problem top>>` is the number of another problem of the set.
+- `$y = x^2/(2b)$` is a formula in LaTeX; between double dollar signs, a formula has a line of its own.
+- `\$` is a dollar sign.
+
+A formula is parsed when the page is made (`derive.page.formulas`); its letters are the letters of the problem.
 
 Prose has no template commands; it is escaped when it is printed.
 """

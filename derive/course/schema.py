@@ -2,8 +2,8 @@
 
     figures: int | None = key("significant figures of the number", FIGURES)
 
-The JSON schema of a reader shows editors what the key allows; its function turns the contents of the key into a checked
-value.
+The JSON schema of a reader shows editors what the key allows; the function of the reader turns the contents of the key
+into a checked value.
 """
 
 from __future__ import annotations
@@ -163,7 +163,8 @@ def as_written(schema: dict[str, Any], wanted: str) -> Reader[Tree]:
 
 
 def _misfit(node: Tree, schema: dict[str, Any]) -> Tree | None:
-    """Return the first node that is empty or has a wrong shape (list, mapping or text)."""
+    """Return the first node that is empty or does not have the shape that the schema allows (list, mapping or text);
+    None if there is no such node."""
     odd = [_misfit_in_one(node, each) for each in schema.get("anyOf", [schema])]
     return None if None in odd else next((within for within in odd if within is not node), node)
 
@@ -242,8 +243,8 @@ def list_of(items: Reader[T], wanted: str, each: str = "", length: int | None = 
 
 
 def record_of(record: type[R], what: str, wanted: str, called: str = "") -> Reader[R]:
-    """Return the reader of a mapping with the keys of a record. `called` is its name in errors, in which `{}` stands
-    for its key."""
+    """Return the reader of a mapping with the keys of a record. `called` is the name of the mapping in errors; a `{}`
+    in it stands for the key of the mapping."""
 
     def read(node: Tree, name: str, faults: Faults) -> R | None:
         if isinstance(node, Mapping):

@@ -1,4 +1,4 @@
-"""The script of a problem: imported as Python, with its failures reported at lines of the script.
+"""The script of a problem is imported as Python, and its failures are reported at lines of the script.
 
 A script is trusted code, but its errors must not look like errors in derive. The report of an error has no traceback;
 it shows the innermost line that belongs to the script.
@@ -54,7 +54,7 @@ class Script:
 
 
 class _NoCache(SourceFileLoader):
-    """A loader without bytecode, so that a script is compiled from its present text."""
+    """A loader without cached bytecode, so that a script is compiled from its current text."""
 
     def path_stats(self, path: Any) -> Mapping[str, Any]:
         raise OSError
@@ -172,7 +172,7 @@ def _start(node: ast.expr | ast.stmt | ast.arg) -> tuple[int, int]:
 
 
 def _innermost(error: BaseException, file: Path, source: Source) -> Place | None:
-    """Return the last line of the script that ran before the error."""
+    """Return the last line of the script that ran before the error; None if no line of the script ran."""
     frames = [frame for frame in traceback.extract_tb(error.__traceback__) if frame.filename == str(file)]
     if not frames:
         return None

@@ -94,7 +94,7 @@ class Answering(Protocol):
         """Add the marks of the problem to the drawings."""
 
     def every(self) -> dict[str, Any]:
-        """Return the steps of each offered name, or the error if the answer cannot be derived."""
+        """Return, for each name that a part can ask for, the steps or the error of the derivation."""
 
 
 @dataclass(frozen=True)

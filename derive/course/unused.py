@@ -32,7 +32,7 @@ def unused_in(
 ) -> tuple[Complaint, ...]:
     """Return warnings about entries that have no effect."""
     behind = {each.symbol.name for each in measured} - {*written.values}  # the letters that replace numbers
-    exact = {given.kind.each for given in givens if given.written is not None}  # the kinds with exact numbers
+    exact = {given.kind.each for given in givens if given.written is not None}  # the kinds of exact numbers
     found = [*_letters(written, behind, exact)]
     found += [*_drawings(written), *_points(written)]
     if described is not None:
@@ -144,7 +144,6 @@ def _coordinates(given: Mapping | None) -> Iterator[Complaint]:
 
 
 def _axes(given: Mapping | None) -> Iterator[Complaint]:
-    """Warn of axes that no other key under `given` mentions."""
     axes = given.get("axes") if given is not None else None
     if given is None or not isinstance(axes, Mapping):
         return
@@ -164,7 +163,6 @@ def _results(made: Table[Word, Collection[Word]], needed: Collection[str]) -> It
 
 
 def _keys(described: Described, needed: Collection[str]) -> Iterator[Complaint]:
-    """Warn of keys on which no requested answer depends."""
     for key, indifferent in described.without:
         if {*needed} - {*described.made} <= {*indifferent}:
             message = f"nothing that is asked for depends on `{key}`"

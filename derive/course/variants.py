@@ -3,10 +3,10 @@
     variants:
       b: 10..30 cm in steps of 2             a number of `values:`, or a given value
       theta: [30 deg, 45 deg, 60 deg]
-      axis: [diagonal, x, y]                 a given value of another kind, so the derivation differs
+      axis: [diagonal, x, y]                 a given direction, so the derivation differs, too
 
-A choice replaces the value in the file before anything is read, so a variant is a problem like any other. The choice of
-a student does not depend on other problems or variations.
+A choice replaces the value in the file before the keys of the file are read, so a variant is read and derived as any
+other problem. The choice for a student does not depend on other problems or variations.
 """
 
 from __future__ import annotations
@@ -158,7 +158,7 @@ def check_variations(problem: Mapping, variations: tuple[Variation, ...], faults
         if _path(problem, variation.name) is None:
             known = [key.text for under in ("values", "given") for key, _ in _pairs(problem.get(under))]
             message = f"neither `values` nor `given` has `{variation.name}`, so it cannot vary"
-            help_line = did_you_mean(variation.name, known) or "write the value of the problem itself there"
+            help_line = did_you_mean(variation.name, known) or "give the value for the problem itself in one of them"
             faults.error("variants", message, variation.name.place, help=help_line)
 
 
@@ -167,7 +167,7 @@ def _pairs(node: Tree | None) -> tuple[tuple[Scalar, Tree], ...]:
 
 
 def _path(problem: Mapping, name: str) -> tuple[str, ...] | None:
-    """Return the keys that lead to the value of that name; None if there is no such value."""
+    """Return the keys that lead to the value with this name; None if there is no such value."""
     for path in (("values", name), ("given", name), ("given", *name.split("."))):
         node: Tree | None = problem
         for key in path:
@@ -178,7 +178,7 @@ def _path(problem: Mapping, name: str) -> tuple[str, ...] | None:
 
 
 def chosen_for(set_id: str, problem: str, variations: tuple[Variation, ...], student: str, seed: str) -> Chosen:
-    """Return the choices of a student."""
+    """Return the choices for a student, which are the same at each call."""
 
     def number(variation: Variation) -> int:
         text = "\0".join((seed, set_id, problem, student, variation.name))

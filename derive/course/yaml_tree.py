@@ -1,7 +1,7 @@
 """YAML with places: every node has its place in the file, and several errors of a file are reported together.
 
-YAML is read as data: no anchors, no tags, no merge keys, one document. The pure Python parser is used because its
-messages name the wrong character. To list many files, libyaml is used, which is faster.
+YAML is read as data: no anchors, no tags, no merge keys, one document. The pure Python parser is used by default,
+because its messages show the wrong character; a caller that reads many files can choose libyaml, which is faster.
 """
 
 from __future__ import annotations
@@ -84,7 +84,7 @@ class Source:
 
 
 class Word(str):
-    """A word of a file, and its place."""
+    """A text from a file, with its place."""
 
     place: Place
 
@@ -308,7 +308,7 @@ def yaml_tree(source: Source) -> Tree:
 
 
 class _Reader:
-    """Builds nodes from the parser's events; recursion is bounded by `DEEPEST_YAML`."""
+    """Builds nodes from the parser's events; `DEEPEST_YAML` bounds the recursion."""
 
     def __init__(self, source: Source, faults: Faults, loader: Any = yaml.SafeLoader):
         self.source = source
@@ -408,7 +408,7 @@ def _nothing_is_empty(node: Tree) -> Tree:
 
 
 def _cut_off(before: Tree, key: Scalar, value: Tree) -> Scalar | None:
-    """Return the whole value if a comma inside a bracket has split it."""
+    """Return the whole value if a comma inside a bracket has split it; otherwise None."""
     if not (isinstance(before, Scalar) and before.style == key.style == "" and isinstance(value, Scalar)):
         return None
     source, start = key.source, before.start
@@ -426,7 +426,6 @@ def _cut_at_comma(before: Tree, key: Scalar, value: Tree) -> Scalar | None:
 
 
 def decimal_comma(text: str, place: Place) -> Complaint:
-    """Return the error for a number with a decimal comma."""
     point = re.sub(r"(?<=\d),(?=\d)", ".", text.strip())
     help_line = f"write `{point}`: a number in a file has a point, also if pages print a comma"
     return Complaint("decimal-comma", f"`{text.strip()}` has a comma in it", place, help=help_line)
@@ -474,7 +473,7 @@ def _syntax_complaint(error: yaml.MarkedYAMLError, source: Source) -> Complaint:
     if "expected <block end>" in problem and here.text[: here.column - 1].strip():
         return syntax("this does not belong to the value before it", "put the whole value in quotes")
     if "expected <block end>" in problem:
-        return syntax("this does not line up with the lines above", "begin keys of one level in one column")
+        return syntax("this does not line up with the lines above", "begin keys of the same level in the same column")
     if "could not find expected ':'" in problem:
         return syntax("a key needs `: ` after it", None, opening)
     if "node content" in problem:

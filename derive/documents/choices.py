@@ -1,4 +1,4 @@
-"""The alternative of each open node that the facts of the document select, and the evidence for it."""
+"""The alternative of each `Open` node that the facts of the document select, and the rule behind each choice."""
 
 from __future__ import annotations
 
@@ -17,7 +17,10 @@ GREEK_INDICES = frozenset({"mu", "nu", "rho", "sigma", "lambda", "kappa", "alpha
 
 @dataclass(frozen=True)
 class Choice:
-    """Which alternative of an open node is read, by which rule; `sure` if the other ones need not be tried."""
+    """The alternative of an `Open` node that is read, by its index, and the rule that selects it.
+
+    sure   whether the other alternatives need not be tried
+    """
 
     kind: str
     span: Span
@@ -59,7 +62,6 @@ def _has_open(value: Any) -> bool:
 
 
 def _combined(values: list[Any], facts: Facts) -> Iterator[tuple[list[Any], tuple[Choice, ...]]]:
-    """Yield the combinations of readings of several values."""
     if not values:
         yield [], ()
         return

@@ -42,8 +42,8 @@ class Facts:
     functions: defaultdict[Identity, Counter[Identity]] = field(default_factory=lambda: defaultdict(Counter))
     products: Counter[Identity] = field(default_factory=Counter)  # letters before a bracket that is a factor
     timed: set[tuple[str, str, frozenset[str], str]] = field(default_factory=set)
-    marked: set[Identity] = field(default_factory=set)  # vectors by an arrow or bold type
-    shapes: dict[tuple[int, Identity], tuple[int, int]] = field(default_factory=dict)  # shapes in a scope
+    marked: set[Identity] = field(default_factory=set)  # letters that an arrow or bold type marks as vectors
+    shapes: dict[tuple[int, Identity], tuple[int, int]] = field(default_factory=dict)  # scope and letter -> its shape
     whole_arguments: Counter[Identity] = field(default_factory=Counter)
     alone: Counter[Identity] = field(default_factory=Counter)
     seen: Counter[Identity] = field(default_factory=Counter)
@@ -112,7 +112,7 @@ def _timeless(letter: Letter) -> tuple[str, str, frozenset[str], str]:
 
 
 def facts_of(sides: Iterable[Node], equations: Iterable[tuple[Node, Node, int]]) -> Facts:
-    """Return the facts that the sides of all statements show; an equation has two sides and a scope."""
+    """Return the facts that the sides of all statements show. Each of `equations` has two sides and a scope."""
     facts = Facts()
     for side in sides:
         if isinstance(side, Letter):
@@ -123,7 +123,7 @@ def facts_of(sides: Iterable[Node], equations: Iterable[tuple[Node, Node, int]])
             call = side.alternatives[0]
             if isinstance(call, Apply) and len(call.arguments) == 1 and isinstance(call.arguments[0], Letter):
                 argument = call.arguments[0]
-                variable = argument.identity if not argument.sub else UNKNOWN  # `x(t)` alone, but `V(q_r)` is a value
+                variable = argument.identity if not argument.sub else UNKNOWN  # `V(q_r)` is only a value of V
                 facts.functions[call.head.identity][variable] += 2
     for left, right, scope in equations:
         for one, other in ((left, right), (right, left)):

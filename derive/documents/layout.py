@@ -66,7 +66,7 @@ WORDS = {"text", "textrm", "mbox", "textnormal", "intertext", "shortintertext", 
 
 
 MOST_FORMULAS = 20_000
-LONGEST_INLINE = 2_000  # the most characters of a formula in a sentence
+LONGEST_INLINE = 2_000  # the greatest number of characters of a formula in a sentence
 
 
 class Cue(StrEnum):
@@ -144,7 +144,7 @@ class Row:
 
 @dataclass
 class Block:
-    """A display, or a formula in a sentence; `before` is the text between it and the formula before it."""
+    """A display, or a formula in a sentence; `before` is the text between the previous formula and this one."""
 
     display: bool
     environment: str
@@ -268,8 +268,6 @@ def _covered(spans: Sequence[Span], position: int) -> Span | None:
 
 
 class _Reading:
-    """Goes through a document from its first to its last formula."""
-
     def __init__(self, source: Source, macros: dict[str, Macro], hidden: list[Span], headings: list[Heading]):
         self.source, self.text, self.macros, self.hidden, self.headings = source, source.text, macros, hidden, headings
         self.count = 0
@@ -340,7 +338,6 @@ class _Reading:
             position = close_at.end()
 
     def read_rows(self, block: Block, inner: Span) -> None:
-        """Read the rows of a formula and the statements in them."""
         try:
             written = _without_definitions(tokens_of(self.text, inner.start, inner.end))
             tokens = _simplified(expanded(written, self.macros))
@@ -373,7 +370,8 @@ class _Reading:
         return row
 
     def rest_of_side(self, block: Block, cells: list[list[Token]]) -> Row | None:
-        """Return the row before, with these tokens added to its last side, if they are the rest of that side."""
+        """Add the tokens to the last side of the previous row if they continue it, and return the row; otherwise return
+        None."""
         tokens = without_spaces([token for cell in cells for token in cell])
         while tokens and tokens[0].is_command(
             "quad", "qquad", ",", ";", " ", "!", ":", "hspace", "phantom", "hphantom"
@@ -563,7 +561,7 @@ def rows_of(tokens: Sequence[Token]) -> list[tuple[list[list[Token]], str, str]]
     cells: list[list[Token]] = [[]]
     tag = label = ""
     inside = depth = at = 0  # depth in environments that are not split, and in braces
-    system = False  # whether the rows are those of a system of equations behind a brace
+    system = False  # whether the rows are the equations of a system behind a brace
     while at < len(tokens):
         token = tokens[at]
         at += 1

@@ -18,13 +18,13 @@ ACCENTS = (
     "dot",
     "ddot",
     "mathbf",
-)  # a document may change their looks, not their meaning
+)  # commands whose appearance a document may change, but not their meaning
 MOST_UNCLOSED = 100  # after more definitions with unclosed braces than this, the search for definitions ends
 
 
 @dataclass(frozen=True)
 class Macro:
-    """A command with `count` arguments; `default` is the value of the first one if the call omits it."""
+    """A command with `count` arguments; `default` is the value of the first argument if the call omits it."""
 
     name: str
     count: int
@@ -76,7 +76,7 @@ def macros_of(text: str) -> tuple[dict[str, Macro], list[Span]]:
 
 
 def end_of_group(text: str, start: int) -> int | None:
-    """Return the position after the brace that closes the group that begins at `start`."""
+    """Return the position after the brace that closes the group at `start`; None if the group is not closed."""
     depth, position = 0, start
     while position < len(text):
         char = text[position]

@@ -73,9 +73,9 @@ Value: TypeAlias = Any  # an expression or an immutable matrix: SymPy has no com
 LARGEST_POWER = 60
 MOST_TERMS = 20  # greatest difference of the limits of a sum or product whose terms are written out
 LONGEST_NUMBER = 60
-MOST_BITS = 4000  # the most bits of a power of a number
+MOST_BITS = 4000  # the greatest number of bits of a power of a number
 LARGEST_DETERMINANT = 6
-MOST_NESTED_TERMS = 2000  # the most terms of nested sums and products that are written out
+MOST_NESTED_TERMS = 2000  # the greatest number of terms of nested sums and products that are written out
 
 
 class Meaningless(Exception):
@@ -106,7 +106,9 @@ class Meaning:
     decimals: list[tuple[Expr, int]] = field(default_factory=list)  # each decimal, with its digits after the point
     units: bool = False
     scope: int = -1
-    plain: str = ""  # which letters of vectors stand for numbers: those without a mark, all, or also those of tensors
+    # which letters of vectors are read as numbers: "" for none, `unmarked` for letters without an arrow or bold type,
+    # `all`, or `tensors` for all letters of vectors and of tensors
+    plain: str = ""
     derivatives: dict[Symbol, tuple[Letter, tuple[tuple[Symbol, int], ...], bool]] = field(default_factory=dict)
     symbols: dict[Symbol, Letter] = field(default_factory=dict)
     parents: dict[Symbol, tuple[Symbol, Symbol]] = field(default_factory=dict)  # derivative -> its operand and variable
@@ -242,7 +244,8 @@ class Meaning:
         return Total(*terms)
 
     def of_mul(self, node: Mul) -> Any:
-        """Return a product; factors side by side are multiplied before those with a dot or a cross between them."""
+        """Return a product. Factors side by side are multiplied first, and factors with a dot or a cross between them
+        afterwards."""
         parts: list[tuple[str, Any, Span]] = []
         for mark, factor in node.factors:
             new = self._of(factor)
@@ -522,7 +525,8 @@ class Meaning:
         return None
 
     def of_member(self, term: Expr, index: Symbol, by: Symbol) -> Expr:
-        """Return the derivative of the one term of a sum that contains `by`: m_k v_k for the sum of m_i v_i^2/2."""
+        """Return the derivative of a sum by a letter that only one of its terms contains: the derivative of the sum of
+        m_i v_i^2/2 by v_k is m_k v_k."""
         letter = self.symbols.get(by)
         members = [self.symbols.get(each) for each in term.free_symbols if self.has_index(each, index)]
         if letter is None or not any(
@@ -542,8 +546,8 @@ class Meaning:
         return sympy.diff(term.xreplace(put_in), by)
 
     def rate_of(self, symbol: Symbol, by: Symbol, partial: bool) -> Expr:
-        """Return the derivative of a letter with respect to another one: a rate or a symbol for the derivative; zero if
-        the first letter is not known to depend on the other."""
+        """Return the derivative of a letter by another letter: a rate, a symbol for the derivative, or zero if the
+        first letter is not known to depend on the second."""
         if symbol in self.sums:
             term, index, bounds = self.sums[symbol]
             if self.has_index(by, index):
@@ -617,7 +621,8 @@ class Meaning:
         return value
 
     def along_variables(self, value: Any, variables: set[Symbol]) -> Any:
-        """Substitute the letters that earlier rows define by the variables, such as r = R z/h in an integral over z."""
+        """Replace letters by their definitions in earlier rows if these contain a variable, such as r = R z/h in an
+        integral over z."""
         found = {}
         for symbol in value.free_symbols - variables:
             definition = self.defined(symbol)

@@ -126,7 +126,8 @@ class _Reader:
         return token is not None and token.is_command(*names)
 
     def argument(self) -> list[Token]:
-        """Return the tokens of the next argument, which is only the first digit of a number without braces."""
+        """Return the tokens of the next argument. As in TeX, only the first digit of a number without braces is the
+        argument."""
         self.skip_spacing()
         token = self.peek()
         if token is None:
@@ -198,7 +199,7 @@ class _Reader:
         return Add(begins.span.to(terms[-1][1].span), tuple(terms))
 
     def sign(self) -> str | None:
-        """Return the next sign; several signs in a row are combined."""
+        """Return the next sign, or None; several signs in a row are combined."""
         sign = None
         while (token := self.peek()) is not None:
             if token.is_mark("+", "-"):
@@ -292,7 +293,7 @@ class _Reader:
         return lower, upper
 
     def limit(self, tokens: list[Token], span: Span) -> Node:
-        """Return a limit or condition: a value, or `x = value`."""
+        """Return a limit, such as `h`, or a condition, such as `z = h`."""
         tokens = without_spaces(tokens)
         equals = _equals_sign(tokens)
         if equals:
@@ -312,7 +313,7 @@ class _Reader:
             return Text(span, "".join(each.text for each in tokens))
 
     def divide(self, factors: list[tuple[str, Node]]) -> None:
-        """Read the denominator after a slash; a run of factors is open between `(a/b)c` and `a/(bc)`."""
+        """Read the denominator after a slash; if several factors follow, keep both readings, `(a/b)c` and `a/(bc)`."""
         self.skip_spacing()
         if self.divided_differentials(factors):
             return
@@ -422,7 +423,7 @@ class _Reader:
 
     @staticmethod
     def second(applied: Node) -> Node:
-        """Return the bracket after a letter, as a factor of their product."""
+        """Return the bracket of `maybe_applied`, so that it can be a factor of a product."""
         product = applied.alternatives[1] if isinstance(applied, Open) else applied
         return product.factors[1][1] if isinstance(product, Mul) else product
 
@@ -1500,7 +1501,7 @@ def _orders(node: Node) -> int:
 
 
 def _with_differential_on_top(fraction: Frac) -> list[Node] | None:
-    r"""Return `\frac{dx}{1+x^2}` as `\frac{1}{1+x^2}` and `dx`."""
+    r"""Return `\frac{dx}{1+x^2}` as `\frac{1}{1+x^2}` and `dx`; None if no differential is on top."""
     top = fraction.top
     factors = [each for _, each in top.factors] if isinstance(top, Mul) else [top]
     if not isinstance(factors[-1], Diff):

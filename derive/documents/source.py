@@ -148,8 +148,8 @@ MOST_INCLUDED = 50  # files
 
 
 def _main_document(text: str, path: Path) -> tuple[str, Path]:
-    """Return the main document to which a text belongs, and its folder; the text itself if no document near it includes
-    it."""
+    """Return the main document that includes a text, and the folder of this document. If no document near the text
+    includes it, return the text and its own folder."""
     if r"\documentclass" not in text:
         for folder in (path.parent, path.parent.parent):
             for file in islice(sorted(folder.glob("*.tex")), MOST_INCLUDED):

@@ -1,9 +1,13 @@
 r"""The nodes of a formula as the author wrote it: signs, brackets and differentials are kept.
 
-A node of kind `Open` has several readings. `apply` is a function of a bracket or a product with it; `extent` is how
-far the argument of `\sin` reaches; `superscript` is a power, a label or degrees;
-`letter d` is a differential or a letter; `word` is one name or a product of letters; `slash` is how far a denominator
-reaches.
+An `Open` node has several readings; its `kind` says what is open:
+
+    apply        a function of a bracket, or a product with it
+    extent       how far the argument of `\sin` reaches
+    superscript  a power, a label or degrees
+    letter d     a differential, or a letter
+    word         one name, or a product of letters
+    slash        how far a denominator reaches
 """
 
 from __future__ import annotations
@@ -116,7 +120,10 @@ class Condition(Node):
 
 @dataclass(frozen=True)
 class Der(Node):
-    """A derivative of `of` by letters, each with its order; `partial` for curly d; an operator alone has no `of`."""
+    """A derivative of `of` with respect to letters, each with its order; an operator alone has no `of`.
+
+    partial   whether the d is curly
+    """
 
     partial: bool
     by: tuple[tuple[Node, int], ...]

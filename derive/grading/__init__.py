@@ -7,7 +7,7 @@
     key            the answers that a problem asks for, with their dimensions, numbers and points
     outcomes       the verdicts, and the share of the points that each earns
     comparing      the verdict on a formula
-    structure      the missing and the superfluous terms and factors of a formula
+    structure      the slip in a wrong formula: a factor, a sign or a term
     decimals       the verdict on a number: value, unit and figures
     relations      the verdict on an equation or an inequality
     grading        the verdict on an answer of a part, within a limited time

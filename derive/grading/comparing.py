@@ -56,7 +56,7 @@ def verdict_on_value(read: Read, target: Target, key: Key) -> Verdict:
 
 
 def aligned(value: Any, right: Any) -> Any:
-    """Replace symbols of a typed expression by those of the right one that differ only in their assumptions."""
+    """Replace symbols of a typed expression by symbols of the right answer that differ only in their assumptions."""
     own = {each.name: each for each in right.free_symbols}
     put_in = {each: own[each.name] for each in value.free_symbols if own.get(each.name, each) != each}
     return value.xreplace(put_in) if put_in else value
@@ -110,7 +110,7 @@ class _Comparison:
         return Verdict(Outcome.EQUAL, "") if are_equal(value, right) else None
 
     def definitions(self, value: Expr, right: Expr) -> Verdict | None:
-        """Accept a formula that is equal after definitions are substituted: those of the problem and of the steps."""
+        """Accept a formula that is equal after the definitions of the problem and of its steps are substituted."""
         own = {self.target.symbol} if isinstance(self.target.symbol, Symbol) else set()
         if value.free_symbols & own and right.free_symbols.isdisjoint(own):
             return None
@@ -161,7 +161,7 @@ class _Comparison:
         for goal in goals:
             free = sorted({_without_dots(each) for each in goal.free_symbols - value.free_symbols}, key=str)[:8]
             if 2 * len(bases) > len({_without_dots(each) for each in goal.free_symbols}):
-                continue  # at least half of the letters must be those of the problem
+                continue  # at least half of the letters must be letters of the problem
             for chosen in permutations(free, len(bases)):
                 put_in = _with_rates(dict(zip(bases, chosen, strict=True)))
                 if are_surely_equal(value.xreplace(put_in), goal):
@@ -191,8 +191,8 @@ class _Comparison:
         return None
 
     def is_free(self, chosen: tuple[Symbol, ...]) -> bool:
-        """Whether the Lagrangian changes if the sign of an angle changes, but not if the sign of a coordinate that is
-        not an angle changes as well."""
+        """Whether the sense of an angle matters only relative to another coordinate. The Lagrangian then changes if the
+        angle changes its sign, but not if a coordinate that is not an angle also changes its sign."""
         if len(chosen) != 1 or self.key.kinds.get(chosen[0]) != "angle":
             return False
         lagrangian = next((each.value for each in self.key.steps if "lagrangian" in each.key), None)
@@ -206,7 +206,7 @@ class _Comparison:
         )
 
     def other_zero(self, value: Expr, right: Expr) -> Verdict | None:
-        """Accept energies with another zero, and Lagrangians that differ by the rate of a function."""
+        """Accept energies with another zero, and Lagrangians that differ by the total time derivative of a function."""
         if self.target.kind != "energy" or not any(word in self.target.key for word in WITH_A_ZERO):
             return None
         try:
@@ -224,7 +224,7 @@ class _Comparison:
             told = f"with another zero of the energy: it differs by {shown(difference, self.key)}"
             return Verdict(Outcome.CONVENTION, told)
         if is_lagrangian and self.is_rate(difference, moving):
-            told = "it leads to the same equations of motion: it differs by the rate of a function"
+            told = "it leads to the same equations of motion: it differs by the time derivative of a function"
             return Verdict(Outcome.CONVENTION, told)
         return None
 
@@ -239,7 +239,8 @@ class _Comparison:
         return any(each is not None and each.is_number and each != -1 for each in ratios)
 
     def is_rate(self, difference: Expr, moving: frozenset[Symbol]) -> bool:
-        """Whether Lagrange's equations hold identically for an expression: it is then the rate of a function."""
+        """Whether an expression is the total time derivative of a function: Lagrange's equations of it hold
+        identically."""
 
         def along(value: Expr) -> Expr:
             return diff(value, TIME) + sum(diff(value, each) * rate(each) for q in moving for each in (q, rate(q)))
@@ -274,7 +275,6 @@ class _Comparison:
         return None
 
     def dimension(self, value: Expr) -> Dimension | None:
-        """Return the dimension of an expression, or None if it cannot be determined."""
         try:
             return dimension_of(value, self.key.dimensions)
         except Inhomogeneous:
@@ -413,8 +413,8 @@ class _Comparison:
         return Verdict(outcome, f"{where}: {wrong[0][1].because}{others}")
 
     def one_for_all(self, value: Expr, right: MatrixBase) -> Verdict:
-        """Judge a number for a matrix: it may be right if the matrix is a multiple of the unit matrix, or a vector with
-        only one nonzero component."""
+        """Judge a single number that is given for a matrix. It may be right for a multiple of the unit matrix, and for
+        a vector with only one nonzero component."""
         rows, columns = right.shape
         if rows == columns and are_surely_equal(value, right[0, 0]) and right == right[0, 0] * sympy.eye(rows):
             return Verdict(Outcome.CONVENTION, "as the moment about every axis")
@@ -446,7 +446,7 @@ class _Comparison:
 
 
 def factor_is_near(answer: Expr, right: Expr, within: Expr) -> bool:
-    """Whether the ratio of two expressions is one within a relative difference, at every sample point."""
+    """Whether the relative difference of two expressions is at most `within` at every sample point."""
     from derive.audit.deciding import _relative_error
 
     try:

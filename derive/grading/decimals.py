@@ -75,7 +75,7 @@ def with_units(text: str) -> Iterator[tuple[str, Unit]]:
 
 @dataclass(frozen=True)
 class Typed:
-    """A typed number: its value, its decimals with their digits after the point, and its unit."""
+    """A typed number: its value, each decimal in it with the number of its digits after the point, and its unit."""
 
     value: Expr
     decimals: tuple[tuple[Expr, int], ...] = ()
@@ -94,8 +94,8 @@ def verdict_on_number(
     """Judge a number.
 
     is_decimal   whether it is a single decimal number, which may be rounded; any other number is compared exactly
-    figures      its significant figures
-    places       its digits after the point, so that its last place counts 10^-places (negative for 1.5e3)
+    figures      the number of its significant figures
+    places       the number of its digits after the point: its last digit counts 10^-places; negative for 1.5e3
     """
     dimension = target.dimension or NUMBER
     if unit is not None and unit.dimension != dimension:

@@ -168,8 +168,8 @@ class _Grading:
         return found
 
     def with_own_letters(self, statements: list[_Statement]) -> list[_Statement]:
-        """Return the statements without those that only define a letter of another one of them, as in
-        `2 pi/w, w = sqrt(g/l)`."""
+        """Leave out statements that only define a letter of another statement, as in `2 pi/w, w = sqrt(g/l)`, and
+        substitute these definitions in the other statements."""
         asked = [target.symbol for target in self.part.targets]
         found = statements
         for own in statements:
@@ -187,7 +187,6 @@ class _Grading:
 
     @staticmethod
     def put_in(statement: _Statement, name: Symbol, value: Read) -> _Statement:
-        """Return a statement in which a letter is replaced by its value."""
         if statement.read is None:
             return statement
 
@@ -201,7 +200,8 @@ class _Grading:
         return replace(statement, read=replace(statement.read, sides=sides))
 
     def without_left_side(self, written: TypedStatement, texts: tuple[str, ...]) -> _Statement | None:
-        """Return the right side alone, if a name such as `d²U/dy²|(y = y_0)` before the equals sign is not read."""
+        """Return the right side alone, because a name such as `d²U/dy²|(y = y_0)` before the equals sign is not read;
+        None if the right side is not read either."""
         if written.relations != ("=",) or any(target.is_relation for target in self.part.targets):
             return None
         try:
@@ -344,7 +344,7 @@ class _Grading:
         return replace(verdict_on_value(read, target, self.key), target=target.key), used
 
     def of_set(self, statements: list[_Statement], target: Target) -> tuple[Verdict, list[_Statement]] | None:
-        """Judge a set of values, such as the principal moments, that several statements give."""
+        """Judge a set of values, such as the principal moments, that one or several statements give."""
         names = {each: i for i, each in enumerate(target.symbol)}
         used, values = [], []
         for statement in statements:
@@ -551,7 +551,7 @@ class _Grading:
         return replace(verdict, reading=self.named(statement, shown, left))
 
     def named(self, statement: _Statement, shown: str, left: Read | None = None) -> str:
-        """Return a reading of the last side with the sides before it."""
+        """Return the reading of a whole statement; `shown` is the reading of its last side, and `left` of its first."""
         if statement.is_single or not statement.first:
             return shown
         middle = statement.read.sides[1:-1] if statement.read is not None else ()

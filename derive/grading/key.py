@@ -42,7 +42,7 @@ from derive.steps.homogeneity import dimension_of, dimension_table
 from derive.steps.step import Step
 
 ONE: Expr = Integer(1)
-# a relation with one of these on its left side states its value
+# a relation whose left side contains one of these states the value of the left side
 _NAMED_RATES = (TimeRate, CarriedRate, BodyRate, Slope, At)
 
 
@@ -65,7 +65,7 @@ class Target:
     of_set   whether the value is a set of numbers, in any order
     scaled   whether the value is known up to a factor only, such as the amplitudes of a mode
     own      the points of the answer in the rubric
-    whole    these points and those of the steps before it
+    whole    the points of the answer and of the steps before it
     """
 
     key: str
@@ -165,7 +165,10 @@ def key_of(
     values: Mapping[str, Step],
     credits: Mapping[str, Mapping[str, Fraction]] | None = None,
 ) -> Key:
-    """Return the key of a derived problem; `credits` are the points of each step of the rubric, by label and key."""
+    """Return the key of a derived problem.
+
+    credits   the points that steps earn, by the label of the part and the key of the step
+    """
     dimensions, _ = dimension_table(problem.dimensions, derivation.steps)
     notation = Notation(dimensions)
     made = _Making(problem, derivation, values, dimensions, notation)
@@ -186,8 +189,8 @@ def key_of(
 
 
 def _with_points(targets: list[Target], points: Mapping[str, Fraction] | None) -> Iterator[Target]:
-    """Divide the points of a part among its answers, in proportion to their own points in the rubric, or equally if an
-    answer has no points of its own."""
+    """Divide the points of a part among its answers: in proportion to the points that the rubric gives to the answers,
+    or equally if the rubric gives no points to one of the answers."""
     if points is None:
         yield from (replace(each, own=Fraction(1, len(targets)), whole=Fraction(1, len(targets))) for each in targets)
         return

@@ -55,8 +55,8 @@ class Verdict:
 
 
 def best_of(verdicts: Sequence[Verdict]) -> Verdict:
-    """Return the verdict on a right reading, else on one with a slip, else on one that is right for special
-    values, else on the likeliest."""
+    """Return the verdict on a right reading, else on a reading with one slip, else on a reading that is right for
+    special values, else on the likeliest reading."""
     for accepted in (RIGHT, SLIPS, (Outcome.SPECIAL,)):
         if found := [each for each in verdicts if each.outcome in accepted]:
             return min(found, key=lambda each: each.rank)
@@ -67,7 +67,7 @@ def share_of(outcome: Outcome, own: Fraction, whole: Fraction) -> Fraction:
     """Return the points for an answer.
 
     own     the points of the answer itself in the rubric
-    whole   these points and the points of the steps before it
+    whole   the points of the answer and of the steps before it
 
     A right answer earns all points. An answer with one slip (a sign, a factor, a term) earns the points of the steps
     before it, or half of the points if the rubric has no such steps. An answer that holds only for special values earns

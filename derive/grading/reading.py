@@ -27,14 +27,19 @@ from derive.grading.typed_text import Typed, TypedSide, TypedStatement, Unread
 
 MOST_BITS = 3000  # the greatest number of bits of a number
 HIGHEST_POWER = 40
-MOST_TERMS = 3000  # the most terms that a power of a sum may have when it is expanded
+MOST_TERMS = 3000  # the greatest number of terms of an expanded power of a sum
 MOST_READINGS = 6
 _SIGN = Symbol("±", real=True)  # the symbol that the reader of documents uses for ±
 
 
 @dataclass(frozen=True)
 class Read:
-    """One reading of a side: its node and its value; `decimals` are its decimals with their digits after the point."""
+    """One reading of a side: its node and its value.
+
+    decimals   each decimal, with the number of its digits after the point
+    unknown    the letters that the problem does not have
+    notes      remarks on letters that are read as other letters
+    """
 
     node: Node
     value: Any
@@ -114,8 +119,6 @@ class Reader:
 
 @dataclass
 class _InProblem(Meaning):
-    """Finds values in the symbols of a problem."""
-
     names: Names = field(default_factory=Names)
     wholes: Mapping[tuple[str, str], MatrixBase] = field(default_factory=dict)
     unknown: set[Symbol] = field(default_factory=set)

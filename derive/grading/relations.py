@@ -103,7 +103,8 @@ def _renamed(typed: Relation, goal: Relation, comparison: _Comparison) -> Verdic
 
 
 def _with_function(typed: Relation, goal: Relation) -> Relation | None:
-    """Return a condition on an angle as a condition on its tangent, sine or cosine, as the problem has it."""
+    """Return a condition on an angle as a condition on its tangent, sine or cosine, if the problem states it so; else
+    None."""
     left = goal.left
     if not isinstance(left, sin | cos | tan) or typed.left != left.args[0]:
         return None
@@ -112,7 +113,8 @@ def _with_function(typed: Relation, goal: Relation) -> Relation | None:
 
 
 def angle_of(target: Target, name: Any) -> Target | None:
-    """Return the answer as an angle, if it is a number for the sine, cosine or tangent of the angle with this name."""
+    """If the right answer is a number for the sine, cosine or tangent of the angle `name`, return the right answer for
+    the angle itself; otherwise None."""
     left = target.value.left
     if not isinstance(left, sin | cos | tan) or left.args[0] != name or target.number is None:
         return None
@@ -149,8 +151,8 @@ def _wrong_inequality(typed: Relation, goal: Relation, key: Key) -> Verdict:
 
 
 def _wrong_equation(comparison: _Comparison, typed: Relation, goal: Relation) -> Verdict:
-    """Return what is wrong with an equation, which is scaled so that one of its terms agrees with one of the right
-    equation."""
+    """Return what is wrong with an equation. For the comparison, the equation is scaled so that one of its terms equals
+    a term of the right equation."""
     key = comparison.key
     given, wanted = sympy.expand(typed.residual), sympy.expand(goal.residual)
     read = comparison.read
@@ -203,8 +205,8 @@ def _inhomogeneous(comparison: _Comparison, typed: Relation) -> Verdict | None:
 
 
 def _scalings(given: Expr, wanted: Expr) -> list[Expr]:
-    """Return an equation multiplied by factors that make one of its terms equal to a term of the right equation; at
-    most four results, first those with the most equal terms."""
+    """Multiply an equation by factors after which one of its terms equals a term of the right equation. Return at most
+    four results, first the results with the most equal terms."""
     terms = [sympy.Add.make_args(each) for each in (given, wanted)]
     found: dict[Expr, Expr] = {}
     for term in terms[0][:6]:

@@ -1,6 +1,6 @@
 """The slip in a wrong formula (a factor, a sign or a term), and special values for which the formula is right.
 
-Each proposal is tested by `equal`. The values at a few points only exclude proposals that cannot be right.
+Each possible slip is tested by `equal`. The values at a few points only exclude slips that the answer cannot have.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from derive.grading.outcomes import Outcome
 
 MOST_TERMS = 60  # number of terms of a sum that are searched
 MOST_PROPOSALS = 600
-SHORTEST = 10  # the most operations of a ratio that is shown
+SHORTEST = 10  # the greatest number of operations in a ratio that is shown
 _BASES = (Integer(1), pi, 1 / pi, sqrt(2), sqrt(3), pi**2, 1 / pi**2, sqrt(5), sqrt(6), sqrt(7), sqrt(pi))
 _SCALES = (Rational(1, 2), Integer(2), Rational(1, 3), Integer(3), Rational(1, 4), Integer(4))
 Shown = Callable[[Any], str]
@@ -74,7 +74,7 @@ def _number_between(left: Expr, right: Expr) -> Expr | None:
 
 
 def slips_between(answer: Expr, right: Expr, shown: Shown) -> Iterator[Found]:
-    """Yield the slips of an answer, the simplest first: its terms, then changes inside sums and functions."""
+    """Yield the slips of an answer, the simplest first: slips in whole terms, then slips inside sums and functions."""
     yield from _of_terms(answer, right, shown)
     yield from _inside(answer, right, shown)
 
@@ -124,8 +124,8 @@ def _grouped(value: Expr, expanded: tuple[Expr, ...]) -> list[Expr]:
 
 
 def _inside(answer: Expr, right: Expr, shown: Shown) -> Iterator[Found]:
-    """Yield each single change inside the right formula that gives the answer, and each term of a sum without which the
-    answer would be right."""
+    """Yield each slip that turns the right formula into the answer by a single change inside the formula, and each
+    superfluous term inside a sum of the answer."""
     for count, (outcome, because, changed) in enumerate(_changes(right, shown)):
         if count > MOST_PROPOSALS:
             return

@@ -22,7 +22,7 @@ from derive.grading.names import INSTEAD, Names, bare
 LONGEST = 2000  # characters of an answer
 MOST_TOKENS = 1500
 MOST_STATEMENTS = 40
-DEEPEST = 40  # the most levels of nested brackets
+DEEPEST = 40  # the greatest depth of nested brackets
 
 TYPED_FUNCTIONS = {name: name for name in FUNCTIONS if name not in ("arg", "det", "tr", "Tr", "min", "max")} | {
     "arccosine": "arccos", "arsinh": "arcsinh", "sqrt": "sqrt", "abs": "abs", "atan": "arctan", "acos": "arccos",

@@ -1,6 +1,6 @@
 """Integrals as a document writes them: signs with limits, differentials in any customary place, brackets with limits.
 
-Integrals are read if they are quick to evaluate, such as those of powers, of sines and cosines, and of roots.
+Only integrals that are quick to evaluate are read, such as integrals of powers, of sines and cosines, and of roots.
 """
 
 from __future__ import annotations
@@ -120,7 +120,7 @@ def _is_elementary(function: Expr, limits: Limits) -> bool:
 
 
 def _is_short(product: Expr, x: Symbol) -> bool:
-    """Return whether SymPy integrates the product of powers of x and of sines and cosines quickly."""
+    """Return whether the product has only powers of x, sines and cosines that SymPy integrates quickly."""
     power, waves, arguments = 0, 0, set()
     for factor in Mul.make_args(product):
         base, exponent = factor.as_base_exp() if isinstance(factor, Pow) else (factor, Integer(1))

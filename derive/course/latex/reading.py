@@ -56,9 +56,8 @@ def read_latex(
 ) -> ReadMath:
     """Read the formula in the declared letters, or raise `Rejected` with the errors and their places.
 
-    `homogeneous=False` is for a formula whose dimensions cannot be compared, for example because it has numbers in
-    place of letters, and for a formula that is known to be wrong. `in_prose=True` is for a formula of an author's text,
-    which may have units, `\\infty`, and the relations `\\ll`, `\\gg` and `\\to`.
+    homogeneous   whether dimensions are compared; false, for example, for a formula with numbers in place of letters
+    in_prose      whether the formula may have units, `\\infty`, and the relations `\\ll`, `\\gg` and `\\to`
     """
     return _read(scalar, tuple(letters.items()), homogeneous, in_prose)
 
@@ -99,10 +98,7 @@ def node_of(reader: Values, tokens: list[Token]) -> Node:
 
 def is_title(node: Node) -> bool:
     r"""Return whether a first side is only a name for the value of the next side: `U(\theta) =`, `U'' =`, `\frac{1}{2}
-    \frac{d}{dt} L^2 =`.
-
-    Such a name has no value to compare.
-    """
+    \frac{d}{dt} L^2 =`."""
     if isinstance(node, Mul):
         *numbers, (_, node) = node.factors
         if not all(isinstance(each, Num) or is_fraction_of_numbers(each) for _, each in numbers):

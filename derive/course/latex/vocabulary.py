@@ -1,4 +1,4 @@
-"""The known commands of LaTeX, by purpose; every other command is rejected."""
+"""The known commands of LaTeX, by purpose: commands that are read, only printed, or rejected with an explanation."""
 
 from __future__ import annotations
 
@@ -108,7 +108,7 @@ ONLY_PRINTED = frozenset(
     + ["Rightarrow", "perp", "parallel", "angle", "nabla", "langle", "rangle", "bar", "tilde"]
 )
 
-# the arguments of a command: `{` in braces, `[` optional in brackets
+# the arguments of a command: `{` is an argument in braces, `[` is an optional argument in brackets
 ARGUMENTS: Mapping[str, str] = {
     "sqrt": "[{",
     **dict.fromkeys(FRACTIONS, "{{"),

@@ -229,7 +229,7 @@ _NUMBER = re.compile(r"\d+(?:\.\d+)*(?=[\s.:)]|$)")
 
 
 def _numbers(document: Document) -> list[str]:
-    """Return the number of each heading, as it is written or as LaTeX prints it."""
+    """Return the number of each heading, as it is written or as LaTeX prints it; "" for a heading without a number."""
     found: list[str] = []
     counts: dict[int, int] = {}
     for heading in document.headings:
@@ -266,7 +266,7 @@ def _parsed(side: Side) -> Node | None:
 
 
 def _lone_letter(side: Side) -> Letter | None:
-    """Return the letter if a side is a single letter, also in brackets."""
+    """Return the letter if a side is a single letter, also in brackets; otherwise None."""
     node = _parsed(side)
     while isinstance(node, Group | EvalBar):
         node = node.inner

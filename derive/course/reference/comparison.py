@@ -2,8 +2,8 @@
 
 The file is a list of groups. A group names a problem and fixes the problem's input by its own `symbols:`, `given:` and
 `values:`. So an edit of the problem's input does not break the comparison. A problem's own file can also have entries,
-under `reference:`; they are compared for the problem's input. An entry usually states a value of
-one step. Its comparison has one of these outcomes:
+under `reference:`; they are compared for the problem's input. An entry usually states a value of one step. The
+comparison of an entry has one of these outcomes:
 
     agrees               equal, with the grade of the evidence
     agrees to n figures  decimals, equal to that many figures
@@ -12,7 +12,7 @@ one step. Its comparison has one of these outcomes:
     unknown step         no step has the key that the entry names
     remark               nothing is compared: a claim of the document is quoted, with a comment
 
-Each side of a chain of values is compared, and counts as one comparison.
+Each side of a chain of values is one comparison, except a first letter that only names the value.
 """
 
 from __future__ import annotations
@@ -41,7 +41,10 @@ from derive.steps.step import Quantity
 
 @dataclass(frozen=True)
 class Told:
-    """The data of a comparison, for a page and its JSON; `here` is true if the problem's file has the same input."""
+    """The data of a comparison, for a page and its JSON.
+
+    here   whether the input of the entry is the input in the problem's file
+    """
 
     facts: dict[str, Any]
     here: bool
@@ -64,7 +67,7 @@ class Comparison:
     detail: str
     complaint: Complaint | None = None
     erratum: Erratum | None = None
-    here: bool = True  # whether the problem's file has the same input; only then does the page mention the entry
+    here: bool = True  # whether the input of the entry is the input in the problem's file
 
     def told(self) -> Told:
         return Told(self.facts(), self.here, self.erratum, self.entry.remark)
@@ -221,7 +224,7 @@ def _difference(entry: Entry, step: Quantity, verdict: Verdict, pinned: Problem,
 
 
 def _fault(code: str, message: str, place: Place, *notes: str, help: str | None = None) -> Complaint:
-    """Return an error as a warning, because the derivation has its own evidence."""
+    """Return a warning and not an error, because the derivation has its own evidence."""
     return Complaint(code, message, place, notes, help, severity="warning")
 
 

@@ -16,11 +16,13 @@ from derive.course.reference.statements import Entry, Stated, Statement
 
 @dataclass(frozen=True)
 class Erratum:
-    """`printed` and `right` are the wrong and the right value of the step `answer`; decimals keep their stated figures.
+    """An erratum of a document. If it is only quoted, `answer` is empty, and `printed` and `right` are None.
 
-    `quote` and `instead` are what the document prints and what is right, in the document's own letters: prose with
-    formulas between dollar signs. Either may be empty. If a formula is only quoted, `answer` is empty, and `printed`
-    and `right` are None.
+    answer    the key of the step whose value is wrong in the document
+    printed   the wrong value; decimals keep their stated figures
+    right     the right value
+    quote     what the document prints, in its own letters: prose with formulas between dollar signs; may be empty
+    instead   what the document should print, in the same form; may be empty
     """
 
     answer: str
@@ -46,7 +48,6 @@ class Erratum:
 
 
 def erratum_of(entry: Entry, letters: Mapping[str, Symbol]) -> Erratum:
-    """Return the erratum that an entry of the reference states."""
     assert entry.right is not None and entry.states is not None
     printed, right = (_shown(statement, entry, letters) for statement in (entry.states, entry.right))
     return Erratum(entry.answer, entry.part, entry.why, printed, right, entry.line, entry.quote, entry.instead)
@@ -58,7 +59,6 @@ def quoted_erratum(entry: Entry) -> Erratum:
 
 
 def _shown(statement: Statement, entry: Entry, letters: Mapping[str, Symbol]) -> Any:
-    """Return a value or a relation as a page shows it."""
     if len(statement.sides) == 2:  # a side that is a number has the unit of the entry
         bare = replace(entry, unit=None)
         numbers = [not side.letters for side in statement.sides]

@@ -88,7 +88,7 @@ class Statement:
 class Entry:
     """One entry of the file.
 
-    states      the value in the document; None if nothing is compared, for a remark or an erratum that is only quoted
+    states      the value in the document; None if nothing is compared, as for an erratum that is only quoted
     right       the value that the document should state, for an erratum
     figures     the significant figures: one number, or one for each component or branch; empty for an exact value
     unit        the unit of every component
@@ -150,7 +150,7 @@ def stated_groups(problem: Problem) -> list[tuple[Problem, list[Entry]]]:
     """Return the groups about this problem: the problem with the group's input, and the entries. Raise `Rejected` on
     errors.
 
-    Errors in groups for other problems do not matter here.
+    Errors inside groups for other problems are not reported.
     """
     faults = Faults()
     own = [_own_group(problem, faults)] if problem.reference else []
@@ -172,7 +172,6 @@ def stated_groups(problem: Problem) -> list[tuple[Problem, list[Entry]]]:
 
 
 def _own_group(problem: Problem, faults: Faults) -> tuple[Problem, list[Entry]]:
-    """Return the statements in the problem's own file."""
     node = mapping_in(problem.root, problem.path, "a problem").get("reference")
     assert isinstance(node, Mapping)
     group = read_record(OwnKeys, node, "`reference`", faults)
@@ -463,7 +462,7 @@ class _EntryReader:
         return read
 
     def statement(self, entry: EntryKeys, put_in: tuple[str, ...], formula: Formula | None) -> Statement | None:
-        """Read the value that an entry states under `states:` or `latex:`, or in the document."""
+        """Read the value of an entry from `states:` or `latex:`, or from the formula that the entry cites."""
         plain, printed, keys = entry.states, entry.latex, keys_of(EntryKeys)
         homogeneous = "erratum" not in entry.values_at and not put_in
         if plain is not None and printed is not None:
