@@ -25,8 +25,9 @@ from tests.style import PROSE, files
 END = re.compile(r"(?<=[.?!:])\s+(?=[A-Z`$<])")
 GENERATED = ("docs/errors.md", "docs/yaml.md", "docs/rules.md", "docs/gallery.md", "NOTATION.md")
 NOT_READ = (*GENERATED, "templates/phrases/de/", "templates/phrases/fr/")
-NO_SENTENCE = re.compile(  # a citation, a heading between rules, a note for a checker of types
+NO_SENTENCE = re.compile(  # a citation, a heading between rules, a note for a checker of types, a pattern, a style
     r"(?:Source: )?[^*]*, \*[^*]+\*, .*(?:section|chapter|problem|p\.)|---? .* ---?$|type: ignore|noqa"
+    r"|.*(?:\(\?[:=!<]|\\[wbsd]\W|[{;] ?[\w-]+:[^/])"
 )
 SHORTEST = 4  # words
 
