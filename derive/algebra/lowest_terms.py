@@ -216,7 +216,7 @@ def _negative(terms: Terms) -> Terms:
 
 def _without_common(top: Terms, bottom: Terms) -> tuple[Terms, Terms]:
     places = _places([*top, *bottom])
-    if _have_no_letter_in_common(top, bottom, places):
+    if _are_coprime(top, bottom, places):
         common = gcd(*top.values(), *bottom.values())
         return tuple({m: c // common for m, c in terms.items()} for terms in (top, bottom))  # type: ignore[return-value]
     ring = _polynomials(len(places))
@@ -248,7 +248,7 @@ def _numbers(places: Sequence[int]) -> dict[int, int]:
     return {place: pow(3, 5 + 2 * n, PRIME) for n, place in enumerate(places)}
 
 
-def _have_no_letter_in_common(top: Terms, bottom: Terms, places: list[int]) -> bool:
+def _are_coprime(top: Terms, bottom: Terms, places: list[int]) -> bool:
     """Whether images modulo a prime show that two sums have no common factor that contains a symbol.
 
     In the images, all symbols except x are replaced by numbers. A common factor of degree d in x leaves a common factor

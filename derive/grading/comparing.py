@@ -7,7 +7,6 @@ letters that the problem does not have; a factor; a term; special values.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import combinations, permutations
 from typing import Any
@@ -492,10 +491,6 @@ def _entry(index: int, shape: tuple[int, int]) -> str:
         return f"component {'xyz'[index]}"
     row, column = divmod(index, shape[1])
     return f"entry {index + 1}" if shape[1] == 1 else f"entry {row + 1}, {column + 1}"
-
-
-def candidates(reads: tuple[Read, ...]) -> Iterator[Read]:
-    yield from reads
 
 
 __all__ = ["shown", "verdict_on_value"]

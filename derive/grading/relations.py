@@ -227,7 +227,7 @@ def verdict_on_equation_for(left: Read, right: Read, target: Target, key: Key) -
         return None
     residual = left.value - right.value
     if not isinstance(symbol, Symbol):
-        return verdict_on_value(right, target, key) if left.value == _plain(symbol) else None
+        return verdict_on_value(right, target, key) if left.value == symbol else None
     if symbol not in residual.free_symbols:
         alone = left.value.free_symbols - right.value.free_symbols
         others = [each for each in alone if isinstance(each, Symbol) and _base(each) == _base(symbol)]
@@ -264,10 +264,6 @@ def _solved(rest: Expr, symbol: Symbol, left: Read, target: Target, key: Key) ->
         verdict = verdict_on_value(Read(left.node, each), target, key)
         best = verdict if best is None or verdict.rank < best.rank else best
     return best.adding(f"solved for {shown(symbol, key)}") if best is not None else None
-
-
-def _plain(symbol: Any) -> Any:
-    return symbol
 
 
 def _base(symbol: Symbol) -> str:

@@ -147,5 +147,5 @@ class Memory:
         for each in positive:
             take_as_positive(each)
         for name, key, value in found:
-            self.objects.has_found(name, key, value)
+            self.objects.put_found(name, key, value)
         return result

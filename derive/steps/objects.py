@@ -205,7 +205,7 @@ class Objects:
             if key in vars(each) and _holds_steps(vars(each)[key])
         ]
 
-    def has_found(self, name: str, key: str, value: Any) -> None:
+    def put_found(self, name: str, key: str, value: Any) -> None:
         """Set a cached property of an object, unless it already has a value."""
         vars(self._objects[name]).setdefault(key, value)
 

@@ -16,7 +16,7 @@ from derive.algebra.ranges import known_ranges
 from derive.steps.rule import Judged
 from derive.steps.step import Quantity
 from derive.witness.dynamics import Blueprint, Response, Singular
-from derive.witness.geometry import Reals, State
+from derive.witness.geometry import State
 from derive.witness.tape import NotComputable
 from derive.witness.trial import Contradiction, Given, Trial
 
@@ -190,10 +190,6 @@ def substituted(step: Quantity) -> list[Given]:
         elif isinstance(parent.symbol, Expr) and isinstance(value, Expr):
             found.append(Given(parent.symbol, value))
     return found
-
-
-def agree(found: Reals, expected: Reals, scale: float = 1.0) -> bool:
-    return bool(np.all(np.abs(found - expected) <= CLOSE * (scale + np.abs(expected))))
 
 
 def seen(count: int, what: str) -> Verdict | None:

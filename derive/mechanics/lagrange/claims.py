@@ -180,10 +180,6 @@ def by_its_coordinate(facts: Judged, outcome: str) -> bool:
     return isinstance(facts.symbol, Partial) and facts.symbol.args[1] == facts.inputs["coordinate"]
 
 
-def free_bodies(facts: Judged) -> int:
-    return sum(not placed.is_held for placed in facts.subject.body.bodies)
-
-
 def parts_of_the_kinetic_energy(facts: Judged, _: str) -> bool:
     """Whether the word `made` fits the parts of the kinetic energy."""
     system, made = facts.subject.body, facts.words["made"]
