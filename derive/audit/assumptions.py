@@ -38,7 +38,9 @@ class Assumed:
 
 def assumed_of(text: str) -> Assumed:
     """Parse a typed equation, such as `rho = M/(6 a^3)` or `I_1 = \\frac{1}{2} M R^2`."""
-    if text.count("=") != 1 or len(text) > LONGEST:
+    if len(text) > LONGEST:
+        raise Misused(Complaint("assumption", f"an assumed equation has at most {LONGEST} characters"))
+    if text.count("=") != 1:
         raise Misused(Complaint("assumption", f"`{text[:80]}` is not an equation", help='such as "rho = M/(6 a^3)"'))
     left, right = (_read(side, text) for side in text.split("="))
     return Assumed(left, right, text.strip())

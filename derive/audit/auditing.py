@@ -304,7 +304,8 @@ class _Auditor:
         for matrix in claim.right.walk() if claim.right is not None and not verdict.suggestion else ():
             if isinstance(matrix, Mat) and (odd := self.odd_entry(matrix)) is not None:
                 row, column, span = odd
-                verdict.suggestion = f"the entry of row {column} and column {row} also in row {row} and column {column}"
+                place, turned = f"row {row} and column {column}", f"row {column} and column {row}"
+                verdict.suggestion = f"the same entry in {place} as in {turned}"
                 verdict.why_plausible, verdict.span = "the matrix is symmetric except for this pair", span
 
     def odd_entry(self, matrix: Mat) -> tuple[int, int, Span] | None:

@@ -190,8 +190,8 @@ def motion(known: Known, meaning: Meaning) -> Iterator[tuple[Expr, tuple[int, ..
 
 
 def root_equation(letter: Symbol, meaning: Meaning, known: Known) -> tuple[Symbol, Expr, int] | None:
-    """Return the letter without its index, and the last equation of which `letter`, such as w_1 or x_0, may name a
-    root."""
+    """Return the letter without its index, the last earlier equation of which `letter`, such as w_1 or x_0, may name a
+    root, and the number of its claim; None if there is no such equation."""
     named = meaning.symbols.get(letter)
     if named is None or not named.sub or named.dots or named.marks or named.base == "t":
         return None

@@ -74,7 +74,7 @@ def rendered(
     cache    the store of the steps and drawings of earlier builds
     chosen   the choices of a variant; a variant is not compared with the reference of the problem
 
-    The other parameters are the fields of `Wanted`.
+    The parameters after `problem_id`, other than these two, are the fields of `Wanted`.
     """
     begun = time.time_ns()
     problem, faults = problem_and_faults(root, problem_id, chosen)

@@ -685,8 +685,7 @@ class Meaning:
         return inner.xreplace(put_in).subs(variable, at)
 
     def with_label(self, value: Any, label: str) -> Any:
-        """Return a value with a label, such as the rate of L in the body, as symbols; nothing else is known about
-        it."""
+        """Return new real symbols for a value with a label, such as the rate of L in the body."""
         if isinstance(value, MatrixBase):
             return value.applyfunc(lambda each: self.with_label(each, label))
         symbol = Symbol(f"({value})_{label}", real=True)

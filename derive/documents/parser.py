@@ -1095,10 +1095,12 @@ class _Reader:
                 break
             begins = self.at
             node = self.factor()
-            if isinstance(node, Pow) and run and isinstance(run[0], Letter):  # `\sin\theta r^2`: a power is a factor
+            if (
+                isinstance(node, Pow) and run and isinstance(run[0], Letter)
+            ):  # `\sin\theta r^2`: the sine ends before the power
                 self.at = begins
                 break
-            if _is_product_with_bracket(node):  # `\sin\theta (a + b)`: the bracket is a factor
+            if _is_product_with_bracket(node):  # `\sin\theta (a + b)`: it ends before the bracket
                 self.at = begins
                 node = self.scripted(self.atom())
                 run.append(node)

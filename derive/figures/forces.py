@@ -259,7 +259,7 @@ def _is_on_a_line(alone: BodyAlone) -> bool:
 
 
 def _diagram(system: System, alone: BodyAlone, shares: Sequence[Rational], scene: Connections) -> Drawing:
-    """Return the drawing of a body with its forces, and the angles of their directions.
+    """Return the drawing of a body, which shows its forces and the angles of their directions.
 
     shares   the lengths of the arrows, in units of FORCE points; in space, relative to the body
     """

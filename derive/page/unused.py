@@ -15,7 +15,7 @@ def unused_definitions(problem: Problem, derivation: Derivation) -> list[Complai
             "unused-definition",
             f"no result is shorter with `{each.name}`, so the page does not define it",
             problem.place_of("define", each.name),
-            help="leave it out, or define a quantity with other symbols",
+            help="remove it, or define another combination of symbols, one that occurs in a result",
             severity="warning",
         )
         for each in problem.defined

@@ -79,7 +79,7 @@ FINEST = 60  # for a uniform chain, the angles (a/b) (pi/2) are tried with whole
 
 @dataclass(frozen=True)
 class Factor:
-    """An irreducible factor of the determinant, a polynomial in the root.
+    """An irreducible factor of the determinant. It is a polynomial in the unknown of the characteristic equation.
 
     coefficients   from the highest power down; the first coefficient is positive if its sign is known
     times          the power of the factor in the determinant

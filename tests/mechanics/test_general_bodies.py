@@ -143,7 +143,10 @@ def test_a_volume_of_the_wrong_sense_is_refused(monkeypatch: pytest.MonkeyPatch)
         (lambda: Sheet((x, y), {x: (a, 0), y: (0, b)}, mass=M), "which is an empty interval"),
         (lambda: Sheet((x, y), {x: (0, a), y: (b, b)}, mass=M), "which is an empty interval"),
         (lambda: Sheet((x, y), {x: (0, y), y: (0, b)}, mass=M), "is not an outer variable"),
-        (lambda: Sheet((x, x), {x: (0, a), y: (0, b)}, mass=M), "does not depend on all of its variables"),
+        (
+            lambda: Sheet((x, x), {x: (0, a), y: (0, b)}, mass=M),
+            "does not vary independently with each",
+        ),
         (lambda: Solid((x, y), {x: (0, a), y: (0, b)}, mass=M), "needs three variables"),
         (lambda: Sheet((x, y), {x: (0, a), y: (0, b)}), "needs a mass or a density"),
         (lambda: Sheet((r * cos(phi), r * sin(phi)), {r: (-R, R), phi: (0, pi)}, mass=M), "covers some places twice"),

@@ -194,7 +194,7 @@ QUESTIONS: dict[str, tuple[Callable[[], Any], str]] = {
         lambda: principal_moments(of_block(), "I", "key", "more"),
         "too many positional arguments",
     ),
-    "a number with a point": (lambda: let("third", lambda: 0.3), "names one number or expression"),
+    "a number with a point": (lambda: let("third", lambda: 0.3), "needs a number, an expression or an equation"),
     "a kind that is none": (lambda: let("third", lambda: a, kind="lenght"), "there is no kind `lenght`"),
     "a tensor moved to where it is": (lambda: moved_to(of_block(), BLOCK.centre), "already about the centre of mass"),
 }

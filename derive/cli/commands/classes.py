@@ -31,8 +31,8 @@ def make_class(arguments: argparse.Namespace) -> int:
         internal(str(bug), bug.trace)
     outputs = shown_path(set_folder(root, set_id))
     voice.say(
-        f"{set_id}: made the documents of {report.made} of {report.students} students, {report.kept} were up to date "
-        f"({report.seconds:.1f} s): the sheets are in {outputs}/{STUDENTS}; "
-        f"solutions, keys and answers are in {outputs}/{CLASS}"
+        f"{set_id}: made the documents of {report.made} of {report.students} students in {report.seconds:.1f} s; "
+        f"those of {report.kept} were up to date. The sheets are in {outputs}/{STUDENTS}; "
+        f"the solutions, keys and answers are in {outputs}/{CLASS}"
     )
     return 1 if report.failed else 0

@@ -75,8 +75,8 @@ def _cancelled(value: Expr) -> Expr:
 
 
 def _number(quantity: Quantity) -> Quantity | Expr:
-    """Return a number: the quantity itself if its symbol is a letter or an absolute value such as |x_dot|; otherwise
-    its value or, for an equation that is solved for a letter, the right side."""
+    """Return a scalar: the quantity itself if its symbol is a letter or an absolute value such as |x_dot|, otherwise
+    its value. For an equation that is solved for a letter, return the right side."""
     value = quantity.value
     if not isinstance(value, Relation | MatrixBase):
         return quantity if isinstance(quantity.symbol, Symbol | Abs) else explicit(value)

@@ -360,7 +360,7 @@ def _final(told: Sequence[Replacement]) -> dict[Symbol, Expr]:
 
 
 def _at_once(value: Any, told: Sequence[Replacement]) -> Any:
-    """Return the value before the substitutions, with all symbols replaced at once by their final values."""
+    """Substitute the final values of all replaced symbols in the original value, at once."""
     final = _final(told)
     if isinstance(value, Relation):
         return Relation(bound(value.left, final), value.operator, bound(value.right, final))

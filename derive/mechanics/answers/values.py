@@ -287,7 +287,8 @@ def let(
         if type(value) is int:
             value = Integer(value)
         if not isinstance(value, Expr | Relation):
-            message = f"`let` names one number or expression, but `{key}` would be {type(value).__name__}"
+            needed, found = "a number, an expression or an equation", type(value).__name__
+            message = f"`let` needs {needed}, but the law of `{key}` returns a {found}"
             raise Rejected(
                 Complaint(
                     "wrong-argument",

@@ -88,7 +88,9 @@ class GeneralBody(Body):
         next(inside(self._limits, looks=1))  # raises an error if no random numbers put the limits in order
         self._mapped = cell(self._position, self._limits)
         if self._mapped == 0:
-            message = f"the position of this `{type(self).__name__}` does not depend on all of its variables"
+            message = (
+                f"the position of this `{type(self).__name__}` does not vary independently with each of its variables"
+            )
             help_line = "a curve has one variable, a surface two, a solid three"
             raise Rejected(Complaint("no-size", message, help=help_line))
         if mass is not None:

@@ -230,8 +230,8 @@ def _without_common_factor(left: Expr, moving: Sequence[Symbol]) -> Expr:
 def _in_whole_numbers(terms: Sequence[Expr]) -> list[Expr]:
     """Make all numeric factors integers: 2 l theta_ddot + 3 g sin(theta), not l theta_ddot/3 + g sin(theta)/2.
 
-    If a factor is a sum with denominators in some terms only, such as a moment of inertia I + M a^2/4, all terms remain
-    unchanged.
+    If the terms have fractional coefficients and a factor is a sum with denominators in some terms only, such as a
+    moment of inertia I + M a^2/4, all terms remain unchanged.
     """
     apart: list[tuple[Expr, list[Expr]]] = []
     for term in terms:

@@ -189,19 +189,19 @@ class Matter(Fact):
         return found
 
     def force_along(self, q: Symbol) -> Expr:
-        """The sum of F . dr/dq: the virtual work of all forces"""
+        """The generalized force along q: the sum of F . dr/dq over all forces"""
         return self.stored_force_along(q) + self.deflection_along(q) + self.other_force_along(q)
 
     def other_force_along(self, q: Symbol) -> Expr:
-        """The virtual work of the forces that have no term in the Lagrangian"""
+        """The generalized force of the forces that have no term in the Lagrangian"""
         return sum((load.work_along(q) for load in self.others), Integer(0))
 
     def deflection_along(self, q: Symbol) -> Expr:
-        """The virtual work of the magnetic forces"""
+        """The generalized force of the magnetic forces"""
         return sum((field.load(self.coordinates).work_along(q) for field in self.fields), Integer(0))
 
     def stored_force_along(self, q: Symbol) -> Expr:
-        """The virtual work of the forces that have a potential energy"""
+        """The generalized force of the forces that have a potential energy"""
         return sum((load.work_along(q) for load in self.loads), Integer(0))
 
     def _moving(self, order: int) -> list[tuple[Expr, Vector, Vector]]:

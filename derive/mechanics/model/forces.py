@@ -212,7 +212,8 @@ class Charge(Part):
 def _vector(verb: str, role: str, given: Any, count: int) -> Vector:
     values = given.components if isinstance(given, Location) else given
     if not isinstance(values, tuple | list) or len(values) != count:
-        message = f"`{verb}` needs {count} components as its `{role}`, as many as its place has"
+        needed = f"{count} components, as many as its place" if count > 1 else "one component"
+        message = f"`{verb}`: `{role}` must have {needed}"
         raise Rejected(Complaint("wrong-argument", message))
     try:
         return tuple(as_expr(value) for value in values)

@@ -142,7 +142,8 @@ def _check(body: Any, at: Location, ground: Ground | None) -> None:
 
 
 def _check_reaches(body: PlacedBody, at: Location) -> None:
-    """Reject a contact in a plane whose distance from the centre is constant and greater than the radius."""
+    """For a body in a plane, reject a place of contact if its distance from the centre is constant and greater than
+    the radius."""
     radius = getattr(body.body, "radius", None)
     if not isinstance(radius, Expr) or not body.is_plane:
         return

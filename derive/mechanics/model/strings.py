@@ -373,11 +373,11 @@ def _tangent(one: Any, other: Any) -> tuple[Location, Location]:
         else f"the pulley at ({', '.join(map(str, round_.at.components))})"
     )
     if not found:
-        message = f"no horizontal or vertical string is tangent to {name} on the way to its neighbour"
+        message = f"no horizontal or vertical piece of string that is tangent to {name} leads to the next end or pulley"
         help_line = "the end of a vertical string must be one radius to the left or right of the centre"
         raise Rejected(Complaint("no-contact", message, help=help_line))
     if len(found) > 1 and any(isinstance(each, Rim) for each in (one, other)):
-        message = f"the string may touch {name} on either side on the way to its neighbour"
+        message = f"the string to the next end or pulley may be tangent to {name} on either side"
         help_line = "put the two axes at different heights and at different horizontal positions"
         raise Rejected(Complaint("no-contact", message, help=help_line))
     return found[0]

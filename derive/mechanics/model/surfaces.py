@@ -346,7 +346,7 @@ def vector(verb: str, given: Any, like: Location) -> Location:
     """Return a given vector as a `Location`; it must have as many components as the place `like`."""
     components = given.components if isinstance(given, Location) else tuple(given)
     if len(components) != len(like.components):
-        message = f"`{verb}` needs a vector of {len(like.components)} components, as many as its place has"
+        message = f"`{verb}` needs a vector of {len(like.components)} components, as many as its place"
         raise Rejected(Complaint("wrong-argument", message))
     return Location(tuple(as_expr(c) for c in components))
 

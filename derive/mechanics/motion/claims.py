@@ -402,7 +402,8 @@ def slips_at_once(facts: Judged) -> bool:
 
 def never_slips(facts: Judged) -> bool:
     """Whether, numerically, mu_s N - |F| is positive at all places tried that the motion reaches. If the sentence
-    states a condition, mu_s N - |F| must not be positive at the start where this condition is false."""
+    states a condition, mu_s N - |F| must not be positive at the start of the motion for trial numbers
+    that violate it."""
     letters, distances = _letters_of_motion(facts), [Rational(n, 5) for n in range(-8, 9)]
     told = facts.inputs.get("starts")
 

@@ -422,7 +422,8 @@ def _box(traces: Sequence[Trace]) -> Extent:
 
 
 def _room(sides: int, height: float) -> float:
-    """Return the margin for names at the sides of a curve, in units of the height of the curve."""
+    """Return the margin above or below a curve for the names of its extrema, in units of the height of the curve;
+    `sides` is 2 if there are names above and below."""
     part = min(NAME / height, MOST_NAME)
     return part / (1 - 2 * part) if sides == 2 else part * (1 + MARGIN) / (1 - part)
 

@@ -264,7 +264,7 @@ def _names(panel: Panel, frame: Frame, writing: Writing) -> Names:
 def _names_of_points(
     panel: Panel, frame: Frame, writing: Writing, taken: Sequence[Extent]
 ) -> Iterator[tuple[Shape, Extent]]:
-    """Yield the value at each zero or meeting point with its box. A value without a clear place is left out."""
+    """Yield the label of each marked zero or meeting point, and its box. A label without a clear place is left out."""
     left, below, right, above = frame.paper
     inner = left + TICK, below + TICK, right, above
     dots = [dot for trace in panel.traces for dot in dots_of(frame.spots(trace.points))]

@@ -21,7 +21,8 @@ from derive.render.notation.products import Place, positive_first, rank_of_dimen
 DISPLACEMENT = "eta"  # the name of a displacement from an equilibrium
 RATE_ENDS = ("_ddot", "_dot")  # suffixes of the names of accelerations and of rates
 COEFFICIENTS = ("mu", "e", "beta", "gamma", "epsilon")  # the names of coefficients: 1 + beta, beta m g
-LATE = {(0, place) for place in (Place.SUM, Place.FORCE, Place.RATE)}  # the places of constants before coordinates
+# A constant in one of these places is printed after other constants, but before a coordinate: omega_0^2 x.
+LATE = {(0, place) for place in (Place.SUM, Place.FORCE, Place.RATE)}
 ANGULAR_RATE = "omega"
 RATE_OF_TURNING = dimension_of_kind("angular speed")
 

@@ -127,8 +127,8 @@ class StepNames:
 
     @property
     def symbol(self) -> PerRoot:
-        """Return the left side of the chain: components and a formula of names are written out; any other symbol is
-        written as its identifier."""
+        """Return the left side of the chain. The components of a vector or tensor, or a formula of names, are written
+        out; any other symbol is written as its identifier."""
         symbol = self.step.symbol
         if isinstance(symbol, MatrixBase):
             return _of_each_root([written(symbol, Setting(self.identifiers)).text])

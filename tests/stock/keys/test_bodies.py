@@ -149,7 +149,7 @@ def test_what_is_cut_out_has_its_share_of_the_mass(tmp_path: Path) -> None:
         ("{position: [x, 0], limits: {x: [0, M]}, mass: M}", "5: `a limit of x` must be a length, but `M` is a mass"),
         (
             "{position: [R, 0], limits: {x: [0, h]}, mass: M}",
-            "5: the position of this `Wire` does not depend on all of its variables",
+            "5: the position of this `Wire` does not vary independently with each of its variables",
         ),
         ("{position: [x, 0], mass: M}", "5: a body needs one, two or three symbols with limits, not 0"),
         ("{position: [x, 0], limits: {x: [0, h]}}", "5: a body needs `mass` or `density`"),
