@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 import re
 import textwrap
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import pairwise
+from itertools import groupby, pairwise
 from typing import Any
 
 from derive.course.names import EvidenceShown
@@ -53,6 +53,7 @@ LINE_HEIGHT, ROW_HEIGHT, AROUND, NOTE_LINE = 13.6, 19.0, 14.0, 8.5
 CHARACTERS, NOTE_CHARACTERS = 92, 14
 _ADJACENT_DISPLAYS = re.compile(r"(,?)\\\] *(\w{0,4}) *\\\[")  # two formulas with at most a short word between them
 END_OF_DISPLAY = r"\]"
+END_LETTERS, FORMULA_LETTERS = 12, 4  # characters at the end of a paragraph that are on one line; those of a formula
 FEW_ROWS = 4  # a display of at most this many steps is not divided between pages if each step is one low row
 
 
@@ -191,7 +192,7 @@ class LatexPage:
 
     def inline(self, nodes: Sequence[Inline]) -> Tex:
         found: list[str] = []
-        for node in nodes:
+        for node in _ended_together(nodes):
             printed = self._node(node)
             if found and found[-1].endswith(END_OF_DISPLAY) and printed[:1] in (*".,;:",):
                 found[-1] = found[-1].removesuffix(END_OF_DISPLAY) + printed[0] + END_OF_DISPLAY
@@ -361,6 +362,27 @@ def passages_of(blocks: Sequence[Block]) -> list[Passage]:
         else:
             passages[-1] = replace(last, drawings=(*last.drawings, first))
     return passages
+
+
+def _ended_together(nodes: Sequence[Inline]) -> Iterator[Inline]:
+    """Yield the nodes with no-break spaces between the last words of each paragraph that is longer than half a line, so
+    that its last line is not a single short word."""
+    for _, paragraph in groupby(nodes, lambda node: isinstance(node, NewParagraph)):
+        together = list(paragraph)
+        after = sum(map(_letters, together))
+        is_long = after > CHARACTERS / 2
+        for node in together:
+            after -= _letters(node)
+            if is_long and type(node) is Text:
+                words = node.text.rstrip() if after == 0 else node.text
+                kept = max(0, len(words) + after - END_LETTERS)
+                bound = words[kept:].replace(" ", "\u00a0")
+                node = replace(node, text=f"{words[:kept]}{bound}{node.text[len(words) :]}")
+            yield node
+
+
+def _letters(node: Inline) -> int:
+    return len(node.text) if type(node) is Text else FORMULA_LETTERS
 
 
 def _is_low(lines: Sequence[Printed]) -> bool:
