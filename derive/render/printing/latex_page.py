@@ -53,7 +53,7 @@ LINE_HEIGHT, ROW_HEIGHT, AROUND, NOTE_LINE = 13.6, 19.0, 14.0, 8.5
 CHARACTERS, NOTE_CHARACTERS = 92, 14
 _ADJACENT_DISPLAYS = re.compile(r"(,?)\\\] *(\w{0,4}) *\\\[")  # two formulas with at most a short word between them
 END_OF_DISPLAY = r"\]"
-END_LETTERS, FORMULA_LETTERS = 12, 4  # characters at the end of a paragraph that are on one line; those of a formula
+END_LETTERS, FORMULA_LETTERS = 10, 4  # characters at the end of a paragraph that are on one line; those of a formula
 FEW_ROWS = 4  # a display of at most this many steps is not divided between pages if each step is one low row
 
 
@@ -382,7 +382,7 @@ def _ended_together(nodes: Sequence[Inline]) -> Iterator[Inline]:
 
 
 def _letters(node: Inline) -> int:
-    return len(node.text) if type(node) is Text else FORMULA_LETTERS
+    return len(node.text) if isinstance(node, Text) else FORMULA_LETTERS
 
 
 def _is_low(lines: Sequence[Printed]) -> bool:
