@@ -15,7 +15,7 @@ from derive.course.names import EvidenceShown
 from derive.page.chain_lines import ChainLine, Equations
 from derive.page.template import Templates, templates_of
 from derive.page.tree import Document, Paragraph
-from derive.page.wording import DimensionMark, DisplayedMath, NewParagraph, Text, ToldIn, ToldOnce, UnitMark
+from derive.page.wording import DimensionMark, DisplayedMath, FigureRef, NewParagraph, Text, ToldIn, ToldOnce, UnitMark
 from derive.render.printing.latex_page import (
     Fragments,
     LatexPage,
@@ -248,3 +248,8 @@ def test_a_formula_on_a_line_of_its_own_ends_with_its_punctuation() -> None:
 )
 def test_the_last_line_of_a_paragraph_is_not_a_single_short_word(words: str, end: str) -> None:
     assert solution(page(note=(Text(words), NewParagraph(), Text("Yes. ")))).count(end) == 1
+
+
+def test_the_name_of_a_figure_is_not_divided() -> None:
+    note = (Text("See "), FigureRef("Figure 2", "axes", 2))
+    assert r"See \mbox{Figure~\figureno{2}}" in solution(page(note=note))

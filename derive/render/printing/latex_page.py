@@ -53,7 +53,7 @@ LINE_HEIGHT, ROW_HEIGHT, AROUND, NOTE_LINE = 13.6, 19.0, 14.0, 8.5
 CHARACTERS, NOTE_CHARACTERS = 92, 14
 _ADJACENT_DISPLAYS = re.compile(r"(,?)\\\] *(\w{0,4}) *\\\[")  # two formulas with at most a short word between them
 END_OF_DISPLAY = r"\]"
-END_LETTERS, FORMULA_LETTERS = 10, 4  # characters at the end of a paragraph that are on one line; those of a formula
+END_LETTERS, FORMULA_LETTERS = 11, 4  # characters at the end of a paragraph that are on one line; those of a formula
 FEW_ROWS = 4  # a display of at most this many steps is not divided between pages if each step is one low row
 
 
@@ -205,7 +205,7 @@ class LatexPage:
             case FigureRef(number=number, is_alone=True):
                 return rf"\figureno{{{number}}}"
             case FigureRef(number=number):
-                return self._figure_name(number, "~")
+                return rf"\mbox{{{self._figure_name(number, '~')}}}"
             case Verdict(text):
                 return rf"\verdict{{{escaped(text)}}}"
             case Text(text):
@@ -365,12 +365,12 @@ def passages_of(blocks: Sequence[Block]) -> list[Passage]:
 
 
 def _ended_together(nodes: Sequence[Inline]) -> Iterator[Inline]:
-    """Yield the nodes with no-break spaces between the last words of each paragraph that is longer than half a line, so
+    """Yield the nodes with no-break spaces between the last words of each paragraph that is longer than a third of a line, so
     that its last line is not a single short word."""
     for _, paragraph in groupby(nodes, lambda node: isinstance(node, NewParagraph)):
         together = list(paragraph)
         after = sum(map(_letters, together))
-        is_long = after > CHARACTERS / 2
+        is_long = after > CHARACTERS / 3
         for node in together:
             after -= _letters(node)
             if is_long and type(node) is Text:
