@@ -53,7 +53,7 @@ LINE_HEIGHT, ROW_HEIGHT, AROUND, NOTE_LINE = 13.6, 19.0, 14.0, 8.5
 CHARACTERS, NOTE_CHARACTERS = 92, 14
 _ADJACENT_DISPLAYS = re.compile(r"(,?)\\\] *(\w{0,4}) *\\\[")  # two formulas with at most a short word between them
 END_OF_DISPLAY = r"\]"
-END_LETTERS, LETTERS_OF_A_REFERENCE = 10, 4  # characters at the end of a paragraph that are on one line, and of (3)
+END_LETTERS, LETTERS_OF_A_REFERENCE = 11, 4  # characters at the end of a paragraph that are on one line, and of (3)
 FEW_ROWS = 4  # a display of at most this many steps is not divided between pages if each step is one low row
 
 
