@@ -15,7 +15,7 @@ from derive.course.names import EvidenceShown
 from derive.page.chain_lines import ChainLine, Equations
 from derive.page.template import Templates, templates_of
 from derive.page.tree import Document, Paragraph
-from derive.page.wording import DimensionMark, DisplayedMath, Text, ToldIn, ToldOnce, UnitMark
+from derive.page.wording import DimensionMark, DisplayedMath, FigureRef, NewParagraph, Text, ToldIn, ToldOnce, UnitMark
 from derive.render.printing.latex_page import (
     Fragments,
     LatexPage,
@@ -237,3 +237,19 @@ def test_a_theorem_ends_its_paragraph_where_it_is_told_and_begins_one_where_it_i
 def test_a_formula_on_a_line_of_its_own_ends_with_its_punctuation() -> None:
     said = (Text("so "), DisplayedMath(a), Text(" and "), DisplayedMath(M), Text(". Then"))
     assert LatexPage(WHOLE, WORDS, NOTATION).inline(said) == r"so \[a\quad\text{and}\quad M.\] Then"
+
+
+@pytest.mark.parametrize(
+    ("words", "end"),
+    [
+        ("The rods turn in opposite senses, and the ratio of the rates is ", "the ratio of the{~}rates{~}is "),
+        ("The ratio of the rates is ", "The ratio of the rates is "),
+    ],
+)
+def test_the_last_line_of_a_paragraph_is_not_a_single_short_word(words: str, end: str) -> None:
+    assert solution(page(note=(Text(words), NewParagraph(), Text("Yes. ")))).count(end) == 1
+
+
+def test_the_name_of_a_figure_is_not_divided() -> None:
+    note = (Text("See "), FigureRef("Figure 2", "axes", 2))
+    assert r"See \mbox{Figure~\figureno{2}}" in solution(page(note=note))

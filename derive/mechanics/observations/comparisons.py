@@ -72,19 +72,23 @@ ORDER = Rule(
 
 
 def order(view: View) -> Observed:
-    """Constant accelerations for several special cases in the order of their size, if their ratios are positive
-    rational numbers."""
+    """Constant accelerations for several special cases of one acceleration in the order of their size, if their ratios
+    are positive rational numbers."""
     cases = [
         q
         for q in view.values("acceleration")
         if (q.step.rule, q.step.outcome) == (PUT_IN, "values") and _is_constant(q)
     ]
-    for symbol in dict.fromkeys(q.symbol for q in cases):
-        own = [q for q in cases if q.symbol == symbol]
+    for general in dict.fromkeys(_parents(q) for q in cases):
+        own = [q for q in cases if _parents(q) == general]
         kind = _kind_of_the_letter(view, own)
         ratios = [tidied(explicit(q.value) / explicit(own[0].value)) for q in own]
         if kind and len(own) > 1 and all(r.is_Rational and r > 0 for r in ratios) and len(set(ratios)) == len(own):
             yield _in_order([q for _, q in sorted(zip(ratios, own, strict=True), key=lambda pair: -pair[0])], kind)
+
+
+def _parents(q: Quantity) -> tuple[str, ...]:
+    return tuple(parent.key for parent in q.parents)
 
 
 def _kind_of_the_letter(view: View, cases: Sequence[Quantity]) -> str:

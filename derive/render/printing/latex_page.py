@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 import re
 import textwrap
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import pairwise
+from itertools import groupby, pairwise
 from typing import Any
 
 from derive.course.names import EvidenceShown
@@ -53,6 +53,7 @@ LINE_HEIGHT, ROW_HEIGHT, AROUND, NOTE_LINE = 13.6, 19.0, 14.0, 8.5
 CHARACTERS, NOTE_CHARACTERS = 92, 14
 _ADJACENT_DISPLAYS = re.compile(r"(,?)\\\] *(\w{0,4}) *\\\[")  # two formulas with at most a short word between them
 END_OF_DISPLAY = r"\]"
+END_LETTERS, LETTERS_OF_A_REFERENCE = 11, 4  # characters at the end of a paragraph that are on one line, and of (3)
 FEW_ROWS = 4  # a display of at most this many steps is not divided between pages if each step is one low row
 
 
@@ -191,7 +192,7 @@ class LatexPage:
 
     def inline(self, nodes: Sequence[Inline]) -> Tex:
         found: list[str] = []
-        for node in nodes:
+        for node in self._ended_together(nodes):
             printed = self._node(node)
             if found and found[-1].endswith(END_OF_DISPLAY) and printed[:1] in (*".,;:",):
                 found[-1] = found[-1].removesuffix(END_OF_DISPLAY) + printed[0] + END_OF_DISPLAY
@@ -199,12 +200,36 @@ class LatexPage:
             found.append(printed)
         return Tex(_ADJACENT_DISPLAYS.sub(r"\1\\quad\\text{\2}\\quad ", "".join(found)))
 
+    def _ended_together(self, nodes: Sequence[Inline]) -> Iterator[Inline]:
+        """Yield the nodes with no-break spaces between the last words of each paragraph that is longer than a third of
+        a line, so that its last line is not a single short word."""
+        for _, paragraph in groupby(nodes, lambda node: isinstance(node, NewParagraph)):
+            together = [(node, self._letters(node)) for node in paragraph]
+            after = sum(letters for _, letters in together)
+            is_long = after > CHARACTERS / 3
+            for node, letters in together:
+                after -= letters
+                if is_long and type(node) is Text:
+                    words = node.text.rstrip() if after == 0 else node.text
+                    kept = max(0, len(words) + after - END_LETTERS)
+                    bound = words[kept:].replace(" ", "\u00a0")
+                    node = replace(node, text=f"{words[:kept]}{bound}{node.text[len(words) :]}")
+                yield node
+
+    def _letters(self, node: Inline) -> int:
+        if isinstance(node, Text):
+            return len(node.text)
+        return len(self._text([node])) if isinstance(node, Math) else LETTERS_OF_A_REFERENCE
+
+    def _text(self, nodes: Sequence[Inline]) -> str:
+        return inline_text(nodes, self.notation, self.document.numbers)
+
     def _node(self, node: Inline) -> str:
         match node:
             case FigureRef(number=number, is_alone=True):
                 return rf"\figureno{{{number}}}"
             case FigureRef(number=number):
-                return self._figure_name(number, "~")
+                return rf"\mbox{{{self._figure_name(number, '~')}}}"
             case Verdict(text):
                 return rf"\verdict{{{escaped(text)}}}"
             case Text(text):
@@ -239,7 +264,7 @@ class LatexPage:
 
     def plain(self, nodes: Sequence[Inline], columns: int) -> str:
         """Return plain text for bookmarks, which cannot contain TeX."""
-        return textwrap.shorten(inline_text(nodes, self.notation, self.document.numbers), columns, placeholder="\u2026")
+        return textwrap.shorten(self._text(nodes), columns, placeholder="\u2026")
 
     def passages(self, part: PartPage) -> Sequence[Passage]:
         return passages_of(part.blocks)
@@ -327,7 +352,7 @@ class LatexPage:
 
     def _height(self, display: Display, before: Sequence[Inline]) -> float:
         """Return the approximate height of a display with the words before it, in points."""
-        text = len(inline_text(before, self.notation, self.document.numbers))
+        text = len(self._text(before))
         rows = sum(len(printed_lines(group, self.notation)) for group in display.groups)
         return LINE_HEIGHT * math.ceil(text / CHARACTERS) + ROW_HEIGHT * rows + AROUND
 
