@@ -45,6 +45,11 @@ from derive.steps.step import Form, Level, Quantity, approximations_among, is_ze
 __all__ = ["period_by_energy", "rate_by_energy", "speed_from_energy"]
 
 ZERO, TWO = Integer(0), Integer(2)
+CONSERVED = Spelled(
+    "give an energy that is conserved in this motion; if other coordinates also change, give `motion`",
+    "give an energy that is conserved in this motion; if other coordinates also change, add "
+    "`results: acceleration_theta`, the acceleration of the coordinate",
+)
 FIGURES = 30
 NOISE = 1e-9  # smaller differences are accepted, because terms cancel near the turning points
 
@@ -87,7 +92,7 @@ def speed_from_energy(
     along = explicit(TimeRate(value, letter)).xreplace({q.acceleration: acceleration})
     if not is_zero(along):
         message = f"`speed_from_energy`: `{energy.key}` is not conserved"
-        raise Rejected(Complaint("not-conserved", message, help="give an energy that is conserved in this motion"))
+        raise Rejected(Complaint("not-conserved", message, help=CONSERVED))
     mass = tidied(diff(value, speed, 2))
     rest = value.xreplace({speed: ZERO})
     if mass.has(speed) or mass == 0 or not is_zero(value - rest - mass * speed**2 / 2):
