@@ -50,7 +50,7 @@ LAG = Rule(
 
 @in_results(
     "amplitude",
-    "the steady state of a driven oscillation",
+    "the steady state of an oscillation that is driven at one frequency; a constant force may be added",
     equation="amplitude: a driven linear equation of motion",
     q="for: a coordinate",
     symbol="symbol",
