@@ -207,4 +207,10 @@ def unsolvable(of: Quantity, unknown: Expr, factor: Expr | None = None, power: i
     if power > 1:
         help_line = f"write `{unknown**power}` in place of `{unknown}`"
         return Rejected(Complaint("no-condition", message, help=help_line))
-    return NotLinear(Complaint("no-condition", message, help="give another symbol on which this result depends"))
+    return NotLinear(
+        Complaint(
+            "no-condition",
+            message,
+            help="find its zeros with `roots`, or give another symbol on which this result depends",
+        )
+    )

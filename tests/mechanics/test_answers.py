@@ -589,6 +589,15 @@ def test_a_force_of_one_frequency_may_have_any_phase_and_a_constant_part(drive: 
     assert equal(lag.value, 2 * ga * w / (w0**2 - w**2))
 
 
+def test_an_equation_for_a_sine_and_a_cosine_gives_the_tangent() -> None:
+    """Taylor, section 9.1: a pendulum in a car with the acceleration c hangs at tan(theta) = -c/g."""
+    q = coordinate("theta")
+    (found,) = roots(equation(c * cos(q.symbol) + g * sin(q.symbol)), tan(q.symbol))
+    assert equal(found.value, -c / g) and found.step.outcome == "single"
+    with pytest.raises(Rejected, match="outside tan"):
+        roots(equation(c * cos(q.symbol) + g * sin(q.symbol) - k), tan(q.symbol))
+
+
 def test_a_force_of_two_frequencies_has_no_single_amplitude() -> None:
     x = along()
     with pytest.raises(Rejected, match="is not driven by a single force"):

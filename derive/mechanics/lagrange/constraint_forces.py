@@ -50,7 +50,7 @@ from derive.steps.level import Manner
 from derive.steps.record import coordinates_in
 from derive.steps.rule import CHECK, ROUTE, Rule, Shown
 from derive.steps.signs import sign_known
-from derive.steps.step import Level, Quantity, compared_with, is_zero
+from derive.steps.step import Level, Quantity, Step, compared_with, is_zero
 
 __all__ = ["accelerations", "constraint_force", "constraint_rate", "multipliers"]
 
@@ -462,6 +462,13 @@ class _Isolation:
             done[each.unknown] = each.value
         return found
 
+    def as_it_is(self, symbol: Symbol, value: Expr) -> dict[str, tuple[Relation, Relation]]:
+        """Return the value of the unknown if an equation of the page already states it, such as x_ddot = A."""
+        whole = Relation(symbol, "=", value)
+        equations = list(self.pointed.values())
+        same = len(equations) == 1 and isinstance(equations[0].value, Relation)
+        return {"as_it_is": (whole, equations[0].value)} if same and explicit(equations[0].value) == whole else {}
+
     @property
     def named(self) -> dict[str, Any]:
         """Return the eliminated unknowns, and the values of coordinates and accelerations from constraints that are
@@ -503,6 +510,12 @@ def _isolated(problem: _Problem) -> dict[Symbol, Isolated]:
     return isolated_in_order(problem.residuals_known, problem.unknowns)
 
 
+def _repeated(step: Step) -> str:
+    """Return the key of the equation that already is the acceleration, otherwise an empty text."""
+    roles = dict(step.roles)
+    return str(roles["equation_1"].name) if "as_it_is" in roles else ""
+
+
 ACCELERATION = Rule(
     "lagrange.acceleration",
     source="Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4",
@@ -516,6 +529,7 @@ ACCELERATION = Rule(
     evidence={"virtual_work": ROUTE, "constraint": CHECK},
     statements=[claims.a_second_rate, claims.follows_from_these_equations, says_what_it_divides_by],
     named={"eliminated": claims.is_in_these_equations, "fixed": claims.follows_from_a_constraint},
+    shown=Shown(repeats=_repeated),
 )
 
 
@@ -542,6 +556,7 @@ def _acceleration(
             formulas={
                 **told_of_divisors([value] if isolation else [found[rate(p, 2)] for p in problem.solved]),
                 **(isolation.formulas if isolation else {}),
+                **(isolation.as_it_is(symbol, value) if isolation else {}),
             },
             points_to={"lagrangian": problem.lagrangian, **(isolation.pointed if isolation else {})},
             named=isolation.named if isolation else {},
