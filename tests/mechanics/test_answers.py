@@ -589,6 +589,13 @@ def test_a_force_of_one_frequency_may_have_any_phase_and_a_constant_part(drive: 
     assert equal(lag.value, 2 * ga * w / (w0**2 - w**2))
 
 
+def test_a_motion_from_infinity_needs_a_finite_start() -> None:
+    x = along()
+    energy = energy_of(System(Particle(m, point(x, 0)), spring(k, point(0, 0), point(x, 0))))
+    with pytest.raises(Rejected, match="needs a finite start"):
+        speed_from_energy(energy, x, oo)
+
+
 def test_an_equation_for_a_sine_and_a_cosine_gives_the_tangent() -> None:
     """Taylor, section 9.1: a pendulum in a car with the acceleration c hangs at tan(theta) = -c/g."""
     q = coordinate("theta")

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from itertools import islice
 from typing import Any
 
-from sympy import Abs, Add, Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, diff, pi, sqrt
+from sympy import Abs, Add, Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, diff, oo, pi, sqrt
 
 from derive.algebra.equality import Grade, Verdict
 from derive.algebra.expansion import Approach, NoExpansion
@@ -86,6 +86,11 @@ def speed_from_energy(
     """
     value = explicit(energy.value)
     first, initial = (explicit(value_behind(each)) for each in (start, start_rate))
+    if first.has(oo) or initial.has(oo):
+        message = "`speed_from_energy` needs a finite start"
+        raise Rejected(
+            Complaint("wrong-argument", message, help="start at a symbol such as `r_1`, and take the `limit`")
+        )
     acceleration = _acceleration(energy, q, motion)
     _check_one_coordinate(energy, value, q)
     letter, speed = q.symbol, q.rate
