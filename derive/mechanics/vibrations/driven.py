@@ -106,6 +106,8 @@ def steady_amplitude(
         there = with_numbers(stiff) if sign is not None else size
         return cos(lag) * there, Abs(there)
 
+    without, with_one = (put_back(equation, q, Integer(n)).as_independent(TIME, as_Add=True)[0] for n in (0, 1))
+    at_rest = without / (without - with_one) if drive.static != 0 else ZERO
     amplitude = establish(
         STEADY_AMPLITUDE,
         size,
@@ -118,7 +120,7 @@ def steady_amplitude(
         kind=q.kind,
         phrase_data=PhraseData(
             formulas={
-                **drive.told(size, lag),
+                **drive.told(size, lag, at_rest),
                 **conditions_told(excluded=excluded),
             },
             outcome_data={"loss": loss},
@@ -183,10 +185,10 @@ class _Drive:
     def component_behind(self, value: Expr) -> Expr:
         return self.phase[0] * value.coeff(sin(self.angle)) - self.phase[1] * value.coeff(cos(self.angle))
 
-    def told(self, size: Symbol, lag: Symbol) -> dict[str, tuple[Expr, Expr]]:
+    def told(self, size: Symbol, lag: Symbol, at_rest: Expr) -> dict[str, tuple[Expr, Expr]]:
         """Return the motion for the sentence, unless the force has a cosine and a sine; and the displacement under a
         constant force."""
-        found = {} if self.static == 0 else {"static": (self.static, self.static)}
+        found = {} if self.static == 0 else {"static": (self.static, at_rest)}
         if ZERO in self.phase:
             swing = cos if self.phase[1] == 0 else sin
             motion, value = Factors(size, swing(Terms(self.angle, -lag))), size * swing(self.angle - lag)
