@@ -9,7 +9,27 @@ from dataclasses import dataclass, field
 from math import prod
 from typing import Any
 
-from sympy import Abs, Add, Expr, Integer, Mul, Pow, Rational, Symbol, atan, cos, floor, oo, pi, sin, tan, together
+from sympy import (
+    Abs,
+    Add,
+    Dummy,
+    Expr,
+    Integer,
+    Mul,
+    Poly,
+    Pow,
+    Rational,
+    Symbol,
+    atan,
+    binomial,
+    cos,
+    floor,
+    oo,
+    pi,
+    sin,
+    tan,
+    together,
+)
 from sympy.simplify.fu import TR5, TR6
 
 from derive.algebra.order import known_order
@@ -269,6 +289,27 @@ def _sign_by_squares(total: Add) -> int | None:
                 continue
             if any(term.is_positive for term in signed) or _have_sine_and_cosine(signed):
                 return sign
+    return _sign_by_bounds_of_cosine(total)
+
+
+def _sign_by_bounds_of_cosine(total: Add) -> int | None:
+    """The sign of a polynomial in the cosine c of one angle, such as M + m (1 + c - c^2); None if it is unknown.
+
+    A polynomial between -1 and 1 lies between its Bernstein coefficients. It has their sign if none of them has the
+    opposite sign and the first and the last are not zero.
+    """
+    angles = {f.args[0] for f in total.atoms(sin, cos)}
+    c, u = Dummy("c"), Dummy("u")
+    value = TR5(total.expand()).xreplace({cos(angle): c for angle in angles}).expand()
+    if len(angles) != 1 or value.has(sin, cos) or not value.is_polynomial(c):
+        return None
+    powers = Poly(value.xreplace({c: 2 * u - 1}), u).all_coeffs()[::-1]
+    n = len(powers) - 1
+    bounds = [Add(*(binomial(i, k) * powers[k] / binomial(n, k) for k in range(i + 1))).expand() for i in range(n + 1)]
+    for sign in (1, -1):
+        signed = [sign * each for each in bounds]
+        if all(each.is_nonnegative for each in signed) and signed[0].is_positive and signed[-1].is_positive:
+            return sign
     return None
 
 

@@ -72,7 +72,7 @@ def positive(value: Expr, letter: Symbol | None = None) -> Relation:
     more, less = sides_without_minus(core)
     if less == 0 or not (more == 0 or more.is_Add or less.is_Add):
         return Relation(spread(more), ">", spread(less))
-    return Relation(_in_factors(core), ">", 0)
+    return Relation(_in_factors(core.as_content_primitive()[1]), ">", 0)
 
 
 def _without_sums_of_known_sign(core: Expr) -> Expr:
@@ -208,4 +208,10 @@ def unsolvable(of: Quantity, unknown: Expr, factor: Expr | None = None, power: i
     if power > 1:
         help_line = f"write `{unknown**power}` in place of `{unknown}`"
         return Rejected(Complaint("no-condition", message, help=help_line))
-    return NotLinear(Complaint("no-condition", message, help="give another symbol on which this result depends"))
+    return NotLinear(
+        Complaint(
+            "no-condition",
+            message,
+            help="find its zeros with `roots`, or give another symbol on which this result depends",
+        )
+    )

@@ -90,7 +90,8 @@ def meaning(unknown: Expr, value: Expr) -> dict[Symbol, Expr]:
 
 
 def with_unknown(expr: Expr, unknown: Expr, value: Expr) -> Expr:
-    """Substitute a value for the unknown: for theta_dot^2 also in theta_dot^4, for cos(theta) also in sin(theta)^2."""
+    """Substitute a value for the unknown: for theta_dot^2 also in theta_dot^4, for cos(theta) also in sin(theta)^2, and
+    for tan(theta) also in sin(theta) = tan(theta) cos(theta)."""
     if isinstance(unknown, Symbol):
         return expr.xreplace({unknown: value})
     if isinstance(unknown, Pow):
@@ -103,6 +104,8 @@ def with_unknown(expr: Expr, unknown: Expr, value: Expr) -> Expr:
     angle = unknown.args[0]
     other = {cos: sin, sin: cos}.get(unknown.func)
     found = expr.xreplace({unknown: value})
+    if unknown.func is tan and found.has(sin(angle)):
+        return factored(found.xreplace({sin(angle): value * cos(angle)}))
     if other is None or not found.has(other(angle)):
         return found
 
@@ -159,7 +162,7 @@ def polynomial_in(
     marks = [mark_for(unknown) for unknown in unknowns]
     for unknown, mark in zip(unknowns, marks, strict=True):
         left, beside = without_factors_beside(with_unknown(left, unknown, mark), unknown, mark)
-        unsure = [f for f in beside if not never_vanishes_within(f)]
+        unsure = [f for f in beside if not never_vanishes_within(f) and not _is_below(f, unknown)]
         if unsure and not or_value:
             assume(Relation(Mul(*unsure), "!=", Integer(0)))
         if left_over(left, unknown):
@@ -173,7 +176,13 @@ def factors_elsewhere(value: Expr, unknown: Expr) -> list[Expr]:
     mark = mark_for(unknown)
     _, beside = without_factors_beside(with_unknown(value, unknown, mark), unknown, mark)
     above = (f.as_base_exp() for f in beside if not never_vanishes_within(f))
-    return [base for base, power in above if power.is_positive]
+    return [base for base, power in above if power.is_positive and not _is_below(base, unknown)]
+
+
+def _is_below(factor: Expr, unknown: Expr) -> bool:
+    """Whether a factor is the cosine in tan(theta) = sin(theta)/cos(theta). Where it vanishes, the sine does not, so an
+    equation for the tangent has no root there."""
+    return isinstance(unknown, tan) and factor == cos(unknown.args[0])
 
 
 def without_factors_beside(left: Expr, unknown: Expr, mark: Dummy) -> tuple[Expr, list[Expr]]:

@@ -327,7 +327,8 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
 
     @answer
     def conserved(self) -> tuple[Quantity, ...]:
-        return _some(self.cyclic.values(), "no coordinate of this system is cyclic")
+        help_line = "`noether` under `results` finds what another symmetry conserves, such as a sum of momenta"
+        return _some(self.cyclic.values(), "no coordinate of this system is cyclic", help_line)
 
     @answer
     def energy_function(self) -> Quantity:
@@ -613,11 +614,11 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
                 rejected("letter-clash", message, place, "use another symbol on this line")
 
 
-def _some(found: Iterable[Quantity], otherwise: str) -> tuple[Quantity, ...]:
+def _some(found: Iterable[Quantity], otherwise: str, help_line: str | None = None) -> tuple[Quantity, ...]:
     """Return the quantities as a tuple; without quantities, report an error."""
     some = tuple(found)
     if not some:
-        raise Rejected(Complaint("wrong-argument", otherwise))
+        raise Rejected(Complaint("wrong-argument", otherwise, help=help_line))
     return some
 
 

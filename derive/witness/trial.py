@@ -25,6 +25,7 @@ from derive.witness.tape import NotComputable, Tape
 SALTS = 60  # largest number of sets of numbers that are tried to satisfy the assumptions
 ROUNDS = 25  # largest number of iterations of Newton's method
 EXACT = 1e-10
+MOMENT = 1e-6  # a time over which momenta are differentiated
 ATTEMPTS = 5  # largest number of random states that are tried to satisfy the conditions and assumptions
 
 HOLDS = {
@@ -307,7 +308,6 @@ class Formulas:
         accelerations = [rate(q, 2) for q in blueprint.coordinates]
         multipliers = list(blueprint.multipliers)
         letters = [letter for letter, _ in self._momenta]
-        self._count = len(letters)
         inputs = [*blueprint.coordinates, *blueprint.rates, *accelerations, *multipliers, *letters, TIME]
         self._tape = Tape(formulas, inputs)
         self._bound = self._tape.bound(trial.numbers)
@@ -323,17 +323,23 @@ class Formulas:
     def _values(self, state: State, response: Response | None = None) -> NDArray[np.complex128]:
         n, rows = len(state.q), len(self.trial.blueprint.multipliers)
         a, kept = (response.a, response.multipliers) if response is not None else (np.zeros(n), np.zeros(rows))
-        momenta = self.trial.dynamics.momenta(state)[[k for _, k in self._momenta]] if self._momenta else np.zeros(0)
+        momenta = self._momenta_at(state)
         point = np.concatenate([state.q, state.v, a, kept, momenta, [state.t]]).astype(complex)
         return self._bound(point[:, None])[:, 0]
 
+    def _momenta_at(self, state: State) -> Reals:
+        return self.trial.dynamics.momenta(state)[[k for _, k in self._momenta]] if self._momenta else np.zeros(0)
+
     def rate_at(self, state: State, response: Response) -> Reals:
-        """The time derivatives of the formulas along the motion. The formulas must not contain accelerations,
-        multipliers or momenta."""
-        rows = len(self.trial.blueprint.multipliers)
-        n = len(state.q)
-        here = np.concatenate([state.q, state.v, np.zeros(n + rows + self._count), [state.t]]).astype(complex)
-        along = np.concatenate([state.v, response.a, np.zeros(n + rows + self._count), [1.0]])
+        """The time derivatives of the formulas along the motion. The formulas must not contain accelerations or
+        multipliers. The momenta are differentiated by a central difference."""
+        unused = np.zeros(len(state.q) + len(self.trial.blueprint.multipliers))
+        later, earlier = (
+            self._momenta_at(State(state.q + h * state.v, state.v + h * response.a, state.t + h))
+            for h in (MOMENT, -MOMENT)
+        )
+        here = np.concatenate([state.q, state.v, unused, self._momenta_at(state), [state.t]]).astype(complex)
+        along = np.concatenate([state.v, response.a, unused, (later - earlier) / (2 * MOMENT), [1.0]])
         return np.imag(self._bound((here + 1j * STEP * along)[:, None])[:, 0]) / STEP
 
 

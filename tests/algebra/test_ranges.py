@@ -79,6 +79,10 @@ def acute() -> Iterator[None]:
         (-a * sin(x) ** 2 - b * cos(x) ** 2, -1),
         (a * sin(x) ** 2 + b * cos(P) ** 2, None),  # it vanishes at x = 0, P = pi/2
         (a * sin(x) ** 2 - b * cos(x) ** 2, None),
+        (9 * a + 4 * b * (1 + cos(x) + sin(x) ** 2), 1),
+        (9 * a + 4 * b * (cos(x) + sin(x) ** 2), None),  # negative at cos(x) = -1 for a small a
+        (-2 * a - b - b * cos(x) - a * cos(x) ** 2, -1),
+        (a + a * cos(x) - a * cos(x) ** 2, None),
         (cos(alpha / 2) - cos(alpha), 1),
         (a * cos(2 * alpha) - a * cos(alpha), -1),
         (sin(2 * alpha) - sin(alpha), None),

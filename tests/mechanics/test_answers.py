@@ -575,6 +575,43 @@ def test_a_driven_oscillator_resonates_below_its_own_frequency() -> None:
 
 
 @pytest.mark.parametrize(
+    ("drive", "force"),
+    [
+        (F / m * sin(w * t), F / m),
+        (F / m * cos(w * t) - g, F / m),  # with a weight
+        (h * (w0**2 * sin(w * t) + 2 * ga * w * cos(w * t)), h * sqrt(w0**4 + 4 * ga**2 * w**2)),  # a moved support
+    ],
+)
+def test_a_force_of_one_frequency_may_have_any_phase_and_a_constant_part(drive: Expr, force: Expr) -> None:
+    x = along()
+    amplitude, lag = steady_amplitude(damped_oscillator(x, drive=drive), x)
+    assert equal(amplitude.value, force / sqrt((w0**2 - w**2) ** 2 + 4 * ga**2 * w**2))
+    assert equal(lag.value, 2 * ga * w / (w0**2 - w**2))
+
+
+def test_a_motion_from_infinity_needs_a_finite_start() -> None:
+    x = along()
+    energy = energy_of(System(Particle(m, point(x, 0)), spring(k, point(0, 0), point(x, 0))))
+    with pytest.raises(Rejected, match="needs a finite start"):
+        speed_from_energy(energy, x, oo)
+
+
+def test_an_equation_for_a_sine_and_a_cosine_gives_the_tangent() -> None:
+    """Taylor, section 9.1: a pendulum in a car with the acceleration c hangs at tan(theta) = -c/g."""
+    q = coordinate("theta")
+    (found,) = roots(equation(c * cos(q.symbol) + g * sin(q.symbol)), tan(q.symbol))
+    assert equal(found.value, -c / g) and found.step.outcome == "single"
+    with pytest.raises(Rejected, match="outside tan"):
+        roots(equation(c * cos(q.symbol) + g * sin(q.symbol) - k), tan(q.symbol))
+
+
+def test_a_force_of_two_frequencies_has_no_single_amplitude() -> None:
+    x = along()
+    with pytest.raises(Rejected, match="is not driven by a single force"):
+        steady_amplitude(damped_oscillator(x, drive=F * cos(w * t) + F * cos(2 * w * t)), x)
+
+
+@pytest.mark.parametrize(
     ("wrong", "said"),
     [
         (lambda x: solution(damped_oscillator(x), x, x0), "sign of .* is unknown"),

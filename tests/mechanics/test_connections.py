@@ -11,6 +11,7 @@ from typing import Any
 import pytest
 from sympy import Expr, Integer, Symbol, cos, lambdify, sin, symbols
 
+from derive.algebra.equality import equal
 from derive.algebra.expressions import explicit
 from derive.course.problem import run_solve
 from derive.errors import DeriveError
@@ -380,6 +381,19 @@ def test_a_dashpot_ends_at_bodies_or_at_the_ground(tmp_path: Path) -> None:
     (said,) = messages(tmp_path, edited(CARTS, ("to: two", "to: [d + y, 0]")))
     assert "moves with y, but it belongs to no body" in said
     solved(tmp_path, edited(CARTS, ("to: two", "to: [-d, 0]")))
+
+
+def test_a_dashpot_and_a_spring_in_series(tmp_path: Path) -> None:
+    """The force of the spring and the force of the dashpot are equal at their joint, k z = c (y_dot - z_dot)."""
+    joint = (
+        "from: one, to: two}",
+        "from: [z, 0], to: two, massless: true}\n  springs: {constant: k, from: [0, 0], to: [z, 0], massless: true}",
+    )
+    text = edited(CARTS, joint, ("at: [d + y, z]", "at: [y, 0]"), ("d: length, g: acceleration", "k: spring constant"))
+    steps = solved(tmp_path, text)
+    k, c = symbols("k c", positive=True)
+    z, z_dot, y_dot = symbols("z z_dot y_dot", real=True)
+    assert equal(explicit(steps["motion_z"].value).residual, k * z + c * (z_dot - y_dot))
 
 
 ROD = """\

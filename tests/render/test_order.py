@@ -15,7 +15,7 @@ from derive.render.notation.text import plain
 
 m, M, k, b = symbols("m M k b", positive=True)
 l, R, a, g = symbols("l R a g", positive=True)
-theta, phi = symbols("theta phi", real=True)
+theta, phi, beta = symbols("theta phi beta", real=True)
 omega, omega_0 = symbols("omega omega_0", positive=True)
 KINDS = {
     **dict.fromkeys((m, M), "mass"),
@@ -23,8 +23,8 @@ KINDS = {
     b: "damping constant",
     **dict.fromkeys((l, R, a), "length"),
     g: "acceleration",
-    **dict.fromkeys((theta, phi), "angle"),
-    **dict.fromkeys((rate(theta), rate(phi), omega, omega_0), "angular speed"),
+    **dict.fromkeys((theta, phi, beta), "angle"),
+    **dict.fromkeys((rate(theta), rate(phi), rate(beta), omega, omega_0), "angular speed"),
     rate(l): "speed",
     Symbol("mu"): "number",
     Symbol("e"): "number",
@@ -35,6 +35,7 @@ NOTATION = Notation({letter: dimension_of_kind(kind) for letter, kind in KINDS.i
 READS = [
     (Symbol("N") * Symbol("mu") * a, "μ a N"),
     (m * g * Symbol("mu"), "μ m g"),
+    (m * g * beta, "m g β"),  # a coordinate with the name of a coefficient
     (-rate(l) * Symbol("e"), "-e l̇"),
     (m - M * Symbol("e"), "m - e M"),
     (Symbol("e") + 1, "1 + e"),

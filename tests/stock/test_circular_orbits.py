@@ -9,8 +9,9 @@ from sympy import Expr, pi, sqrt, symbols
 
 from derive.algebra.equality import equal
 from derive.algebra.expressions import Relation, explicit
+from derive.building.solution import rendered
 from derive.solving import zeros
-from tests.stock.described import complaints, edited, messages, solved
+from tests.stock.described import complaints, course_with, edited, messages, solved
 
 ORBIT = """\
 title: An orbit
@@ -44,6 +45,28 @@ def test_the_power_law(tmp_path: Path) -> None:
     steps = solved(tmp_path, ORBIT)
     assert equal(steps["ratio"].value, sqrt(n + 2))
     assert steps["stable"].value == Relation(n, ">", -2)
+
+
+CONE = """\
+title: A particle in a cone
+solve: system
+symbols: {m: mass, g: acceleration, alpha: 'angle in (0, pi/2)'}
+given:
+  coordinates: {r: positive length, phi: angle}
+  particles: {ball: {mass: m, at: [r*sin(alpha)*cos(phi), r*sin(alpha)*sin(phi), r*cos(alpha)]}}
+  conserved: {phi: positive l}
+  gravity: g
+statement: A particle in a cone.
+parts:
+  - ask: Find the frequency of small radial oscillations.
+    answer: frequency
+"""
+
+
+def test_the_range_of_an_angle_decides_the_sign_of_a_ratio(tmp_path: Path) -> None:
+    """Goldstein, exercise 2.17: the ratio is sqrt(3) sin(alpha), without an absolute value."""
+    page = rendered(course_with(tmp_path, CONE), "trial/one", only={"text"}).texts["text"]
+    assert "is √3 sin α" in " ".join(page.split())
 
 
 def test_the_apsidal_angle_of_a_yukawa_orbit(tmp_path: Path) -> None:

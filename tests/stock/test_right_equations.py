@@ -200,3 +200,23 @@ lagrangian: m*R**2*(a_dot**2 + b_dot**2 + c_dot**2)/2 - k*R**2*((a-b)**2 + (b-c)
     steps = solved(tmp_path, problem("m: mass, k: spring constant, R: length", given, "frequency"))
     assert steps["frequency_1"].value == 0
     assert equal(steps["frequency_2"].value, sqrt(3 * k / m))
+
+
+def test_an_equation_is_divided_by_a_difference_that_is_positive(tmp_path: Path) -> None:
+    """With a < R, the factor R - a of the equation of motion is not zero."""
+    text = """\
+title: A bead in a groove
+solve: system
+symbols: {m: mass, R: length, a: length, g: acceleration}
+given:
+  coordinates: {theta: angle}
+  particles: {bead: {mass: m, at: [(R - a)*sin(theta), -(R - a)*cos(theta)]}}
+  gravity: g
+  assume: a < R
+statement: A bead.
+parts:
+  - {ask: Find the motion., answer: motion_theta}
+"""
+    R, a, g = symbols("R a g", positive=True)
+    theta, theta_ddot = symbols("theta theta_ddot", real=True)
+    assert equal(explicit(solved(tmp_path, text)["motion_theta"].value).residual, (R - a) * theta_ddot + g * sin(theta))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from sympy import Integer, Rational, cos, pi, symbols
+from sympy import Integer, Rational, Symbol, cos, pi, sin, symbols
 
 from derive.algebra.expressions import Relation, rate
 from derive.algebra.ranges import Range, within
@@ -70,3 +70,14 @@ def test_a_momentum_may_be_given_by_its_letter() -> None:
     found = Trial(Blueprint(PENDULUM), 0, momenta={p: theta})
     state = found.state([Given(theta, pi / 4), Given(p, Integer(2))])
     assert found.dynamics.momenta(state)[0] == pytest.approx(2, rel=1e-9)
+
+
+def test_a_formula_with_a_momentum_changes_along_the_motion() -> None:
+    """For the pendulum, p^2/(2 m l^2) - m g l cos(theta) is constant, and p changes at the rate -m g l sin(theta)."""
+    p = Symbol("p_theta", real=True)
+    found = Trial(Blueprint(PENDULUM), 1, momenta={p: theta})
+    state = found.state()
+    formulas = found.formulas([p**2 / (2 * m * l**2) - m * g * l * cos(theta), p, -m * g * l * sin(theta)])
+    changes, values = formulas.rate_at(state, found.dynamics.response(state)), formulas.at(state)
+    assert changes[0] == pytest.approx(0, abs=1e-8)
+    assert changes[1] == pytest.approx(values[2], abs=1e-8)

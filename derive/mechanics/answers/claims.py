@@ -25,6 +25,7 @@ from sympy import (
     pi,
     sign,
     sin,
+    tan,
 )
 
 from derive.algebra.equality import equal
@@ -510,7 +511,8 @@ def as_asked(facts: Judged, outcome: str) -> bool:
     if not is_letter:  # the root and the unknown must be the same function, sine or cosine
         numbered = getattr(facts.symbol, "func", None) == facts.inputs["unknown"].func
     limited = "existing" not in facts.inputs or isinstance(facts.inputs["unknown"], sin | cos)
-    held = explicit(facts.inputs["equation"]).has(explicit(facts.inputs["unknown"]))
+    unknown = explicit(facts.inputs["unknown"])
+    held = explicit(facts.inputs["equation"]).has(unknown, *((sin(unknown.args[0]),) if unknown.func is tan else ()))
     return numbered and limited and held and as_asked_for(facts, outcome) and is_a_root_just_where_told(facts)
 
 

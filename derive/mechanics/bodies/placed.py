@@ -10,9 +10,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
+from operator import mul
 from typing import Any, ClassVar
 
-from sympy import Expr, ImmutableDenseMatrix, Integer, Symbol, cos, sin
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Symbol, cos, sin
 from sympy.matrices import ImmutableMatrix
 
 from derive.algebra.expressions import as_expr, column, depends_on_time, explicit
@@ -78,6 +79,12 @@ class PlacedBody:
         j, k = self.in_plane
         c, s = cos(self.turned), sin(self.turned)
         return Location((arm[j] * c - arm[k] * s, arm[j] * s + arm[k] * c))
+
+    def carries(self, arm: Location) -> bool:
+        """Whether a vector in space turns with the body: its components along the body axes are constant."""
+        axes = [self.seen_in_space(ImmutableDenseMatrix([int(i == n) for i in range(3)])) for n in range(3)]
+        own = ImmutableDenseMatrix([tidied(Add(*map(mul, arm.components, axis.components))) for axis in axes])
+        return not coordinates_in(own) and not depends_on_time(own)
 
     @property
     def in_plane(self) -> tuple[int, int]:

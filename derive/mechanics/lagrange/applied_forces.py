@@ -180,7 +180,7 @@ def applied_force(of: Quantity, q: Coordinate, key: str | None = None) -> Quanti
     acted = of.needed(ActedOn)
     moving = list(acted.system.coordinates)
     loads = [f.load(moving) for f in acted.forces]
-    works = [term for load in loads for term in _works(load, q)]
+    works = [term for load in loads for term in _works(load, q, moving)]
 
     kept = of.fact(Constrained)
     here = {s for f in acted.forces for c in f.components for s in c.free_symbols}
@@ -210,8 +210,8 @@ def applied_force(of: Quantity, q: Coordinate, key: str | None = None) -> Quanti
     )
 
 
-def _works(load: Load, q: Coordinate) -> list[Expr]:
-    """Return the terms F_i dr_i/dq."""
+def _works(load: Load, q: Coordinate, moving: Sequence[Symbol]) -> list[Expr]:
+    """Return the terms F_i dr_i/dq, without the components r_i that are constant."""
     pairs = list(zip(load.force, load.place, load.slopes(q.symbol), strict=True))
     if (
         load.held
@@ -220,7 +220,7 @@ def _works(load: Load, q: Coordinate) -> list[Expr]:
     ):
         slopes = [(f, tidied(slope)) for f, _, slope in pairs if f != 0]
         return [f if slope == 1 else Factors(f, slope) for f, slope in slopes if slope != 0]
-    return [Factors(f, Partial(c, q.symbol)) for f, c, _ in pairs if f != 0]
+    return [Factors(f, Partial(c, q.symbol)) for f, c, _ in pairs if f != 0 and c.has(*moving)]
 
 
 def _slope(load: Load, q: Coordinate, moving: Sequence[Symbol]) -> Expr:

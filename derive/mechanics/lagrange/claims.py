@@ -371,11 +371,23 @@ def constraint_rate_in_rates(facts: Judged) -> bool:
     return bool(has_rates(facts.inputs["condition"]))
 
 
+def constraint_rate_together(facts: Judged) -> bool:
+    """Whether the values that the constraints together fix satisfy these constraints, which are independent, and the
+    result belongs to one of these values."""
+    values = {told.left: told.right for told in facts.inputs["kept_together"]}
+    kept = Matrix(facts.inputs["keeping"])
+    if not values or not all(is_zero(f.xreplace(values)) for f in kept):
+        return False
+    slopes = kept.jacobian(list(values)).xreplace(values)
+    is_own = any(is_zero(facts.inputs["condition"] - q + value) for q, value in values.items())
+    return slopes.is_square and not is_zero(slopes.det()) and is_own and _keeps_one_constant(facts)
+
+
 def names_the_enforcer(facts: Judged, outcome: str) -> bool:
     """Whether the object that the sentence names, such as a string, enforces the constraint. A sentence with the
     word "formula" names no object, so it is accepted."""
     of, word = facts.inputs["of"], facts.words.get("enforcer")
-    if word == "formula":
+    if word == "formula" or outcome == "together":  # a sentence about all the constraints
         return True
     is_own = is_zero(of.residual - facts.inputs["condition"])
     acts = bool(of.forces) or word == "joint"
@@ -398,7 +410,11 @@ def kept_constant(facts: Judged, q: Any) -> bool:
 constraint_rate_in_coordinates: Predicate = both(negated(constraint_rate_in_rates), negated(_keeps_one_constant))
 
 
-constraint_rate_of_constant: Predicate = both(negated(constraint_rate_in_rates), _keeps_one_constant)
+constraint_rate_of_constant: Predicate = both(
+    negated(constraint_rate_in_rates),
+    _keeps_one_constant,
+    lambda facts: is_zero(facts.inputs["of"].residual - facts.inputs["condition"]),
+)
 
 
 def _is_constrained(facts: Judged) -> bool:

@@ -36,6 +36,7 @@ from derive.mechanics.kinematics.coordinates import Coordinate, OfCoordinate, by
 from derive.mechanics.lagrange import claims
 from derive.mechanics.lagrange.applied_forces import ForcedMotion
 from derive.mechanics.lagrange.facts import ForceOf, FromLagrangian
+from derive.mechanics.lagrange.fixed_coordinates import fixed_together, rates_at_rest
 from derive.mechanics.model.constraint import Constrained, Constraint
 from derive.mechanics.model.dalembert import Matter
 from derive.mechanics.model.description import description_behind
@@ -49,7 +50,7 @@ from derive.steps.level import Manner
 from derive.steps.record import coordinates_in
 from derive.steps.rule import CHECK, ROUTE, Rule, Shown
 from derive.steps.signs import sign_known
-from derive.steps.step import Level, Quantity, compared_with, is_zero
+from derive.steps.step import Level, Quantity, Step, compared_with, is_zero
 
 __all__ = ["accelerations", "constraint_force", "constraint_rate", "multipliers"]
 
@@ -96,9 +97,14 @@ class _Problem:
 
     @property
     def known(self) -> dict[Symbol, Expr]:
-        """Coordinate -> an expression in the other coordinates, by a constraint that is solved for this coordinate;
-        also the rate of the coordinate -> the rate of this expression."""
-        found: dict[Symbol, Expr] = {}
+        """Coordinate -> an expression in the other coordinates, by a constraint that is solved for this coordinate, or
+        a constant, by several constraints; also the rate of the coordinate -> the rate of this expression."""
+        constant = {told.left: told.right for told in _together(self.constraints, self.moving).values()}
+        found = {**constant, **dict.fromkeys(map(rate, constant), ZERO)}
+        still = rates_at_rest(
+            [each.residual.xreplace(found) for each in self.constraints if each.in_rates], self.moving
+        )
+        found |= still
         for each in self.constraints:
             residual = each.residual.xreplace(found)
             slopes = {q: derivative(residual, q) for q in self.moving}
@@ -119,7 +125,12 @@ class _Problem:
     @property
     def residuals(self) -> list[Expr]:
         equations = [explicit(each.value).residual for each in self.used]
-        return [*equations, *(each.acceleration(self.moving) for each in self.constraints)]
+        together = _together(self.constraints, self.moving)
+        changes = [
+            rate(together[i].left, 2) if i in together else each.acceleration(self.moving)
+            for i, each in enumerate(self.constraints)
+        ]
+        return [*equations, *changes]
 
     @property
     def residuals_known(self) -> list[Expr]:
@@ -237,6 +248,27 @@ def _told(of: Constraint, moving: Sequence[Symbol]) -> Relation:
     return Relation((-of.left).expand(), "=", ZERO) if of.left.could_extract_minus_sign() else of.relation
 
 
+def _together(constraints: Sequence[Constraint], moving: Sequence[Symbol]) -> dict[int, Relation]:
+    """Return index of a constraint -> y = a, for constraints that only together give coordinates constant values."""
+    residuals = {
+        i: each.residual for i, each in enumerate(constraints) if not each.in_rates and _fixed(each, moving) is None
+    }
+    values = fixed_together(list(residuals.values()), moving)
+    kept = [i for i, f in residuals.items() if not f.free_symbols.isdisjoint(values) and is_zero(f.xreplace(values))]
+    return {i: Relation(q, "=", value) for i, (q, value) in zip(kept, values.items(), strict=True)}
+
+
+def positions_kept(motion: Quantity) -> dict[Symbol, Expr]:
+    """Return coordinate -> its constant value, for the coordinates that several constraints together keep constant.
+
+    motion   one of the equations of motion
+    """
+    of = _lagrangian_of("positions_kept", motion)
+    kept = of.fact(Constrained)
+    together = _together(kept.constraints, list(of.coordinates)) if kept else {}
+    return {told.left: told.right for told in together.values()}
+
+
 def _fixed(of: Constraint, moving: Sequence[Symbol]) -> Relation | None:
     """Return y = a for a constraint that gives one coordinate a constant value, such as a - y = 0; otherwise None."""
     contained = [q for q in moving if of.residual.has(q, rate(q))]
@@ -254,6 +286,7 @@ CONSTRAINT_RATE = Rule(
         "in_rates": claims.constraint_rate_in_rates,
         "in_coordinates": claims.constraint_rate_in_coordinates,
         "constant": claims.constraint_rate_of_constant,
+        "together": claims.constraint_rate_together,
     },
     evidence={"functions_of_time": CHECK},
     statements=[claims.names_the_enforcer],
@@ -271,7 +304,8 @@ def constraint_rate(of: Quantity, number: int = 0, key: str | None = None) -> Qu
     of       the Lagrangian of a system with constraints
     number   the index of the constraint, 0 for the first
 
-    Outcomes: in_rates, in_coordinates, constant (the constraint is y = a, with one coordinate).
+    Outcomes: in_rates, in_coordinates, constant (the constraint is y = a, with one coordinate), together (this
+    constraint and others together are equivalent to y = a and the like).
     Check: differentiate with each coordinate as its Taylor series in t.
     Errors: there is no constraint with this index.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4.
@@ -283,10 +317,13 @@ def constraint_rate(of: Quantity, number: int = 0, key: str | None = None) -> Qu
     each, moving = constraints[number], list(of.coordinates)
     order = 1 if each.in_rates else 2
 
-    fixed = _fixed(each, moving)
+    together = _together(constraints, moving)
+    fixed = together.get(number) or _fixed(each, moving)
+    condition = together[number].residual if number in together else each.residual
+    told = fixed or _told(each, moving)
 
     def by_time() -> Relation:
-        return Relation(by_functions_of_time(each.residual, moving, order), "=", ZERO)
+        return Relation(by_functions_of_time(condition, moving, order), "=", ZERO)
 
     def law(f: Expr) -> Relation:
         once = TimeRate(f, *moving)
@@ -296,19 +333,29 @@ def constraint_rate(of: Quantity, number: int = 0, key: str | None = None) -> Qu
         CONSTRAINT_RATE,
         None,
         law,
-        {"condition": each.residual},
+        {"condition": condition},
         lines=Lines(
             put_in=None,
             law=Level.FULL,
             arranged=lambda found: _arranged(explicit(found.left), moving),
         ),
         routes={"functions_of_time": compared_with(by_time)},
-        outcome="in_rates" if each.in_rates else "constant" if fixed else "in_coordinates",
+        outcome="together"
+        if number in together
+        else "in_rates"
+        if each.in_rates
+        else "constant"
+        if fixed
+        else "in_coordinates",
         phrase_data=PhraseData(
-            formulas={"constraint": (fixed or _told(each, moving), Relation(each.residual, "=", ZERO))},
+            formulas={"constraint": (told, Relation(condition, "=", ZERO))},
             words={"enforcer": each.enforcer if each.enforcer in KEPT else FORMULA},
             named={"kept": fixed.left} if fixed else {},
-            outcome_data={"of": each},
+            outcome_data={
+                "of": each,
+                "kept_together": tuple(together.values()),
+                "keeping": tuple(constraints[i].residual for i in together),
+            },
         ),
         key=key or f"constraint_{each.force.name}",
         facts=[described] if (described := description_behind(of)) is not None else [],
@@ -377,7 +424,9 @@ class _Isolation:
         constraints = self.problem.constraints
         first = len(self.problem.used)
         numbers = [i - first for i in self.found.equations if i >= first]
-        fixed = {i: _fixed(constraints[i], self.problem.moving) for i in numbers}
+        moving = self.problem.moving
+        together = _together(constraints, moving)
+        fixed = {i: together.get(i) or _fixed(constraints[i], moving) for i in numbers}
         found = {
             each: relation
             for i, each in zip(self.found.equations, self.equations, strict=True)
@@ -413,6 +462,13 @@ class _Isolation:
             done[each.unknown] = each.value
         return found
 
+    def as_it_is(self, symbol: Symbol, value: Expr) -> dict[str, tuple[Relation, Relation]]:
+        """Return the value of the unknown if an equation of the page already states it, such as x_ddot = A."""
+        whole = Relation(symbol, "=", value)
+        equations = list(self.pointed.values())
+        same = len(equations) == 1 and isinstance(equations[0].value, Relation)
+        return {"as_it_is": (whole, equations[0].value)} if same and explicit(equations[0].value) == whole else {}
+
     @property
     def named(self) -> dict[str, Any]:
         """Return the eliminated unknowns, and the values of coordinates and accelerations from constraints that are
@@ -437,16 +493,27 @@ class _Isolation:
 
     @property
     def outcome_data(self) -> dict[str, Any]:
+        together = _together(self.problem.constraints, self.problem.moving)
         return {
             "unknowns": self.problem.unknowns,
             "moving": self.problem.moving,
-            "constraints": [each.residual for each in self.problem.constraints if not each.in_rates],
+            "constraints": [
+                together[i].residual if i in together else each.residual
+                for i, each in enumerate(self.problem.constraints)
+                if not each.in_rates
+            ],
         }
 
 
 @lru_cache(maxsize=16)
 def _isolated(problem: _Problem) -> dict[Symbol, Isolated]:
     return isolated_in_order(problem.residuals_known, problem.unknowns)
+
+
+def _repeated(step: Step) -> str:
+    """Return the key of the equation that already is the acceleration, otherwise an empty text."""
+    roles = dict(step.roles)
+    return str(roles["equation_1"].name) if "as_it_is" in roles else ""
 
 
 ACCELERATION = Rule(
@@ -462,6 +529,7 @@ ACCELERATION = Rule(
     evidence={"virtual_work": ROUTE, "constraint": CHECK},
     statements=[claims.a_second_rate, claims.follows_from_these_equations, says_what_it_divides_by],
     named={"eliminated": claims.is_in_these_equations, "fixed": claims.follows_from_a_constraint},
+    shown=Shown(repeats=_repeated),
 )
 
 
@@ -488,6 +556,7 @@ def _acceleration(
             formulas={
                 **told_of_divisors([value] if isolation else [found[rate(p, 2)] for p in problem.solved]),
                 **(isolation.formulas if isolation else {}),
+                **(isolation.as_it_is(symbol, value) if isolation else {}),
             },
             points_to={"lagrangian": problem.lagrangian, **(isolation.pointed if isolation else {})},
             named=isolation.named if isolation else {},

@@ -14,6 +14,7 @@ from sympy import Add, Expr, Integer, Mul, Rational, Symbol, igcd, ilcm
 from derive.algebra.collect import by_accelerations, by_rates, with_constants_in_front
 from derive.algebra.expressions import Partial, Relation, Terms, TimeRate, explicit, rate, scalar
 from derive.algebra.length import length
+from derive.algebra.ranges import sign_within
 from derive.algebra.taylor import slope
 from derive.algebra.tidy import common_factor
 from derive.errors import Complaint, Rejected
@@ -220,7 +221,7 @@ def _without_common_factor(left: Expr, moving: Sequence[Symbol]) -> Expr:
     """
     terms = Add.make_args(left)
     factors = Mul.make_args(common_factor(list(terms)))
-    constant = [f for f in factors if f.is_positive and not f.has(*moving) and not f.as_base_exp()[1].is_negative]
+    constant = [f for f in factors if sign_within(f) == 1 and not f.has(*moving) and not f.as_base_exp()[1].is_negative]
     common = Mul(*(f for f in constant if not f.is_number))
     divided = [part for term in terms for part in Add.make_args(_divided(term, common))]
     forms = [Add(*each, evaluate=False) for each in (_in_whole_numbers(divided), divided)]

@@ -71,13 +71,16 @@ def end_of(given: Any) -> tuple[Location, Any]:
     return given.at, given
 
 
-def require_bodies(verb: str, ends: Sequence[tuple[Location, Any]]) -> None:
-    """Require each moving place to belong to a body or particle, because a force acts at the place."""
+def require_bodies(verb: str, ends: Sequence[tuple[Location, Any]], otherwise: str = "") -> None:
+    """Require each moving place to belong to a body or particle, because a force acts at the place; `otherwise` is the
+    end of the help line."""
     for place, of in ends:
         if of is None and (moving := coordinates_in(ImmutableDenseMatrix(place.components))):
             where = ", ".join(map(str, place.components))
             message = f"`{verb}`: the place ({where}) moves with {next(iter(moving))}, but it belongs to no body"
-            help_line = "name a particle or a point of a body: `cart`, `{from: cart, by: [0, d]}`, `rod.end`"
+            help_line = (
+                "name a particle or a point of a body: `cart`, `{from: cart, by: [0, d]}`, `rod.end`" + otherwise
+            )
             raise Rejected(Complaint("which-body", message, help=help_line))
 
 

@@ -185,7 +185,10 @@ def radius_of(placed: PlacedBody) -> Expr:
     radius = _round_radius(placed)
     if radius is None:
         message = f"{placed.body.name} is not round in this view, so the point where it touches the surface is unknown"
-        help_line = Spelled('give a point of the body: `rod.place_of("end")`', "give a point of the body: `rod.end`")
+        help_line = Spelled(
+            'give a point of the body: `rod.place_of("end")`',
+            "give a point of the body, `rod.end`, or describe the body by `moments` and its `rim`",
+        )
         raise Rejected(Complaint("no-contact", message, help=help_line))
     return radius
 

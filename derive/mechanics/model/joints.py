@@ -150,7 +150,7 @@ class DragAlong(Damper):
         return [
             Load(tuple(sign * c for c in drag), point.place, point.held)
             for (_, of), point, sign in pairs
-            if of is not None
+            if of is not None or any(c.has(*moving) for c in point.place)
         ]
 
 
@@ -167,19 +167,21 @@ class Dashpot(Connection):
         return replace(super().moved(known), start=start, end=end)
 
 
-def dashpot(constant: Any, start: Any, end: Any) -> tuple[Dashpot, Damper]:
+def dashpot(constant: Any, start: Any, end: Any, massless: bool = False) -> tuple[Dashpot, Damper]:
     """A dashpot between two points at the distance d. Its force on each point has the magnitude c |d_dot| and opposes
     the change of d.
 
     constant     the damping constant c, kg/s
     start, end   particles, bodies, points of bodies, or places without coordinates
+    massless     whether the dashpot may end at a massless joint, such as its joint with a spring
 
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, section 11.3.
     """
     if not all(map(is_end, (start, end))):
         raise Rejected(Complaint("wrong-argument", "`dashpot` must end at particles, points of bodies, or places"))
     ends = end_of(start), end_of(end)
-    require_bodies("dashpot", ends)
+    if not massless:
+        require_bodies("dashpot", ends, "; a joint without mass needs `massless: true`")
     (one, _), (other, _) = ends
     along = damping(constant, raw_distance(one, other))
     return Dashpot((), as_expr(constant), one, other), DragAlong(along.constant, along.at, None, ends)

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from itertools import islice
 from typing import Any
 
-from sympy import Abs, Add, Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, diff, pi, sqrt
+from sympy import Abs, Add, Expr, ImmutableDenseMatrix, Integer, Rational, Symbol, diff, oo, pi, sqrt
 
 from derive.algebra.equality import Grade, Verdict
 from derive.algebra.expansion import Approach, NoExpansion
@@ -45,6 +45,11 @@ from derive.steps.step import Form, Level, Quantity, approximations_among, is_ze
 __all__ = ["period_by_energy", "rate_by_energy", "speed_from_energy"]
 
 ZERO, TWO = Integer(0), Integer(2)
+CONSERVED = Spelled(
+    "give an energy that is conserved in this motion; if other coordinates also change, give `motion`",
+    "give an energy that is conserved in this motion; if other coordinates also change, give the equation of motion "
+    "under `results`: an acceleration, or a `put_in` that contains one coordinate only",
+)
 FIGURES = 30
 NOISE = 1e-9  # smaller differences are accepted, because terms cancel near the turning points
 
@@ -81,13 +86,18 @@ def speed_from_energy(
     """
     value = explicit(energy.value)
     first, initial = (explicit(value_behind(each)) for each in (start, start_rate))
+    if first.has(oo) or initial.has(oo):
+        message = "`speed_from_energy` needs a finite start"
+        raise Rejected(
+            Complaint("wrong-argument", message, help="start at a symbol such as `r_1`, and take the `limit`")
+        )
     acceleration = _acceleration(energy, q, motion)
     _check_one_coordinate(energy, value, q)
     letter, speed = q.symbol, q.rate
     along = explicit(TimeRate(value, letter)).xreplace({q.acceleration: acceleration})
     if not is_zero(along):
         message = f"`speed_from_energy`: `{energy.key}` is not conserved"
-        raise Rejected(Complaint("not-conserved", message, help="give an energy that is conserved in this motion"))
+        raise Rejected(Complaint("not-conserved", message, help=CONSERVED))
     mass = tidied(diff(value, speed, 2))
     rest = value.xreplace({speed: ZERO})
     if mass.has(speed) or mass == 0 or not is_zero(value - rest - mass * speed**2 / 2):

@@ -242,9 +242,11 @@ def _in_results(
         raise Rejected(Complaint("no-such-coordinate", message, argument=f"values:{strange}"))
     held = explicit(of.value).free_symbols
     turning = [q for q in coordinates.values() if q.symbol not in held and q not in rates]
-    if len(symbols) > len(turning):
-        message = f"`steady` accepts one symbol for each free cyclic rate, at most {len(turning)}"
-        raise Rejected(Complaint("wrong-argument", message, argument="symbols"))
-    for q, letter in zip(turning, symbols, strict=False):
+    if len(symbols) not in (0, len(turning)):
+        free = ", ".join(q.rate.name for q in turning) or "none"
+        message = f"`steady` needs one symbol for each free cyclic rate ({free}), but `symbol` has {len(symbols)}"
+        help_line = "give a list of symbols in this order, or the value of a rate under `values`"
+        raise Rejected(Complaint("wrong-argument", message, argument="symbols", help=help_line))
+    for q, letter in zip(turning, symbols, strict=len(symbols) > 0):
         rates[q] = unknown(letter, kind_of_rate(q.kind) or "number", positive=True)
     return checked(steady_motion)(of, rates, places, key=key)

@@ -10,6 +10,7 @@ from typing import Any
 from sympy import Add, Expr, Integer, Pow, Symbol, cos, expand, pi, powsimp, sin, sqrt, sqrtdenest
 
 from derive.algebra.expressions import TIME, Amount, Factors, Ratio, Relation, Terms, explicit, rate
+from derive.algebra.ranges import without_abs
 from derive.algebra.rounding import rounded_form
 from derive.algebra.tidy import tidied
 from derive.mechanics.kinematics.coordinates import OfCoordinate
@@ -176,7 +177,7 @@ def _orbital_rates(view: View) -> Iterator[tuple[Expr, Any, Quantity]]:
 
 
 def _orbit(of: Quantity, there: Expr, told: Any, step: Quantity, square: Expr) -> Quantity:
-    ratio = sqrt(square)
+    ratio = without_abs(sqrt(square))
     outcome = {1: "one", 2: "two"}.get(ratio, "letters")
     if ratio.is_number and outcome == "letters":
         outcome = "rational" if ratio.is_Rational else "irrational"

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
-from sympy import Abs, Add, Expr, Integer, Pow, Rational, atan, cos, diff, expand, integrate, pi, sin, sqrt, tan
+from sympy import Abs, Add, Expr, Integer, Pow, Rational, Symbol, atan, cos, diff, expand, integrate, pi, sin, sqrt, tan
 
-from derive.algebra.expressions import TIME, Factors, Ratio, Root, Terms, scalar, stand_in
+from derive.algebra.expressions import TIME, Factors, Ratio, Root, Terms, depends_on_time, scalar, stand_in
 from derive.algebra.tidy import common_factor, tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.in_results import in_results
@@ -26,7 +27,7 @@ from derive.steps.step import Level, Quantity
 __all__ = ["quality_factor", "steady_amplitude"]
 
 
-HALF = Rational(1, 2)
+HALF, ZERO = Rational(1, 2), Integer(0)
 
 STEADY_AMPLITUDE = Rule(
     "vibrations.steady_amplitude",
@@ -49,7 +50,7 @@ LAG = Rule(
 
 @in_results(
     "amplitude",
-    "the steady state of a driven oscillation",
+    "the steady state of an oscillation that is driven at one frequency; a constant force may be added",
     equation="amplitude: a driven linear equation of motion",
     q="for: a coordinate",
     symbol="symbol",
@@ -61,19 +62,20 @@ def steady_amplitude(
     tangent of the lag, tan(delta) = b omega/(c - a omega^2). Without damping, the second result is the lag itself;
     if the sign of c - a omega^2 is unknown, c > a omega^2 is assumed.
 
-    equation   a q_ddot + b q_dot + c q = F cos(omega t)
+    equation   a q_ddot + b q_dot + c q = F cos(omega t), F sin(omega t) or a sum of both, which may contain a constant;
+               the motion is then about the displacement under the constant force
     q          the coordinate of the equation of motion
 
     Check: the forced oscillation with this amplitude and this lag is substituted back into the equation.
     Outcomes: damped, undamped (the lag is 0), opposite (only for the lag, which is pi above resonance without
     damping).
-    Errors: the equation is not linear with constant coefficients, or is not driven by a single force F cos(omega t)
+    Errors: the equation is not linear with constant coefficients, or is not driven by a force of a single frequency
     with positive F; an undamped oscillator is at resonance.
     Source: Taylor, *Classical Mechanics*, section 5.5.
     """
     linear = linear_equation(equation, q)
-    force, angle = _one_swing(linear, equation)
-    taken_positive(force)
+    drive = _drive(linear, equation)
+    force, angle = drive.force, drive.angle
     w = diff(angle, TIME)
     stiff, loss = linear.c - linear.a * w**2, linear.b * w
     damped = "damped" if linear.b != 0 else "undamped"
@@ -87,14 +89,14 @@ def steady_amplitude(
     def forced(amplitude: Expr) -> tuple[Any, Any]:
         """Substitute the motion, with cos(delta) = (c - a omega^2) A/F and sin(delta) = b omega A/F."""
         over = force / amplitude
-        motion = amplitude * (cos(angle) * stiff + sin(angle) * loss) / over
+        motion = drive.static + amplitude * (drive.in_phase * stiff + drive.behind * loss) / over
         return put_back(equation, q, motion), Integer(0)
 
     def lagging(tangent: Expr) -> tuple[Any, Any]:
-        """Check that the factor of sin(omega t) in the residual vanishes, for the motion cos(omega t) + tan(delta)
-        sin(omega t), which is proportional to cos(omega t - delta)."""
-        motion = cos(angle) + (tangent if damped == "damped" else tan(tangent)) * sin(angle)
-        return put_back(equation, q, motion).coeff(sin(angle)), Integer(0)
+        """Check that the component of the residual a quarter of a period behind the force vanishes, for the motion
+        cos(omega t) + tan(delta) sin(omega t), which is proportional to cos(omega t - delta)."""
+        motion = drive.in_phase + (tangent if damped == "damped" else tan(tangent)) * drive.behind
+        return drive.component_behind(put_back(equation, q, expand(motion))), Integer(0)
 
     in_phase = None if excluded is None else positive(stiff)
 
@@ -104,6 +106,8 @@ def steady_amplitude(
         there = with_numbers(stiff) if sign is not None else size
         return cos(lag) * there, Abs(there)
 
+    without, with_one = (put_back(equation, q, Integer(n)).as_independent(TIME, as_Add=True)[0] for n in (0, 1))
+    at_rest = without / (without - with_one) if drive.static != 0 else ZERO
     amplitude = establish(
         STEADY_AMPLITUDE,
         size,
@@ -116,7 +120,7 @@ def steady_amplitude(
         kind=q.kind,
         phrase_data=PhraseData(
             formulas={
-                "motion": (Factors(size, cos(Terms(angle, -lag))), size * cos(angle - lag)),
+                **drive.told(size, lag, at_rest),
                 **conditions_told(excluded=excluded),
             },
             outcome_data={"loss": loss},
@@ -154,13 +158,71 @@ def _amplitude(force: Expr, stiff: Expr, loss: Expr) -> Expr:
     return force / sqrt(Add(stiff**2, presented(loss**2)))
 
 
-def _one_swing(linear: LinearCoefficients, equation: Quantity) -> tuple[Expr, Expr]:
+@dataclass(frozen=True)
+class _Drive:
+    """A driving force with one angular frequency: c + F (p_1 cos(omega t) + p_2 sin(omega t)), with p_1^2 + p_2^2 = 1.
+
+    force    F
+    angle    omega t
+    phase    p_1 and p_2
+    static   the displacement under the constant force c
+    """
+
+    force: Expr
+    angle: Expr
+    phase: tuple[Expr, Expr]
+    static: Expr
+
+    @property
+    def in_phase(self) -> Expr:
+        return self.phase[0] * cos(self.angle) + self.phase[1] * sin(self.angle)
+
+    @property
+    def behind(self) -> Expr:
+        """Return the oscillation in phase with the force, a quarter of a period later."""
+        return self.phase[0] * sin(self.angle) - self.phase[1] * cos(self.angle)
+
+    def component_behind(self, value: Expr) -> Expr:
+        return self.phase[0] * value.coeff(sin(self.angle)) - self.phase[1] * value.coeff(cos(self.angle))
+
+    def told(self, size: Symbol, lag: Symbol, at_rest: Expr) -> dict[str, tuple[Expr, Expr]]:
+        """Return the motion for the sentence, unless the force has a cosine and a sine; and the displacement under a
+        constant force."""
+        found = {} if self.static == 0 else {"static": (self.static, at_rest)}
+        if ZERO in self.phase:
+            swing = cos if self.phase[1] == 0 else sin
+            motion, value = Factors(size, swing(Terms(self.angle, -lag))), size * swing(self.angle - lag)
+            found["motion"] = (Terms(self.static, motion), self.static + value) if self.static else (motion, value)
+        return found
+
+
+def _drive(linear: LinearCoefficients, equation: Quantity) -> _Drive:
     check_no_function("steady_amplitude", linear.driven, equation)
-    outside, inside = linear.driven.as_independent(TIME, as_Add=False)
-    if not isinstance(inside, cos) or not is_linear_in_time(inside.args[0]) or sign_known(outside) == -1:
+    constant, changing = expand(linear.driven).as_independent(TIME, as_Add=True)
+    angle, sizes = _one_frequency(changing)
+    single = [size for size in sizes if size != 0]
+    is_static = constant == 0 or linear.c != 0
+    if not single or not is_static or len(single) == 1 and sign_known(single[0]) == -1:
         message = f"`steady_amplitude`: `{equation.key}` is not driven by a single force F cos(omega t), F > 0"
-        raise Rejected(Complaint("unknown-driving", message))
-    return outside, inside.args[0]
+        help_line = "the force may be F cos(omega t), F sin(omega t) or their sum, and may contain a constant"
+        raise Rejected(Complaint("unknown-driving", message, help=help_line))
+    static = tidied(constant / linear.c) if constant != 0 else ZERO
+    if len(single) == 1:
+        taken_positive(single[0])
+        return _Drive(single[0], angle, (Integer(sizes[0] != 0), Integer(sizes[1] != 0)), static)
+    force = tidied(sqrt(tidied(Add(*(size**2 for size in sizes)))))
+    return _Drive(force, angle, (sizes[0] / force, sizes[1] / force), static)
+
+
+def _one_frequency(force: Expr) -> tuple[Expr, tuple[Expr, Expr]]:
+    """Return omega t, and the factors of its cosine and sine; both factors are zero for any other force."""
+    angles = {f.args[0] for f in force.atoms(cos, sin) if depends_on_time(f)}
+    if len(angles) != 1:
+        return ZERO, (ZERO, ZERO)
+    (angle,) = angles
+    sizes = force.coeff(cos(angle)), force.coeff(sin(angle))
+    rest = expand(force - sizes[0] * cos(angle) - sizes[1] * sin(angle))
+    return (angle, sizes) if is_linear_in_time(angle) and rest == 0 else (ZERO, (ZERO, ZERO))
 
 
 QUALITY_FACTOR = Rule(

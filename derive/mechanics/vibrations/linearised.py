@@ -20,7 +20,7 @@ from derive.algebra.expressions import TIME, Relation, Terms, depends_on_time, e
 from derive.algebra.squares import with_squares
 from derive.algebra.taylor import slope
 from derive.algebra.tidy import tidied
-from derive.errors import Complaint, Rejected
+from derive.errors import Complaint, Rejected, Spelled
 from derive.mechanics.kinematics.coordinates import Coordinate, OfCoordinate
 from derive.mechanics.model.dalembert import Matter
 from derive.mechanics.rest.constrained_stability import constraints_of
@@ -37,6 +37,10 @@ from derive.witness.facts import Around, Rest
 __all__ = ["linearised"]
 
 ZERO = Integer(0)
+EQUILIBRIUM = Spelled(
+    "`equilibria` finds the equilibria",
+    "`at: rest` chooses the equilibrium with this name; the answer `equilibria` finds the equilibria",
+)
 MOST_TOLD = 2  # largest number of terms of higher order that a sentence can list
 
 
@@ -331,10 +335,10 @@ def _check_rest(equations: Sequence[Quantity], moving: Sequence[Coordinate], pla
         left = lasting(_at_rest(value, moving, place))
         if left.has(nan, zoo):
             message = f"`{equation.key}` has no value at {where}, where a distance or a denominator is zero"
-            raise Rejected(Complaint("no-equilibrium", message, help="`equilibria` finds the equilibria"))
+            raise Rejected(Complaint("no-equilibrium", message, help=EQUILIBRIUM))
         if not is_zero(left):
             message = f"`{equation.key}` does not hold at rest at {where}: one side minus the other is {left}, not 0"
-            raise Rejected(Complaint("no-equilibrium", message, help="`equilibria` finds the equilibria"))
+            raise Rejected(Complaint("no-equilibrium", message, help=EQUILIBRIUM))
 
 
 def lasting(value: Expr) -> Expr:

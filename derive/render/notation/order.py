@@ -157,7 +157,7 @@ def ordered_factors(
 ) -> list[Expr]:
     """Return the factors of a product in the order of print; `moving` has the names of all symbols, as in
     `ordered_terms`."""
-    ranked = sorted(factors, key=lambda f: rank_of_factor(f, dimension_of))
+    ranked = sorted(factors, key=lambda f: rank_of_factor(f, dimension_of, moving))
     ordered = _cyclic(_rates_in_order(ranked, dimension_of, moving), dimension_of)
     return _coordinates_last(ordered, dimension_of, moving)
 
@@ -182,7 +182,7 @@ def _coordinates_last(
 ) -> list[Expr]:
     """Write a coordinate, or a sum with coordinates, after a force, a constant sum or a constant frequency:
     omega_0^2 x, not x omega_0^2."""
-    places = [rank_of_factor(factor, dimension_of)[:2] for factor in factors]
+    places = [rank_of_factor(factor, dimension_of, moving)[:2] for factor in factors]
     constant = [p == (0, Place.FORCE) or not _moves(f, moving) for f, p in zip(factors, places, strict=True)]
     is_late = [place in LATE and fixed for place, fixed in zip(places, constant, strict=True)]
     last = max((i for i, late in enumerate(is_late) if late), default=0)
@@ -215,8 +215,11 @@ def _cyclic(factors: list[Expr], dimension_of: Callable[[Any], Dimension | None]
     return factors
 
 
-def rank_of_factor(factor: Expr, dimension_of: Callable[[Any], Dimension | None]) -> tuple[int, int, int, str]:
-    """Return the rank by which factors are sorted: first symbols in the order of `Place`, then functions.
+def rank_of_factor(
+    factor: Expr, dimension_of: Callable[[Any], Dimension | None], moving: Collection[str] = ()
+) -> tuple[int, int, int, str]:
+    """Return the rank by which factors are sorted: first symbols in the order of `Place`, then functions. A coordinate
+    with the name of a coefficient, such as the angle beta, is not a coefficient.
 
     Functions are in the order of their angles in the Greek alphabet, and the sine of an angle precedes its cosine:
     sin a cos a sin b.
@@ -229,7 +232,8 @@ def rank_of_factor(factor: Expr, dimension_of: Callable[[Any], Dimension | None]
         if isinstance(base, Symbol) and (base.name.endswith(RATE_ENDS) or base == ex.TIME):
             return 0, Place.CHANGING, 0, str(base)
         is_bare = str(base) == ANGULAR_RATE  # 2 omega_0 omega, because omega is the rate that varies
-        return 0, _place_of_letter(base, dimension_of), 0 if is_bare else -1, str(base)
+        place = rank_of_dimension(dimension_of(base)) if _moves(base, moving) else _place_of_letter(base, dimension_of)
+        return 0, place, 0 if is_bare else -1, str(base)
     if isinstance(base, exp):
         return 0, Place.EXPONENTIAL, 1, str(factor)
     if isinstance(base, Add | ex.Terms):

@@ -9,6 +9,7 @@ from sympy import Expr, Integer, Symbol
 from derive.algebra.expressions import explicit
 from derive.errors import Complaint, Rejected
 from derive.mechanics import Coordinate, put_in, solved_for
+from derive.mechanics.lagrange.constraint_forces import positions_kept
 from derive.steps.step import Quantity
 
 
@@ -21,10 +22,12 @@ def rest_with_forces(
     coordinates   the coordinates by name, in the order of `motions`
     forces        the symbols of the constraint forces
 
-    With static friction, the result may be the forces as functions of the position.
+    With static friction, the result may be the forces as functions of the position. Coordinates that the constraints
+    together keep constant have their constant values.
     Errors: the static equations do not determine the unknowns.
     """
-    still = [_still(name, motion, coordinates) for name, motion in zip(coordinates, motions, strict=True)]
+    kept = positions_kept(motions[0])
+    still = [_still(name, motion, coordinates, kept) for name, motion in zip(coordinates, motions, strict=True)]
     present = {s for each in still for s in explicit(each.value).free_symbols}
     unknown = [s for s in forces if s in present]
     if len(unknown) > len(still):
@@ -42,8 +45,8 @@ def rest_with_forces(
     return solved_for(tuple(still), *unknown, keys=[f"rest_{s.name}" for s in unknown])
 
 
-def _still(name: str, motion: Quantity, coordinates: Mapping[str, Coordinate]) -> Quantity:
+def _still(name: str, motion: Quantity, coordinates: Mapping[str, Coordinate], kept: Mapping[Symbol, Expr]) -> Quantity:
     held = {s.name for s in explicit(motion.value).free_symbols}
     moving = [s for q in coordinates.values() for s in (q.rate, q.acceleration) if s.name in held]
-    values: dict[str, Expr] = {s.name: Integer(0) for s in moving}
+    values = {s.name: Integer(0) for s in moving} | {q.name: value for q, value in kept.items() if q.name in held}
     return put_in(motion, key=f"still_{name}", **values) if values else motion

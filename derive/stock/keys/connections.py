@@ -12,6 +12,7 @@ from derive.course.expression import Declared
 from derive.course.schema import (
     SCALAR,
     TEXT,
+    YES_OR_NO,
     Reader,
     Record,
     key,
@@ -469,6 +470,7 @@ class DashpotKeys(Record):
     constant: Tree = key("its damping constant, the force per relative speed", SCALAR, required=True)
     start: WrittenPlace = key("one end", PLACE, called="from", required=True)
     end: WrittenPlace = key("the other end", PLACE, called="to", required=True)
+    massless: bool = key("`true` if it may end at a massless joint, such as its joint with a spring", YES_OR_NO)
 
     def symbols(self, axes: str) -> list[Word]:
         return []
@@ -476,7 +478,7 @@ class DashpotKeys(Record):
     def part(self, known: Connected) -> Deferred[Any]:
         constant = known.letters.value(self.constant, "constant", "damping constant")
         of = (constant, _end(self.start, known, "from"), _end(self.end, known, "to"))
-        return Deferred(dashpot, of, place=self.places[""])
+        return Deferred(dashpot, of, {"massless": self.massless}, place=self.places[""])
 
 
 def wire_on(name: Word, known: Connected) -> Deferred[Any]:

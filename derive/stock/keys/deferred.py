@@ -77,7 +77,10 @@ class Material:
             message = f"`{self.body}` is a particle, so it has no point `{self.point}`"
             raise Rejected(Complaint("no-such-point", message, help=f"write `{self.body}`"))
         found = body.place_of(self.point)
-        return found if self.by is None else found + self.by
+        if self.by is None:
+            return found
+        place = found + self.by
+        return PointOfBody(place.components, body=body) if body.carries(self.by) else place
 
 
 def made(given: Any, known: Mapping[str, Any]) -> Any:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from sympy import sin, symbols
+from sympy import cos, sin, symbols
 
 from derive.algebra.equality import equal
 from derive.mechanics.answers import linear_equations as solving
@@ -77,3 +77,29 @@ parts:
 
 def test_four_forces_on_one_body_in_a_plane_are_not_determined(tmp_path: Path) -> None:
     assert "3 static equations do not determine the 4 forces K, G, N, F" in messages(tmp_path, LADDER)[0]
+
+
+LAMP = """\
+title: A lamp on two strings
+solve: system
+symbols: {m: mass, a: length, b: length, g: acceleration, alpha: 'angle in (0, pi/2)', beta: 'angle in (0, pi/2)'}
+given:
+  coordinates: {x: length, y: length}
+  particles: {lamp: {mass: m, at: [x, y]}}
+  strings:
+    - {from: [-a*cos(alpha), a*sin(alpha)], to: lamp, length: a, tension: S_1}
+    - {from: [b*cos(beta), b*sin(beta)], to: lamp, length: b, tension: S_2}
+  gravity: g
+statement: A lamp hangs on two strings.
+parts:
+  - ask: Find the tensions.
+    answer: equilibria
+"""
+
+
+def test_two_strings_keep_a_lamp_at_one_place(tmp_path: Path) -> None:
+    """S_1 cos(alpha) = S_2 cos(beta) and S_1 sin(alpha) + S_2 sin(beta) = m g."""
+    beta = symbols("beta", positive=True)
+    steps = solved(tmp_path, LAMP)
+    assert equal(steps["rest_S_1"].value, m * g * cos(beta) / sin(alpha + beta))
+    assert equal(steps["rest_S_2"].value, m * g * cos(alpha) / sin(alpha + beta))

@@ -1,0 +1,113 @@
+"""Coordinates and rates that several constraints together keep constant.
+
+Two contacts of one body with a floor keep its angle and its height constant, although each contact alone relates the
+two. Two strings keep a particle at one place of a plane. Static friction in two directions keeps two rates zero.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import combinations
+
+from sympy import Add, Expr, Integer, Matrix, Poly, Pow, Rational, S, Symbol, cos, linsolve, sin, sqrt
+from sympy.polys.polyerrors import PolynomialError
+
+from derive.algebra.derivatives import derivative
+from derive.algebra.expressions import depends_on_time, rate
+from derive.algebra.tidy import tidied
+from derive.steps.signs import sign_known
+from derive.steps.step import is_zero
+
+ZERO = Integer(0)
+MOST = 4  # greatest number of constraints that are compared in pairs
+
+
+def fixed_together(residuals: Sequence[Expr], moving: Sequence[Symbol]) -> dict[Symbol, Expr]:
+    """Return coordinate -> its constant value, for coordinates that at least two of the constraints fix together.
+
+    residuals   f of each constraint f = 0 between coordinates
+    moving      all coordinates
+
+    Coordinates are zero if the constraints hold there and fix them. Otherwise sums and differences of two constraints
+    are examined, because they may contain a single coordinate. If this coordinate has a single admissible value, it is
+    fixed; an angle whose sine vanishes is taken to be zero. The result is empty unless the values satisfy exactly as
+    many constraints as there are values.
+    """
+    if not 1 < len(residuals) <= MOST or any(map(depends_on_time, residuals)):
+        return {}
+    if zero := _all_zero(residuals, moving):
+        return zero
+    found: dict[Symbol, Expr] = {}
+    while (new := _next(residuals, found, moving)) is not None:
+        found[new[0]] = new[1]
+    satisfied = [f for f in residuals if is_zero(f.xreplace(found)) and not f.free_symbols.isdisjoint(found)]
+    return found if len(satisfied) == len(found) > 1 else {}
+
+
+def _all_zero(residuals: Sequence[Expr], moving: Sequence[Symbol]) -> dict[Symbol, Expr]:
+    """Return as many coordinates as there are constraints, all zero, if the constraints hold there for all values of
+    the other coordinates and are independent."""
+    inside = [q for q in moving if any(f.has(q) for f in residuals)]
+    for some in combinations(inside, len(residuals)):
+        zero = dict.fromkeys(some, ZERO)
+        if any(q.is_positive for q in some) or not all(is_zero(f.xreplace(zero)) for f in residuals):
+            continue
+        if not is_zero(Matrix(list(residuals)).jacobian(list(some)).xreplace(zero).det()):
+            return zero
+    return {}
+
+
+def rates_at_rest(residuals: Sequence[Expr], moving: Sequence[Symbol]) -> dict[Symbol, Expr]:
+    """Return rate -> 0, for the rates that vanish if all these constraints between rates hold."""
+    rates = [rate(q) for q in moving if any(f.has(rate(q)) for f in residuals)]
+    if not 1 < len(residuals) == len(rates):
+        return {}
+    (solved,) = linsolve(list(residuals), rates) or [()]
+    return dict.fromkeys(rates, ZERO) if solved and all(is_zero(value) for value in solved) else {}
+
+
+def _next(residuals: Sequence[Expr], found: dict[Symbol, Expr], moving: Sequence[Symbol]) -> tuple[Symbol, Expr] | None:
+    for f in _combined([each.xreplace(found) for each in residuals]):
+        inside = [q for q in moving if f.has(q)]
+        if len(inside) == 1 and (value := _only_root(f, inside[0])) is not None:
+            return inside[0], value
+    return None
+
+
+def _combined(residuals: Sequence[Expr]) -> Iterator[Expr]:
+    """Yield the constraints without a root of a sum, and their sums and differences in pairs."""
+    forms = [_without_root(f) for f in residuals]
+    yield from forms
+    for one, other in combinations(forms, 2):
+        yield tidied((one - other).expand())
+        yield tidied((one + other).expand())
+
+
+def _without_root(f: Expr) -> Expr:
+    """Return a^2 - b^2 S in place of a + b sqrt(S)."""
+    roots = [p for p in f.atoms(Pow) if p.exp == Rational(1, 2) and p.base.is_Add]
+    if len(roots) != 1:
+        return f.expand()
+    mark = Symbol("mark")
+    marked = f.xreplace({roots[0]: mark})
+    b = derivative(marked, mark)
+    a = marked.xreplace({mark: ZERO})
+    return (a**2 - b**2 * roots[0].base).expand() if not b.has(mark) else f.expand()
+
+
+def _only_root(f: Expr, q: Symbol) -> Expr | None:
+    """Return the only admissible zero of a function of one coordinate; zero for a multiple of its sine."""
+    if f.has(sin(q), cos(q)):
+        return ZERO if not tidied(f / sin(q)).has(q) else None
+    try:
+        c = Poly(f, q).all_coeffs()
+    except PolynomialError:
+        return None
+    if len(c) == 2:
+        return tidied(-c[1] / c[0])
+    if len(c) != 3:
+        return None
+    half = sqrt(tidied(c[1] ** 2 - 4 * c[0] * c[2]))
+    roots = {tidied(Add(-c[1], sign * half) / (2 * c[0])) for sign in (1, -1)}
+    admissible = [r for r in roots if not (q.is_positive and sign_known(r) in (0, -1)) and r.is_real is not False]
+    return admissible[0] if len(admissible) == 1 and admissible[0] is not S.NaN else None
