@@ -29,7 +29,7 @@ from derive.documents.layout import Cue, Document, Row, Statement
 from derive.documents.meaning import Meaning, Meaningless, Value
 from derive.documents.parser import Unreadable, parsed
 from derive.documents.source import Span
-from derive.documents.syntax import Add, Cases, Int, Letter, Mat, Node, Open, Text
+from derive.documents.syntax import Add, Cases, Int, Letter, Mat, Mul, Node, Open, Sum, Text
 
 SECONDS = 3.0  # seconds of processor time for one claim
 LEAST_SECONDS = 0.4  # the limit for a claim once a document has used much time
@@ -364,6 +364,8 @@ class _Auditor:
             self.compare_repeated(claim, left_side, first)
         if first.outcome is Outcome.DIFFERS and (reason := self.unstated(claim)):
             return Verdict(Outcome.UNDECIDED, reason)
+        if first.outcome is Outcome.DIFFERS and has_implied_sum(left_side, claim.right):
+            return Verdict(Outcome.UNDECIDED, "sums over a repeated index are compared only as they are written")
         if first.outcome is Outcome.DIFFERS and not first.suggestion:
             self.suggest(claim, left_side, first)
             if not first.suggestion and first.counterexample and self.loses_letters(claim):
@@ -393,6 +395,8 @@ class _Auditor:
         if any(isinstance(each, MatrixBase) for each in claim.values):
             return
         sides = [side for side in (claim.left, claim.right) if side is not None]
+        if has_implied_sum(*sides):
+            return
         if any(isinstance(each, Int) for side in sides for each in side.walk()):
             return  # a letter of an integrand may depend on the variable of integration
         if not claim.is_step and not claim.row.block.display:
@@ -802,6 +806,26 @@ class _Auditor:
         if claim.verdict.outcome is Outcome.HOLDS and not claim.verdict.given and not isinstance(left, Symbol):
             return  # an identity gives nothing new
         self.known.state(sympy.expand(left - right) if sympy.count_ops(left - right) < 600 else left - right, number)
+
+
+def has_implied_sum(*sides: Node) -> bool:
+    """Whether two factors of a product have the same letter as an index, as in a_i b_i: this may be a sum over it."""
+    for side in sides:
+        summed = {each.index.base for each in side.walk() if isinstance(each, Sum) and isinstance(each.index, Letter)}
+        for product in side.walk():
+            if isinstance(product, Mul):
+                found: Counter[str] = Counter()
+                for _, factor in product.factors:
+                    letters = [each for each in factor.walk() if isinstance(each, Letter)]
+                    found.update({index for each in letters for index in indices_of(each)} - summed)
+                if any(count > 1 for count in found.values()):
+                    return True
+    return False
+
+
+def indices_of(letter: Letter) -> list[str]:
+    written = re.findall(r"mu|nu|rho|sigma|alpha|beta|lambda|[a-z]", f"{letter.sub},{letter.label}")
+    return [each for each in written if len(each) > 1 or each in "ijkl"] if len(letter.sub) < 12 else []
 
 
 def same_letters(side: Node | None) -> Node | None:

@@ -161,8 +161,8 @@ def _lagrange_equations(value: Expr, meaning: Meaning) -> Iterator[tuple[Symbol,
         if rate is None or rate.dots != 1:
             continue
         place = meaning.symbol(replace(rate, dots=0))
-        momentum_rate = meaning.differentiated(sympy.diff(value, symbol), time, False)
-        yield place, sympy.expand(momentum_rate - sympy.diff(value, place))
+        momentum_rate = meaning.differentiated(meaning.differentiated(value, symbol, True), time, False)
+        yield place, sympy.expand(momentum_rate - meaning.differentiated(value, place, True))
 
 
 def motion(known: Known, meaning: Meaning) -> Iterator[tuple[Expr, tuple[int, ...], str]]:
@@ -184,8 +184,8 @@ def motion(known: Known, meaning: Meaning) -> Iterator[tuple[Expr, tuple[int, ..
             place = meaning.symbol(Letter(momentum.span, momentum.sub))
             rate_of_place = meaning.symbol(Letter(momentum.span, momentum.sub, dots=1))
             rate_of_p = meaning.symbol(replace(momentum, dots=1))
-            yield rate_of_place - sympy.diff(value, p), claims, "Hamilton's equations"
-            yield rate_of_p + sympy.diff(value, place), claims, "Hamilton's equations"
+            yield rate_of_place - meaning.differentiated(value, p, True), claims, "Hamilton's equations"
+            yield rate_of_p + meaning.differentiated(value, place, True), claims, "Hamilton's equations"
 
 
 def root_equation(letter: Symbol, meaning: Meaning, known: Known) -> tuple[Symbol, Expr, int] | None:

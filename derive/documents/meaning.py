@@ -495,7 +495,9 @@ class Meaning:
 
     def is_variable(self, identity: Any, symbol: Symbol) -> bool:
         letter = self.symbols.get(symbol)
-        return letter is not None and letter.identity == identity
+        if letter is None:
+            return False
+        return letter.identity == identity or (bool(letter.label) and letter.base == identity[0])
 
     def differentiated(self, value: Any, by: Symbol, partial: bool) -> Any:
         if isinstance(value, MatrixBase):
@@ -550,8 +552,12 @@ class Meaning:
                 return Symbol(f"d({symbol})/d{by}", real=True)
             others = self.summed(self.differentiated(term, by, partial), index, bounds)
             return others + self.of_member(term, index, by)
+        if symbol in self.evaluations:
+            return self.rate_at_place(symbol, by, partial)
         if symbol in self.derivatives:
             letter, already, was_partial = self.derivatives[symbol]
+            if partial and self.facts.is_variable(letter):
+                return Integer(0)
             if by.name == "t" or any(self.is_variable(each, by) for each in self.facts.variables_of(letter)):
                 if len(already) == 1 and already[0][0] == by:
                     return self.derivative_symbol(letter, ((by, already[0][1] + 1),), was_partial)
@@ -567,9 +573,26 @@ class Meaning:
             if self.facts.changes(found):
                 return self.symbol(_replaced(found, dots=found.dots + 1))
             return Integer(0)
+        if partial and (found.dots or self.facts.is_variable(found)):
+            return Integer(0)  # an independent variable of the function, such as y in F(y, y')
+        variable = self.symbols.get(by)
+        if variable is not None and variable.dots:
+            return Integer(0)
         if any(self.is_variable(each, by) for each in self.facts.variables_of(_replaced(found, primes=0, dots=0))):
             return self.derivative_symbol(found, ((by, 1),), partial)
         return Integer(0)
+
+    def rate_at_place(self, symbol: Symbol, by: Symbol, partial: bool) -> Expr:
+        """Return the derivative of a value such as U(1/u) by the chain rule; a symbol if U is not known."""
+        function, variable, at = self.evaluations[symbol]
+        if (rate := self.differentiated(at, by, partial)) == 0:
+            return Integer(0)
+        value = self.defined(function)
+        if value is not None and variable in value.free_symbols:
+            return self.differentiated(value, variable, partial).subs(variable, at) * rate
+        made = Symbol(f"d({symbol})/d{by}", real=True)
+        self.parents[made] = (symbol, by)
+        return made
 
     # Integrals
 
@@ -589,6 +612,8 @@ class Meaning:
                 letter = _inner_letter(item.of)
                 if letter is None or item.order != 1:
                     raise Meaningless("this differential has no single variable", item.span)
+                if self.facts.is_vector(letter, self.scope):
+                    raise Meaningless("an integral along a path or over a surface is not evaluated", item.span)
                 pairs[open_signs.pop()] = self.symbol(letter)
             else:
                 nodes.append(item)
