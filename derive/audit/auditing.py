@@ -25,7 +25,7 @@ from derive.audit.systems import expanded, root_equation
 from derive.audit.time_limit import FAULTS, LimitReached, time_limited
 from derive.documents.choices import Choice, readings
 from derive.documents.facts import Facts, Identity, facts_of, shape_of
-from derive.documents.layout import Cue, Document, Row, Statement
+from derive.documents.layout import PROBLEM_WORDS, Cue, Document, Row, Statement
 from derive.documents.meaning import Meaning, Meaningless, Value
 from derive.documents.parser import Unreadable, parsed
 from derive.documents.source import Span
@@ -47,7 +47,7 @@ _BRACKETS = re.compile(
     r"\bPoisson|\bcommutator|\bcommut(?:e|es)\b|\binner product|\bHilbert|\bHermitian|\badjoint", re.IGNORECASE
 )
 _CONSTANT = re.compile(r"[ck]onst|c(?:st|te)\b", re.IGNORECASE)
-_NEW_SCOPE = re.compile(r"\b(problem|exercise|question|aufgabe|example)\b", re.IGNORECASE)
+_NEW_SCOPE = re.compile(PROBLEM_WORDS, re.IGNORECASE)
 
 
 @dataclass
@@ -812,10 +812,10 @@ def has_implied_sum(*sides: Node) -> bool:
     """Whether two factors of a product have the same letter as an index, as in a_i b_i: this may be a sum over it."""
     for side in sides:
         summed = {each.index.base for each in side.walk() if isinstance(each, Sum) and isinstance(each.index, Letter)}
-        for product in side.walk():
-            if isinstance(product, Mul):
+        for node in side.walk():
+            if isinstance(node, Mul):
                 found: Counter[str] = Counter()
-                for _, factor in product.factors:
+                for _, factor in node.factors:
                     letters = [each for each in factor.walk() if isinstance(each, Letter)]
                     found.update({index for each in letters for index in indices_of(each)} - summed)
                 if any(count > 1 for count in found.values()):

@@ -197,10 +197,16 @@ _OPENING = re.compile(
     r"\\begin\{(?P<env>[A-Za-z]+)(?P<star>\*?)\}|(?P<dollars>(?<!\\)\$\$)|(?P<dollar>(?<!\\)\$)"
     r"|(?P<bracket>(?<!\\)\\\[)|(?P<paren>(?<!\\)\\\()"
 )
+PROBLEM_WORDS = (
+    r"\b(?:problem|problema|problème|exercise|ejercicio|exercício|esercizio|exercice|question|aufgabe|example|beispiel"
+    r"|ejemplo|esempio|exemple|opgave|oppgave|uppgift|zadanie|задача|упражнение|пример)s?\b|[第例]\s*\w*\s*题|例題|問題|문제"
+)
 _HEADING = re.compile(
     r"^(?P<marks>\#{1,6})[ \t]+(?P<words>[^\n]+)|\\(?P<level>part|chapter|section|subsection|subsubsection|paragraph)"
-    r"\*?(?:\[[^\]]*\])?\{(?P<title>[^\n]*)\}|^\s*\\begin\{(?P<problem>problem|exercise|question|solution|example)\}",
-    re.MULTILINE,
+    r"\*?(?:\[[^\]]*\])?\{(?P<title>[^\n]*)\}|^\s*\\begin\{(?P<problem>problem|exercise|question|solution|example)\}"
+    r"|^\s*\\begin\{(?P<numbered>proof)\}[\[{](?:\\textbf\{)?[^\n\]}]*\d"
+    rf"|^\s*(?:\*\*|__|(?:\\noindent\s*)?\\textbf\{{)\s*(?P<bold>(?:{PROBLEM_WORDS})[^\n*}}]*)",
+    re.MULTILINE | re.IGNORECASE,
 )
 _PART = re.compile(
     r"\\item\b|\\begin\{(?:solution|proof|problem|exercise|example)\}|^[ \t]*\*\*\w+"
@@ -255,8 +261,10 @@ def _skipped(text: str) -> Iterator[Span]:
 def _title(found: re.Match[str]) -> tuple[str, int]:
     if found["marks"]:
         return found["words"].strip(), len(found["marks"])
-    if found["problem"]:
-        return found["problem"], 3
+    if found["problem"] or found["bold"]:
+        return found["problem"] or found["bold"], 3
+    if found["numbered"]:
+        return "problem", 3
     return found["title"], _LEVELS[found["level"]]
 
 
