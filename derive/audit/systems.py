@@ -17,6 +17,7 @@ from derive.audit.fingerprint import CLOSE, is_zero
 from derive.audit.knowledge import LAST_EQUATIONS, Known
 from derive.audit.numeric import Numbers, at, determined, spanned
 from derive.audit.time_limit import FAULTS
+from derive.documents.facts import VARIABLES
 from derive.documents.meaning import Meaning
 from derive.documents.source import Span
 from derive.documents.syntax import Letter
@@ -194,6 +195,8 @@ def root_equation(letter: Symbol, meaning: Meaning, known: Known) -> tuple[Symbo
     named = meaning.symbols.get(letter)
     if named is None or not named.sub or named.dots or named.marks or named.base == "t":
         return None
+    if named.sub in VARIABLES:
+        return None  # a component, such as v_r or v_theta
     plain = meaning.symbol(replace(named, sub=""))
     for value, number in reversed(known.equations[-MOST_EQUATIONS:]):
         if plain not in value.free_symbols or number in known.conditions or value.has(Integral):

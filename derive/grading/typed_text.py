@@ -31,7 +31,9 @@ TYPED_FUNCTIONS = {name: name for name in FUNCTIONS if name not in ("arg", "det"
 GREEK_WORDS = {*GREEK, "infty"} - {"ell", "Re", "Im", "wp", "imath", "jmath"}
 _COMMENT = re.compile(r"\b(?:where|with|because|since|for|when|if)\b(?!\s*\})")
 
-_DEFINED = re.compile(r"[\s$]*\\?([^\W\d_]+)\s*(?:\^\{?2\}?\s*|²\s*)?=")  # the letter that an answer itself defines: `where I = ...`
+_DEFINED = re.compile(
+    r"[\s$]*\\?([^\W\d_]+)\s*(?:\^\{?2\}?\s*|²\s*)?="
+)  # the letter that an answer itself defines: `where I = ...`
 
 
 class Unread(Exception):

@@ -126,6 +126,8 @@ def test_a_row_that_follows_from_a_wrong_row_carries_its_slip_on() -> None:
         "$x_\\nu x^\\nu = s$, so $a = 4 x_\\nu x^\\nu - 2 x^\\nu x_\\nu = 2 x_\\nu x^\\nu$",
         "$$ T = \\frac12 m a^2 \\dot\\theta^2 $$\n\n$$ V = m g a \\cos\\theta $$\n\n$$ L = T - V $$\n\n"
         "$$ E = \\dot q_i \\frac{\\partial L}{\\partial \\dot q_i} - L = T + V $$",
+        "$$ \\frac12 m v^2 - \\frac{k}{R} = 0 $$\n\n$$ v_\\theta = \\sqrt{\\frac{k}{m R}} $$",
+        "# Notes\n\n**Problem 1**\n\n$$ m \\ddot x = -k x $$\n\n**Problem 2**\n\n$$ m \\ddot x = -2 k x $$",
         "$$ a = A_{ij} B_{jk} = B_{ij} A_{jk} $$",
         "$$ W = \\int_{\\mathbf{r}_0}^{\\mathbf{r}_1} \\mathbf{F}\\, d\\mathbf{r} = \\frac12 m v^2 $$",
         "$f(x) = x^2$, so $f(a+h) = a^2 + 2 a h + h^2$",
