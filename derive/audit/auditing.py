@@ -233,13 +233,13 @@ class _Auditor:
         search = min(seconds, SECONDS_OF_SEARCH)
         display, undecided = claim.row.block.display, claim.verdict.outcome is Outcome.UNDECIDED and not too_long
         if claim.verdict.outcome is Outcome.DEFINES or (undecided and display):
-            with suppress(LimitReached, RecursionError), time_limited(search):
+            with suppress(LimitReached, RecursionError, *FAULTS), time_limited(search):
                 self.accuse_if_near(claim, claim.verdict)
         failed = claim.verdict.outcome is Outcome.DIFFERS and claim.verdict.inherits is None
         if failed or (undecided and display and not self.may_be_special(claim)):
-            with suppress(LimitReached, RecursionError), time_limited(search):
+            with suppress(LimitReached, RecursionError, *FAULTS), time_limited(search):
                 self.fixes += self.fixes_before(claim)
-        with suppress(LimitReached, RecursionError), time_limited(seconds):
+        with suppress(LimitReached, RecursionError, *FAULTS), time_limited(seconds):
             self.remark(claim, claim.verdict)
             self.remember(claim)
         self.late += max(0.0, process_time() - begun - USUAL_SECONDS)

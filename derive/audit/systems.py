@@ -106,7 +106,10 @@ def expanded(
                 used.append(definition.claim)
         if not found:
             break
-        new = value.xreplace(found)
+        try:
+            new = value.xreplace(found)
+        except ValueError:  # a letter is the variable of an integral
+            return value, tuple(dict.fromkeys(used))
         if new.has(sympy.zoo, sympy.nan) or sympy.count_ops(new) > 4 * LARGEST:
             break
         value = new

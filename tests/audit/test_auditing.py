@@ -147,6 +147,14 @@ def test_a_potential_of_a_coordinate_is_differentiated() -> None:
     assert outcomes(text.replace("- \\frac{d U}", "+ \\frac{d U}", 1))[2] == "differs"
 
 
+def test_the_variable_of_an_integral_may_get_a_value() -> None:
+    text = (
+        "$$ \\begin{aligned} \\frac{k}{r^3} &= -\\frac{dV}{dr} \\\\ \\int dV &= -k \\int \\frac{dr}{r^3} \\\\"
+        "V &= \\frac{k}{2 r^2} \\end{aligned} $$\n\n$$ E = V + \\int dV $$\n\n$$ E = \\frac{k}{r^2} $$"
+    )
+    assert "differs" not in outcomes(text)
+
+
 def test_a_coordinate_stays_fixed_in_a_partial_derivative() -> None:
     text = (
         "The curve is $y(x)$.\n\n$$ F = y^2 + y'^2 $$\n\n$$ \\frac{\\partial F}{\\partial y} = 2 y $$\n\n"
