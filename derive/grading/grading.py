@@ -193,8 +193,10 @@ class _Grading:
 
     def solved_for_letter(self, statement: _Statement) -> _Statement:
         """Return `w = sqrt(g/l)` for `w^2 = g/l`, if the problem has no w."""
-        left = statement.first[0] if statement.relations == ("=",) and statement.read is not None else None
-        if left is None or not isinstance(left.value, sympy.Pow) or left.value.exp != 2:
+        if statement.read is None or statement.relations != ("=",):
+            return statement
+        left = statement.first[0]
+        if not isinstance(left.value, sympy.Pow) or left.value.exp != 2:
             return statement
         if left.value.base not in left.unknown or not isinstance(statement.last[0].value, Expr):
             return statement
@@ -206,7 +208,9 @@ class _Grading:
         """Return `x'' = a` and `y'' = -a` for the chain `x'' = -y'' = a`."""
         asked = [target.symbol for target in self.part.targets]
         found = [statement]
-        for side in statement.read.sides[1:-1] if statement.read is not None and statement.is_equation else ():
+        if statement.read is None or not statement.is_equation:
+            return found
+        for side in statement.read.sides[1:-1]:
             for sign, name in ((1, side[0].value), (-1, -side[0].value)):
                 if name in asked:
                     last = tuple(replace(each, value=sign * each.value) for each in statement.last)
