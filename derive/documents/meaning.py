@@ -171,9 +171,12 @@ class Meaning:
     def components(self, node: Letter, rows: int, columns: int) -> ImmutableDenseMatrix:
         plain = _replaced(node, marks=frozenset())
         if columns == 1:
-            return ImmutableDenseMatrix(
-                [self.symbol(_replaced(plain, sub=_indexed(node.sub, str(i + 1)))) for i in range(rows)]
-            )
+            entries = [_replaced(plain, sub=_indexed(node.sub, str(i + 1))) for i in range(rows)]
+            if variables := self.facts.variables_of(node):
+                self.facts.functions.update({each.identity: variables for each in entries})
+            if self.facts.changes(node):
+                self.facts.timed |= {(each.base, each.sub, each.marks, each.label) for each in entries}
+            return ImmutableDenseMatrix([self.symbol(each) for each in entries])
         return ImmutableDenseMatrix(rows, columns, lambda i, j: self.symbol(
             _replaced(plain, sub=_indexed(node.sub, f"{i + 1}{j + 1}"))
         ))  # fmt: skip
@@ -393,7 +396,9 @@ class Meaning:
 
     def of_apply(self, node: Apply) -> Any:
         head = node.head
-        if head.base == "O" and ("cal" in head.marks or self.facts.alone[head.identity] == 0) and not head.sub:
+        if head.base == "O" and not head.sub and (
+            "cal" in head.marks or self.facts.alone[head.identity] == 0 or isinstance(node.arguments[0], Pow)
+        ):  # fmt: skip
             return self.terms_left_out(node.arguments[0])
         own = self.facts.variables_of(_replaced(head, dots=0))
         if any(isinstance(each, Text) and each.text == "..." for each in node.arguments):
@@ -405,9 +410,9 @@ class Meaning:
             else:
                 values.append((None, argument))
         plain = [_letter_in(value) for _, value in values]
-        if all(letter is not None and (letter.identity in own or len(values) > 1) for letter in plain) and not any(
-            variable for variable, _ in values
-        ):
+        variables = all(letter is not None and (letter.identity in own or len(values) > 1) for letter in plain)
+        at_place = any(letter is not None and letter.sub and _whole(letter) in own for letter in plain)
+        if variables and not at_place and not any(variable for variable, _ in values):
             return self.function_letter(head)
         if self.facts.is_vector(head, self.scope):
             raise Meaningless("the value of a vector at an instant is not read", node.span)
@@ -660,9 +665,19 @@ class Meaning:
         lower, upper = (
             self.scalar(each.right if isinstance(each, Condition) else each) for each in (sign.lower, sign.upper)
         )
+        if any(self.depends(each, x) for each in value.free_symbols - {x}):
+            return Integral(value, (x, lower, upper))
         finite = not any(each.has(sympy.oo) for each in (value, lower, upper))
         found = definite(value, [(x, lower, upper)]) if finite else None
         return found if found is not None else Integral(value, (x, lower, upper))
+
+    def depends(self, symbol: Symbol, x: Symbol) -> bool:
+        """Whether an integrand contains a letter that the document writes as a function of the variable, without a
+        value."""
+        letter = self.symbols.get(symbol)
+        if letter is None or self.defined(symbol) is not None:
+            return False
+        return any(self.is_variable(each, x) for each in self.facts.variables_of(_replaced(letter, dots=0)))
 
     def of_diff(self, node: Diff) -> Any:
         letter = _inner_letter(node.of)
@@ -890,6 +905,11 @@ def _determinant(matrix: Any, span: Span) -> Any:
 
 def _indexed(sub: str, index: str) -> str:
     return f"{sub},{index}" if sub else index
+
+
+def _whole(letter: Letter) -> Any:
+    """Return the identity of a letter without its subscript: x for x_0."""
+    return _replaced(letter, sub="").identity
 
 
 def _letter_in(node: Node) -> Letter | None:

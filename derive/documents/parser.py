@@ -441,7 +441,20 @@ class _Reader:
         token, after = self.peek(), self.peek(1)
         if token is None:
             return False
+        if token.is_mark("[") and self.at and self.tokens[self.at - 1].kind is not Kind.CLOSE:
+            return self.closes_after_letter()  # a functional: `S[q]`
         return token.is_mark("(") or (token.is_command("left") and after is not None and after.is_mark("("))
+
+    def closes_after_letter(self) -> bool:
+        """Whether square brackets contain one letter with its marks and scripts."""
+        close = next((i for i in range(self.at, len(self.tokens)) if self.tokens[i].is_mark("]")), 0)
+        inner = self.tokens[self.at + 1 : close]
+        if not inner or len(inner) > 8 or any(each.kind is Kind.MARK for each in inner):
+            return False
+        try:
+            return isinstance(self.inside(inner, inner[0].span), Letter)
+        except Unreadable:
+            return False
 
     def maybe_applied(self, head: Letter) -> Node:
         group = self.bracketed()
@@ -883,7 +896,11 @@ class _Reader:
                         letter = replace(letter, primes=len(raised))
                     elif len(raised) == 1 and raised[0].text.isdigit():
                         order = int(raised[0].text)
-                    elif len(raised) == 1 and raised[0].text in GREEK and isinstance(letter, Letter):
+                    elif (
+                        len(raised) == 1
+                        and isinstance(letter, Letter)
+                        and (raised[0].text in GREEK or raised[0].kind is Kind.LETTER)
+                    ):
                         letter = replace(letter, label=reader.label(raised))
                     else:
                         return None
