@@ -88,7 +88,7 @@ class Cue(StrEnum):
 
 CUES = {
     Cue.APPROXIMATE: r"\bapproximat\w*|\bsmall\b|\bfirst order\b|\bsecond order\b|\blowest order\b|\bleading order\b"
-    r"|\bexpand\w*|\blineari[sz]\w*|\bneglect\w*|\bTaylor\b|\bignor\w+|\broughly\b|\babout\b|\bseries\b",
+    r"|\bexpand\w*|\blineari[sz]\w*|\bneglect\w*|\bTaylor\b|\bignor\w+|\broughly\b|\babout\s*(?:\$?[\d.]|$)|\bseries\b",
     Cue.DEFINED: r"\blet\b|\bdefin\w+|\bdenot\w+|\bcall\b|\bcalled\b|\bintroduc\w+"
     r"|\bchoose\b|\bwrite\b|\bset\b|\bsetting\b",
     Cue.GIVEN: r"\bassum\w+|\bsuppos\w+|\bgiven\b|\bconsider\b|\bif\b|\bwhen\b|\bfor\b|\bat\b"

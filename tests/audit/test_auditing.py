@@ -159,6 +159,12 @@ def test_the_variable_of_an_integral_may_get_a_value() -> None:
     assert "differs" not in outcomes(text)
 
 
+def test_a_moment_about_an_axis_is_not_an_approximation() -> None:
+    text = "The moment of inertia about the end is\n\n$$ I = \\int_0^l \\lambda x^2\\, dx = \\frac12 \\lambda l^3 $$"
+    assert outcomes(text) == ["defines", "differs"]
+    assert outcomes("It is about $$ a = \\sin x = x $$") == ["defines", "approximates"]
+
+
 def test_a_coordinate_stays_fixed_in_a_partial_derivative() -> None:
     text = (
         "The curve is $y(x)$.\n\n$$ F = y^2 + y'^2 $$\n\n$$ \\frac{\\partial F}{\\partial y} = 2 y $$\n\n"
