@@ -643,7 +643,8 @@ class Meaning:
         for each in factors:
             value = self.times(value, each, "", node.span) if isinstance(value, MatrixBase) else value * each
         for index, sign in reversed(signs):
-            value = self.integrated(value, pairs[index], sign)
+            around = {*self.variables, *pairs.values()} - {pairs[index]}
+            value = self.integrated(value, pairs[index], sign, around)
         return value
 
     def along_variables(self, value: Any, variables: set[Symbol]) -> Any:
@@ -655,15 +656,16 @@ class Meaning:
                 found[symbol] = definition
         return value.xreplace(found) if found else value
 
-    def integrated(self, value: Any, x: Symbol, sign: Sign) -> Any:
+    def integrated(self, value: Any, x: Symbol, sign: Sign, around: set[Symbol]) -> Any:
         if isinstance(value, MatrixBase):
-            return value.applyfunc(lambda each: self.integrated(each, x, sign))
+            return value.applyfunc(lambda each: self.integrated(each, x, sign, around))
         if sign.lower is None and sign.upper is None:
             return Integral(value, x)
         if sign.lower is None or sign.upper is None or sign.closed:
             raise Meaningless("this integral has no limits that can be substituted", sign.span)
         lower, upper = (
-            self.scalar(each.right if isinstance(each, Condition) else each) for each in (sign.lower, sign.upper)
+            self.along_variables(self.scalar(each.right if isinstance(each, Condition) else each), around)
+            for each in (sign.lower, sign.upper)
         )
         if any(self.depends(each, x) for each in value.free_symbols - {x}):
             return Integral(value, (x, lower, upper))

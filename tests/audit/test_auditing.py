@@ -165,6 +165,14 @@ def test_a_moment_about_an_axis_is_not_an_approximation() -> None:
     assert outcomes("It is about $$ a = \\sin x = x $$") == ["defines", "approximates"]
 
 
+def test_the_limit_of_an_inner_integral_may_depend_on_the_outer_variable() -> None:
+    text = (
+        "The radius is $r = R z/h$. The volume is\n\n"
+        "$$ V = \\int_0^h \\int_0^r 2 \\pi s\\, ds\\, dz = \\int_0^h \\pi r^2\\, dz $$"
+    )
+    assert outcomes(text)[-1] == "holds"
+
+
 def test_a_coordinate_stays_fixed_in_a_partial_derivative() -> None:
     text = (
         "The curve is $y(x)$.\n\n$$ F = y^2 + y'^2 $$\n\n$$ \\frac{\\partial F}{\\partial y} = 2 y $$\n\n"
