@@ -358,6 +358,10 @@ class _Reading:
             row.fault = (str(error), error.span)
             return
         for cells, tag, label in rows_of(tokens):
+            last = "".join(each.text for each in without_spaces(cells[-1]))
+            if len(cells) > 1 and re.fullmatch(r"\(\d+\w?\)", last):  # the number of an equation in its own cell
+                tag = tag or last[1:-1]
+                del cells[-1]
             flat = [token for cell in cells for token in cell]
             if not without_spaces(flat):
                 continue
