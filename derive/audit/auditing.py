@@ -25,11 +25,11 @@ from derive.audit.systems import expanded, root_equation
 from derive.audit.time_limit import FAULTS, LimitReached, time_limited
 from derive.documents.choices import Choice, readings
 from derive.documents.facts import Facts, Identity, facts_of, shape_of
-from derive.documents.layout import Cue, Document, Row, Statement
+from derive.documents.layout import PROBLEM_WORDS, Cue, Document, Row, Statement
 from derive.documents.meaning import Meaning, Meaningless, Value
 from derive.documents.parser import Unreadable, parsed
 from derive.documents.source import Span
-from derive.documents.syntax import Add, Cases, Int, Letter, Mat, Node, Open, Text
+from derive.documents.syntax import Add, Cases, Int, Letter, Mat, Mul, Node, Open, Sum, Text
 
 SECONDS = 3.0  # seconds of processor time for one claim
 LEAST_SECONDS = 0.4  # the limit for a claim once a document has used much time
@@ -47,7 +47,7 @@ _BRACKETS = re.compile(
     r"\bPoisson|\bcommutator|\bcommut(?:e|es)\b|\binner product|\bHilbert|\bHermitian|\badjoint", re.IGNORECASE
 )
 _CONSTANT = re.compile(r"[ck]onst|c(?:st|te)\b", re.IGNORECASE)
-_NEW_SCOPE = re.compile(r"\b(problem|exercise|question|aufgabe|example)\b", re.IGNORECASE)
+_NEW_SCOPE = re.compile(PROBLEM_WORDS, re.IGNORECASE)
 
 
 @dataclass
@@ -233,13 +233,13 @@ class _Auditor:
         search = min(seconds, SECONDS_OF_SEARCH)
         display, undecided = claim.row.block.display, claim.verdict.outcome is Outcome.UNDECIDED and not too_long
         if claim.verdict.outcome is Outcome.DEFINES or (undecided and display):
-            with suppress(LimitReached, RecursionError), time_limited(search):
+            with suppress(LimitReached, RecursionError, *FAULTS), time_limited(search):
                 self.accuse_if_near(claim, claim.verdict)
         failed = claim.verdict.outcome is Outcome.DIFFERS and claim.verdict.inherits is None
         if failed or (undecided and display and not self.may_be_special(claim)):
-            with suppress(LimitReached, RecursionError), time_limited(search):
+            with suppress(LimitReached, RecursionError, *FAULTS), time_limited(search):
                 self.fixes += self.fixes_before(claim)
-        with suppress(LimitReached, RecursionError), time_limited(seconds):
+        with suppress(LimitReached, RecursionError, *FAULTS), time_limited(seconds):
             self.remark(claim, claim.verdict)
             self.remember(claim)
         self.late += max(0.0, process_time() - begun - USUAL_SECONDS)
@@ -364,6 +364,8 @@ class _Auditor:
             self.compare_repeated(claim, left_side, first)
         if first.outcome is Outcome.DIFFERS and (reason := self.unstated(claim)):
             return Verdict(Outcome.UNDECIDED, reason)
+        if first.outcome is Outcome.DIFFERS and has_implied_sum(left_side, claim.right):
+            return Verdict(Outcome.UNDECIDED, "sums over a repeated index are compared only as they are written")
         if first.outcome is Outcome.DIFFERS and not first.suggestion:
             self.suggest(claim, left_side, first)
             if not first.suggestion and first.counterexample and self.loses_letters(claim):
@@ -393,6 +395,8 @@ class _Auditor:
         if any(isinstance(each, MatrixBase) for each in claim.values):
             return
         sides = [side for side in (claim.left, claim.right) if side is not None]
+        if has_implied_sum(*sides):
+            return
         if any(isinstance(each, Int) for side in sides for each in side.walk()):
             return  # a letter of an integrand may depend on the variable of integration
         if not claim.is_step and not claim.row.block.display:
@@ -800,6 +804,26 @@ class _Auditor:
         if claim.verdict.outcome is Outcome.HOLDS and not claim.verdict.given and not isinstance(left, Symbol):
             return  # an identity gives nothing new
         self.known.state(sympy.expand(left - right) if sympy.count_ops(left - right) < 600 else left - right, number)
+
+
+def has_implied_sum(*sides: Node) -> bool:
+    """Whether two factors of a product have the same letter as an index, as in a_i b_i: this may be a sum over it."""
+    for side in sides:
+        summed = {each.index.base for each in side.walk() if isinstance(each, Sum) and isinstance(each.index, Letter)}
+        for node in side.walk():
+            if isinstance(node, Mul):
+                found: Counter[str] = Counter()
+                for _, factor in node.factors:
+                    letters = [each for each in factor.walk() if isinstance(each, Letter)]
+                    found.update({index for each in letters for index in indices_of(each)} - summed)
+                if any(count > 1 for count in found.values()):
+                    return True
+    return False
+
+
+def indices_of(letter: Letter) -> list[str]:
+    written = re.findall(r"mu|nu|rho|sigma|alpha|beta|lambda|[a-z]", f"{letter.sub},{letter.label}")
+    return [each for each in written if len(each) > 1 or each in "ijkl"] if len(letter.sub) < 12 else []
 
 
 def same_letters(side: Node | None) -> Node | None:

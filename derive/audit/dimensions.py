@@ -24,7 +24,8 @@ USUAL = {  # the powers of mass, length and time
     "x": (0, 1, 0), "y": (0, 1, 0), "z": (0, 1, 0), "r": (0, 1, 0), "omega": (0, 0, -1), "T": (1, 2, -2),
     "U": (1, 2, -2),
 }  # fmt: skip
-LESS_USUAL = ("l", "T", "R")  # these may also name an angular momentum; a period or a tension; a resultant force
+# These may also name an angular momentum; a period or a tension; a resultant force; a ratio of lengths.
+LESS_USUAL = ("l", "T", "R", "x", "y", "z", "r")
 MOST_CANDIDATES = 12
 FEWEST_CLAIMS = 6
 Form = dict[str, Fraction]  # the exponents of the letters in a product

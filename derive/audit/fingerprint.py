@@ -51,35 +51,58 @@ def _number_at(point: int, letter: Symbol) -> complex:
     return number_of(letter.name, point)
 
 
-def at(value: Expr, number: Callable[[Symbol], complex]) -> complex:
+Number = Callable[[Symbol], complex]  # returns the number of a letter
+
+
+def at(value: Expr, number: Number) -> complex:
     """Return the number of an expression; `number` returns the number of each letter."""
-    if value.is_Symbol:
-        return number(value)
-    if value.is_Number or value.is_NumberSymbol:
-        return complex(value)
-    if value.is_Add:
-        return sum((at(each, number) for each in value.args), 0j)
-    if value.is_Mul:
-        result = 1 + 0j
-        for each in value.args:
-            result *= at(each, number)
-        return result
-    if value.is_Pow:
-        base, exponent = value.args
-        return complex(at(base, number) ** (int(exponent) if exponent.is_Integer else at(exponent, number)))
-    if value is sympy.I:
-        return 1j
-    return FUNCTIONS[value.func](at(value.args[0], number))
+    return program(value)(number)
 
 
-def size_at(value: Expr, number: Callable[[Symbol], complex]) -> float:
+def size_at(value: Expr, number: Number) -> float:
     """Return the value of an expression in which each factor, and each term of a sum, is replaced by its absolute
     value."""
+    return size_program(value)(number)
+
+
+@lru_cache(maxsize=4000)
+def program(value: Expr) -> Callable[[Number], complex]:
+    """Return a function that computes the number of an expression much faster than SymPy does."""
+    return _program(value)
+
+
+@lru_cache(maxsize=4000)
+def size_program(value: Expr) -> Callable[[Number], float]:
+    return _size_program(value)
+
+
+def _program(value: Expr) -> Callable[[Number], complex]:
+    if value.is_Symbol:
+        return lambda number: number(value)
+    if value.is_Number or value.is_NumberSymbol or value is sympy.I:
+        constant = complex(value)
+        return lambda number: constant
+    parts = [_program(each) for each in value.args]
     if value.is_Add:
-        return sum(size_at(each, number) for each in value.args)
+        return lambda number: sum((part(number) for part in parts), 0j)
     if value.is_Mul:
-        return prod(size_at(each, number) for each in value.args)
-    return abs(at(value, number))
+        return lambda number: prod((part(number) for part in parts), start=1 + 0j)
+    if value.is_Pow:
+        base, exponent = parts
+        if value.exp.is_Integer:
+            power = int(value.exp)
+            return lambda number: complex(base(number) ** power)
+        return lambda number: complex(base(number) ** exponent(number))
+    function, argument = FUNCTIONS[value.func], parts[0]
+    return lambda number: function(argument(number))
+
+
+def _size_program(value: Expr) -> Callable[[Number], float]:
+    if value.is_Add or value.is_Mul:
+        parts, join = [_size_program(each) for each in value.args], sum if value.is_Add else prod
+        return lambda number: join(part(number) for part in parts)
+    inner = _program(value)
+    return lambda number: abs(inner(number))
 
 
 def is_zero(value: Expr) -> bool:

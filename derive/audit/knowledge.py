@@ -144,15 +144,26 @@ class Known:
             inner = self.latest(self.meaning.symbol(letter))
             if inner is None:
                 return None
+            if any(self.is_general(each, inner.value) for each, _ in by):
+                return None
             value = self.through(inner.value, {each for each, _ in by})
             for each, order in by:
                 primed = self.meaning.written_with_prime(value, each)
                 value = value.subs(primed, each) if primed is not None else value
                 for _ in range(order):
-                    value = sympy.diff(value, each) if partial else self.meaning.differentiated(value, each, partial)
+                    value = self.meaning.differentiated(value, each, partial)
                 value = value.subs(each, primed) if primed is not None else value
             return Definition(symbol, value, inner.claim)
         return None
+
+    def is_general(self, symbol: Symbol, value: Expr) -> bool:
+        """Whether a letter stands for each coordinate, such as q_i, although a value is written in other letters."""
+        letters = self.meaning.symbols
+        letter = letters.get(symbol)
+        if letter is None or not (letter.base in ("q", "p") or (len(letter.sub) == 1 and letter.sub in "ijknaμ")):
+            return False
+        return not any((other := letters.get(each)) is not None and other.base == letter.base
+                       for each in value.free_symbols)  # fmt: skip
 
     def is_rate(self, symbol: Symbol) -> bool:
         letter = self.meaning.symbols.get(symbol)

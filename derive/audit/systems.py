@@ -17,6 +17,7 @@ from derive.audit.fingerprint import CLOSE, is_zero
 from derive.audit.knowledge import LAST_EQUATIONS, Known
 from derive.audit.numeric import Numbers, at, determined, spanned
 from derive.audit.time_limit import FAULTS
+from derive.documents.facts import VARIABLES
 from derive.documents.meaning import Meaning
 from derive.documents.source import Span
 from derive.documents.syntax import Letter
@@ -105,7 +106,10 @@ def expanded(
                 used.append(definition.claim)
         if not found:
             break
-        new = value.xreplace(found)
+        try:
+            new = value.xreplace(found)
+        except ValueError:  # a letter is the variable of an integral
+            return value, tuple(dict.fromkeys(used))
         if new.has(sympy.zoo, sympy.nan) or sympy.count_ops(new) > 4 * LARGEST:
             break
         value = new
@@ -162,8 +166,8 @@ def _lagrange_equations(value: Expr, meaning: Meaning) -> Iterator[tuple[Symbol,
         if rate is None or rate.dots != 1:
             continue
         place = meaning.symbol(replace(rate, dots=0))
-        momentum_rate = meaning.differentiated(sympy.diff(value, symbol), time, False)
-        yield place, sympy.expand(momentum_rate - sympy.diff(value, place))
+        momentum_rate = meaning.differentiated(meaning.differentiated(value, symbol, True), time, False)
+        yield place, sympy.expand(momentum_rate - meaning.differentiated(value, place, True))
 
 
 def motion(known: Known, meaning: Meaning) -> Iterator[tuple[Expr, tuple[int, ...], str]]:
@@ -185,8 +189,8 @@ def motion(known: Known, meaning: Meaning) -> Iterator[tuple[Expr, tuple[int, ..
             place = meaning.symbol(Letter(momentum.span, momentum.sub))
             rate_of_place = meaning.symbol(Letter(momentum.span, momentum.sub, dots=1))
             rate_of_p = meaning.symbol(replace(momentum, dots=1))
-            yield rate_of_place - sympy.diff(value, p), claims, "Hamilton's equations"
-            yield rate_of_p + sympy.diff(value, place), claims, "Hamilton's equations"
+            yield rate_of_place - meaning.differentiated(value, p, True), claims, "Hamilton's equations"
+            yield rate_of_p + meaning.differentiated(value, place, True), claims, "Hamilton's equations"
 
 
 def root_equation(letter: Symbol, meaning: Meaning, known: Known) -> tuple[Symbol, Expr, int] | None:
@@ -195,6 +199,8 @@ def root_equation(letter: Symbol, meaning: Meaning, known: Known) -> tuple[Symbo
     named = meaning.symbols.get(letter)
     if named is None or not named.sub or named.dots or named.marks or named.base == "t":
         return None
+    if named.sub in VARIABLES:
+        return None  # a component, such as v_r or v_theta
     plain = meaning.symbol(replace(named, sub=""))
     for value, number in reversed(known.equations[-MOST_EQUATIONS:]):
         if plain not in value.free_symbols or number in known.conditions or value.has(Integral):

@@ -95,13 +95,15 @@ def _apply(node: Open, facts: Facts) -> tuple[int, str, bool]:
     inner = getattr(argument, "inner", argument)
     bare = replace(head, dots=0, primes=0)
     variables = facts.variables_of(bare)
-    if head.base == "O" and "cal" in head.marks:
+    if head.base == "O" and not head.sub and ("cal" in head.marks or isinstance(inner, Pow)):
         return 0, "terms that are left out", True
     if head.primes and facts.is_function(bare):
         return 0, "a derivative with its argument", True
     if not facts.is_function(bare):
         if isinstance(inner, Letter) and inner.base == "t" and head.base != "t":
             return 0, "a function of time", False
+        if isinstance(inner, Num):
+            return 0, "a value of a function: a product has no bracket around a number", False
         return 1, "never written with an argument elsewhere", head.base not in ("f", "F", "y", "U", "V", "u", "h")
     letters = {each.identity for each in argument.walk() if isinstance(each, Letter)}
     if letters & set(variables):

@@ -48,6 +48,7 @@ class Facts:
     alone: Counter[Identity] = field(default_factory=Counter)
     seen: Counter[Identity] = field(default_factory=Counter)
     integrated: Counter[Identity] = field(default_factory=Counter)
+    differentiated_by: set[Identity] = field(default_factory=set)  # variables of derivatives, without dots and primes
     subscripts: Counter[str] = field(default_factory=Counter)
     has_brackets: bool = False  # whether {f, g} or <f, g> can be a Poisson bracket or an inner product
     indices: set[str] = field(default_factory=set)  # indices of sums
@@ -74,6 +75,10 @@ class Facts:
         bare = (letter.base, letter.sub, letter.marks, 0, letter.label)
         found = self.functions.get(letter.identity) or self.functions.get(bare) or Counter()
         return Counter({each: count for each, count in found.items() if each != UNKNOWN}) if UNKNOWN in found else found
+
+    def is_variable(self, letter: Letter) -> bool:
+        """Whether derivatives with respect to a letter or its rate occur: y in the partial derivative of F(y, y')."""
+        return _unprimed(letter) in self.differentiated_by
 
     def changes(self, letter: Letter) -> bool:
         """Whether a letter changes with time."""
@@ -191,6 +196,8 @@ def _look_at(node: Node, facts: Facts) -> None:
                 facts.functions[_unprimed(node.head)][UNKNOWN] += 1
     elif isinstance(node, Der):
         for by, _ in node.by:
+            if isinstance(by, Letter):
+                facts.differentiated_by.add(_unprimed(by))
             of = _bare(node.of) if node.of is not None else None
             if isinstance(by, Letter) and by.base == "t" and isinstance(of, Letter):
                 facts.timed.add(_timeless(of))
@@ -205,6 +212,13 @@ def _look_at(node: Node, facts: Facts) -> None:
     elif isinstance(node, Fun) and node.name in ("sin", "cos", "tan"):
         if isinstance(argument := _bare(node.argument), Letter):
             facts.whole_arguments[argument.identity] += 1
+
+
+def _is_single_term(product: Node) -> bool:
+    """Whether the bracket after a letter contains one term and has no power, as in U(1/u): a product needs no such
+    bracket."""
+    group = product.factors[-1][1] if isinstance(product, Mul) else product
+    return isinstance(group, Group) and not isinstance(group.inner, Add)
 
 
 def _unprimed(letter: Letter) -> Identity:
@@ -222,7 +236,7 @@ def _look_at_call(call: Node, product: Node, facts: Facts) -> None:
             facts.functions[_unprimed(head)][UNKNOWN] += 1  # a value at an instant
         elif argument.base == "t" or head.primes or not argument.sub:
             facts.functions[_unprimed(head)][argument.identity] += 1
-    elif not isinstance(argument, Num):
+    elif not isinstance(argument, Num) and not _is_single_term(product):
         if not any(isinstance(each, Letter) and each.base == "t" for each in argument.walk()):
             facts.products[head.identity] += 1
 

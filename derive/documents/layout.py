@@ -65,6 +65,7 @@ SPOKEN = {
 WORDS = {"text", "textrm", "mbox", "textnormal", "intertext", "shortintertext", "textit", "textbf", "hbox", "textsf"}
 
 
+SIGNS_OF_NOTES = ("dagger", "ddagger", "star", "ast", "square", "checkmark", "blacksquare")
 MOST_FORMULAS = 20_000
 LONGEST_INLINE = 2_000  # the greatest number of characters of a formula in a sentence
 
@@ -87,7 +88,7 @@ class Cue(StrEnum):
 
 CUES = {
     Cue.APPROXIMATE: r"\bapproximat\w*|\bsmall\b|\bfirst order\b|\bsecond order\b|\blowest order\b|\bleading order\b"
-    r"|\bexpand\w*|\blineari[sz]\w*|\bneglect\w*|\bTaylor\b|\bignor\w+|\broughly\b|\babout\b|\bseries\b",
+    r"|\bexpand\w*|\blineari[sz]\w*|\bneglect\w*|\bTaylor\b|\bignor\w+|\broughly\b|\babout\s*(?:\$?[\d.]|$)|\bseries\b",
     Cue.DEFINED: r"\blet\b|\bdefin\w+|\bdenot\w+|\bcall\b|\bcalled\b|\bintroduc\w+"
     r"|\bchoose\b|\bwrite\b|\bset\b|\bsetting\b",
     Cue.GIVEN: r"\bassum\w+|\bsuppos\w+|\bgiven\b|\bconsider\b|\bif\b|\bwhen\b|\bfor\b|\bat\b"
@@ -196,10 +197,16 @@ _OPENING = re.compile(
     r"\\begin\{(?P<env>[A-Za-z]+)(?P<star>\*?)\}|(?P<dollars>(?<!\\)\$\$)|(?P<dollar>(?<!\\)\$)"
     r"|(?P<bracket>(?<!\\)\\\[)|(?P<paren>(?<!\\)\\\()"
 )
+PROBLEM_WORDS = (
+    r"\b(?:problem|problema|problème|exercise|ejercicio|exercício|esercizio|exercice|question|aufgabe|example|beispiel"
+    r"|ejemplo|esempio|exemple|opgave|oppgave|uppgift|zadanie|задача|упражнение|пример)s?\b|[第例]\s*\w*\s*题|例題|問題|문제"
+)
 _HEADING = re.compile(
     r"^(?P<marks>\#{1,6})[ \t]+(?P<words>[^\n]+)|\\(?P<level>part|chapter|section|subsection|subsubsection|paragraph)"
-    r"\*?(?:\[[^\]]*\])?\{(?P<title>[^\n]*)\}|^\s*\\begin\{(?P<problem>problem|exercise|question|solution|example)\}",
-    re.MULTILINE,
+    r"\*?(?:\[[^\]]*\])?\{(?P<title>[^\n]*)\}|^\s*\\begin\{(?P<problem>problem|exercise|question|solution|example)\}"
+    r"|^\s*\\begin\{(?P<numbered>proof)\}[\[{](?:\\textbf\{)?[^\n\]}]*\d"
+    rf"|^\s*(?:\*\*|__|(?:\\noindent\s*)?\\textbf\{{)\s*(?P<bold>(?:{PROBLEM_WORDS})[^\n*}}]*)",
+    re.MULTILINE | re.IGNORECASE,
 )
 _PART = re.compile(
     r"\\item\b|\\begin\{(?:solution|proof|problem|exercise|example)\}|^[ \t]*\*\*\w+"
@@ -254,8 +261,10 @@ def _skipped(text: str) -> Iterator[Span]:
 def _title(found: re.Match[str]) -> tuple[str, int]:
     if found["marks"]:
         return found["words"].strip(), len(found["marks"])
-    if found["problem"]:
-        return found["problem"], 3
+    if found["problem"] or found["bold"]:
+        return found["problem"] or found["bold"], 3
+    if found["numbered"]:
+        return "problem", 3
     return found["title"], _LEVELS[found["level"]]
 
 
@@ -320,8 +329,8 @@ class _Reading:
                 position = outer.end
                 continue
             closing, display = {
-                "dollars": (r"(?<!\\)\$\$", True),
-                "dollar": (r"(?<!\\)\$", False),
+                "dollars": (r"(?<!(?<!\\)\\)\$\$", True),
+                "dollar": (r"(?<!(?<!\\)\\)\$", False),
                 "bracket": (r"(?<!\\)\\\]", True),
                 "paren": (r"(?<!\\)\\\)", False),
             }[str(opening.lastgroup)]
@@ -346,13 +355,17 @@ class _Reading:
             row.fault = (str(error), error.span)
             return
         for cells, tag, label in rows_of(tokens):
+            last = "".join(each.text for each in without_spaces(cells[-1]))
+            if len(cells) > 1 and re.fullmatch(r"\(\d+\w?\)", last):  # the number of an equation in its own cell
+                tag = tag or last[1:-1]
+                del cells[-1]
             flat = [token for cell in cells for token in cell]
             if not without_spaces(flat):
                 continue
             rest = self.rest_of_side(block, cells)
             solid = without_spaces(flat)
-            if solid[0].kind is Kind.SCRIPT and not any(map(_is_relation, solid)):
-                continue  # the sign of degrees after a number in the text: 30$^\circ$
+            if not any(map(_is_relation, solid)) and _is_mark_in_text(solid):
+                continue
             row = rest or self.row(block, Span(solid[0].span.start, solid[-1].span.end))
             row.tag, row.label = tag or row.tag, label or row.label
             if rest is not None:
@@ -381,8 +394,9 @@ class _Reading:
         if not block.rows or not block.rows[-1].statements or self.last is None or not tokens:
             return None
         last = self.last.sides[-1]
-        open_end = bool(last.tokens) and (
-            last.tokens[-1].is_mark("+", "-", "*", "/") or last.tokens[-1].is_command("cdot", "times", "pm", "mp")
+        written = [each for each in last.tokens if not each.is_command(*WIDE, ",", ";", " ", "!", ":")]
+        open_end = bool(written) and (
+            written[-1].is_mark("+", "-", "*", "/") or written[-1].is_command("cdot", "times", "pm", "mp")
         )
         open_end = open_end or _is_open(last.tokens) or not last.tokens
         begins = tokens[0].is_mark("+", "-") or tokens[0].is_command("times", "cdot", "pm", "mp")
@@ -395,6 +409,16 @@ class _Reading:
         self.last.sides[-1] = joined
         self.last.span = Span(self.last.span.start, joined.span.end)
         return block.rows[-1]
+
+
+def _is_mark_in_text(tokens: list[Token]) -> bool:
+    """Whether a formula only marks a place of the text: degrees after a number, `3_{rd}`, or a sign such as `(*)`."""
+    if tokens[0].kind is Kind.SCRIPT:
+        return True
+    if all(each.is_mark("(", ")", "*") or each.is_command(*SIGNS_OF_NOTES) for each in tokens):
+        return True
+    written = "".join(each.text for each in tokens if each.kind not in (Kind.OPEN, Kind.CLOSE))
+    return bool(re.fullmatch(r"\w+[_^](?:st|nd|rd|th)", written))
 
 
 def _without_definitions(tokens: list[Token]) -> list[Token]:
@@ -421,10 +445,28 @@ def _simplified(tokens: list[Token]) -> list[Token]:
     """
     found: list[Token] = []
     at = 0
+    double_bars = _has_double_bars(tokens)
     while at < len(tokens):
         token = tokens[at]
         at += 1
-        if token.is_command("boxed", "fbox", "tightboxed", "Aboxed"):
+        if double_bars and token.is_mark("|"):
+            found.append(replace(token, kind=Kind.COMMAND, text="Vert"))
+            at += 1
+        elif token.is_mark(".") and all(each.is_mark(".") for each in tokens[at - 1 : at + 2]) and at + 1 < len(tokens):
+            found.append(replace(token, kind=Kind.COMMAND, text="ldots"))
+            at += 2
+        elif token.kind is Kind.OPEN and (number := _with_decimal_comma(found, tokens[at : at + 3])) is not None:
+            found[-1] = number
+            at += 3
+        elif token.is_command("not") and at < len(tokens) and tokens[at].kind is Kind.SPACE:
+            tokens = [*tokens[:at], *without_spaces(tokens[at:])]
+            at -= 1
+        elif token.is_command("not") and at < len(tokens) and tokens[at].is_mark("="):
+            found.append(replace(token, text="neq"))
+            at += 1
+        elif token.is_command("displaybreak"):
+            at = _bracket_at(tokens, at)[1] if at < len(tokens) and tokens[at].is_mark("[") else at
+        elif token.is_command("boxed", "fbox", "tightboxed", "Aboxed"):
             inner, at = argument_at(tokens, at)
             found += _simplified(inner)
         elif token.is_command("underline", "ensuremath", "textcolor", "colorbox") and _has_relation(
@@ -470,6 +512,22 @@ def _simplified(tokens: list[Token]) -> list[Token]:
         else:
             found.append(token)
     return _without_outer_braces(found)
+
+
+def _has_double_bars(tokens: list[Token]) -> bool:
+    """Whether a norm is written with `||`: all bars appear in pairs, and not as in `|a||b|`."""
+    bars = [each for each in tokens if each.is_mark("|")]
+    pairs = list(zip(bars[::2], bars[1::2], strict=False))
+    return len(bars) >= 4 and len(bars) % 4 == 0 and all(one.span.end == other.span.start for one, other in pairs)
+
+
+def _with_decimal_comma(before: list[Token], rest: list[Token]) -> Token | None:
+    """Return the number `0{,}25`, whose comma is in braces, or None."""
+    if not before or before[-1].kind is not Kind.NUMBER or len(rest) < 3 or "." in before[-1].text:
+        return None
+    if not (rest[0].is_mark(",") and rest[1].kind is Kind.CLOSE and rest[2].kind is Kind.NUMBER):
+        return None
+    return replace(before[-1], text=f"{before[-1].text}.{rest[2].text}", span=before[-1].span.to(rest[2].span))
 
 
 def _system_at(tokens: list[Token], at: int) -> tuple[list[Token], int] | None:
@@ -648,6 +706,8 @@ def statements_of(cells: list[list[Token]], row: Row, before: Statement | None) 
                     if not statement.sides:
                         continue
                 else:
+                    if len(previous.sides) > 1 and not previous.sides[-1].tokens:  # a relation before and after `\\\\`
+                        del previous.sides[-1], previous.relations[-1]
                     statement.follows = previous
                     statement.sides[0] = previous.sides[-1]
             if found and not statement.relations and statement.link == "list" and found[-1].relations:
@@ -788,7 +848,8 @@ def _without_range(tokens: list[Token]) -> list[Token]:
 def _chain(tokens: list[Token], row: Row, link: str, words: str) -> Statement | None:
     tokens = without_spaces(tokens)
     while tokens and (
-        tokens[-1].is_mark(".", ",", ";", ":") or tokens[-1].is_command("quad", "qquad", ",", ";", "!", " ", ":")
+        tokens[-1].is_mark(".", ",", ";", ":")
+        or tokens[-1].is_command("quad", "qquad", ",", ";", "!", " ", ":", "qedhere")
     ):
         tokens.pop()
     while tokens and tokens[0].is_command("quad", "qquad", ",", ";", "!", " ", ":"):

@@ -173,9 +173,12 @@ class Meaning:
     def components(self, node: Letter, rows: int, columns: int) -> ImmutableDenseMatrix:
         plain = _replaced(node, marks=frozenset())
         if columns == 1:
-            return ImmutableDenseMatrix(
-                [self.symbol(_replaced(plain, sub=_indexed(node.sub, str(i + 1)))) for i in range(rows)]
-            )
+            entries = [_replaced(plain, sub=_indexed(node.sub, str(i + 1))) for i in range(rows)]
+            if variables := self.facts.variables_of(node):
+                self.facts.functions.update({each.identity: variables for each in entries})
+            if self.facts.changes(node):
+                self.facts.timed |= {(each.base, each.sub, each.marks, each.label) for each in entries}
+            return ImmutableDenseMatrix([self.symbol(each) for each in entries])
         return ImmutableDenseMatrix(rows, columns, lambda i, j: self.symbol(
             _replaced(plain, sub=_indexed(node.sub, f"{i + 1}{j + 1}"))
         ))  # fmt: skip
@@ -396,7 +399,9 @@ class Meaning:
 
     def of_apply(self, node: Apply) -> Any:
         head = node.head
-        if head.base == "O" and ("cal" in head.marks or self.facts.alone[head.identity] == 0) and not head.sub:
+        if head.base == "O" and not head.sub and (
+            "cal" in head.marks or self.facts.alone[head.identity] == 0 or isinstance(node.arguments[0], Pow)
+        ):  # fmt: skip
             return self.terms_left_out(node.arguments[0])
         own = self.facts.variables_of(_replaced(head, dots=0))
         if any(isinstance(each, Text) and each.text == "..." for each in node.arguments):
@@ -408,9 +413,9 @@ class Meaning:
             else:
                 values.append((None, argument))
         plain = [_letter_in(value) for _, value in values]
-        if all(letter is not None and (letter.identity in own or len(values) > 1) for letter in plain) and not any(
-            variable for variable, _ in values
-        ):
+        variables = all(letter is not None and (letter.identity in own or len(values) > 1) for letter in plain)
+        at_place = any(letter is not None and letter.sub and _whole(letter) in own for letter in plain)
+        if variables and not at_place and not any(variable for variable, _ in values):
             return self.function_letter(head)
         if self.facts.is_vector(head, self.scope):
             raise Meaningless("the value of a vector at an instant is not read", node.span)
@@ -498,7 +503,9 @@ class Meaning:
 
     def is_variable(self, identity: Any, symbol: Symbol) -> bool:
         letter = self.symbols.get(symbol)
-        return letter is not None and letter.identity == identity
+        if letter is None:
+            return False
+        return letter.identity == identity or (bool(letter.label) and letter.base == identity[0])
 
     def differentiated(self, value: Any, by: Symbol, partial: bool) -> Any:
         if isinstance(value, MatrixBase):
@@ -554,8 +561,12 @@ class Meaning:
                 return Symbol(f"d({symbol})/d{by}", real=True)
             others = self.summed(self.differentiated(term, by, partial), index, bounds)
             return others + self.of_member(term, index, by)
+        if symbol in self.evaluations:
+            return self.rate_at_place(symbol, by, partial)
         if symbol in self.derivatives:
             letter, already, was_partial = self.derivatives[symbol]
+            if partial and self.facts.is_variable(letter):
+                return Integer(0)
             if by.name == "t" or any(self.is_variable(each, by) for each in self.facts.variables_of(letter)):
                 if len(already) == 1 and already[0][0] == by:
                     return self.derivative_symbol(letter, ((by, already[0][1] + 1),), was_partial)
@@ -571,9 +582,26 @@ class Meaning:
             if self.facts.changes(found):
                 return self.symbol(_replaced(found, dots=found.dots + 1))
             return Integer(0)
+        if partial and (found.dots or self.facts.is_variable(found)):
+            return Integer(0)  # an independent variable of the function, such as y in F(y, y')
+        variable = self.symbols.get(by)
+        if variable is not None and variable.dots:
+            return Integer(0)
         if any(self.is_variable(each, by) for each in self.facts.variables_of(_replaced(found, primes=0, dots=0))):
             return self.derivative_symbol(found, ((by, 1),), partial)
         return Integer(0)
+
+    def rate_at_place(self, symbol: Symbol, by: Symbol, partial: bool) -> Expr:
+        """Return the derivative of a value such as U(1/u) by the chain rule; a symbol if U is not known."""
+        function, variable, at = self.evaluations[symbol]
+        if (rate := self.differentiated(at, by, partial)) == 0:
+            return Integer(0)
+        value = self.defined(function)
+        if value is not None and variable in value.free_symbols:
+            return self.differentiated(value, variable, partial).subs(variable, at) * rate
+        made = Symbol(f"d({symbol})/d{by}", real=True)
+        self.parents[made] = (symbol, by)
+        return made
 
     # Integrals
 
@@ -593,6 +621,8 @@ class Meaning:
                 letter = _inner_letter(item.of)
                 if letter is None or item.order != 1:
                     raise Meaningless("this differential has no single variable", item.span)
+                if self.facts.is_vector(letter, self.scope):
+                    raise Meaningless("an integral along a path or over a surface is not evaluated", item.span)
                 pairs[open_signs.pop()] = self.symbol(letter)
             else:
                 nodes.append(item)
@@ -617,7 +647,8 @@ class Meaning:
         for each in factors:
             value = self.times(value, each, "", node.span) if isinstance(value, MatrixBase) else value * each
         for index, sign in reversed(signs):
-            value = self.integrated(value, pairs[index], sign)
+            around = {*self.variables, *pairs.values()} - {pairs[index]}
+            value = self.integrated(value, pairs[index], sign, around)
         return value
 
     def along_variables(self, value: Any, variables: set[Symbol]) -> Any:
@@ -630,19 +661,30 @@ class Meaning:
                 found[symbol] = definition
         return value.xreplace(found) if found else value
 
-    def integrated(self, value: Any, x: Symbol, sign: Sign) -> Any:
+    def integrated(self, value: Any, x: Symbol, sign: Sign, around: set[Symbol]) -> Any:
         if isinstance(value, MatrixBase):
-            return value.applyfunc(lambda each: self.integrated(each, x, sign))
+            return value.applyfunc(lambda each: self.integrated(each, x, sign, around))
         if sign.lower is None and sign.upper is None:
             return Integral(value, x)
         if sign.lower is None or sign.upper is None or sign.closed:
             raise Meaningless("this integral has no limits that can be substituted", sign.span)
         lower, upper = (
-            self.scalar(each.right if isinstance(each, Condition) else each) for each in (sign.lower, sign.upper)
+            self.along_variables(self.scalar(each.right if isinstance(each, Condition) else each), around)
+            for each in (sign.lower, sign.upper)
         )
+        if any(self.depends(each, x) for each in value.free_symbols - {x}):
+            return Integral(value, (x, lower, upper))
         finite = not any(each.has(sympy.oo) for each in (value, lower, upper))
         found = definite(value, [(x, lower, upper)]) if finite else None
         return found if found is not None else Integral(value, (x, lower, upper))
+
+    def depends(self, symbol: Symbol, x: Symbol) -> bool:
+        """Whether an integrand contains a letter that the document writes as a function of the variable, without a
+        value."""
+        letter = self.symbols.get(symbol)
+        if letter is None or self.defined(symbol) is not None:
+            return False
+        return any(self.is_variable(each, x) for each in self.facts.variables_of(_replaced(letter, dots=0)))
 
     def of_diff(self, node: Diff) -> Any:
         letter = _inner_letter(node.of)
@@ -869,6 +911,11 @@ def _determinant(matrix: Any, span: Span) -> Any:
 
 def _indexed(sub: str, index: str) -> str:
     return f"{sub},{index}" if sub else index
+
+
+def _whole(letter: Letter) -> Any:
+    """Return the identity of a letter without its subscript: x for x_0."""
+    return _replaced(letter, sub="").identity
 
 
 def _letter_in(node: Node) -> Letter | None:

@@ -38,6 +38,7 @@ from derive.documents.syntax import (
 from derive.documents.tokens import Kind, Token, tokens_of, without_spaces
 from derive.documents.vocabulary import (
     AVERAGES,
+    BARE_FUNCTIONS,
     DECORATED,
     DIFFERENTIALS,
     DOTS,
@@ -75,12 +76,7 @@ def parsed(tokens: Sequence[Token]) -> Node:
     reader = _Reader(without_spaces(list(tokens)))
     if not reader.tokens:
         raise Unreadable("this side is empty", Span(0, 0))
-    node = reader.sum()
-    if reader.at < len(reader.tokens):
-        token = reader.tokens[reader.at]
-        shown = ("\\" if token.kind is Kind.COMMAND else "") + token.text
-        raise Unreadable(f"`{shown}` was not expected here", token.span)
-    return node
+    return reader.whole()
 
 
 class _Reader:
@@ -172,6 +168,7 @@ class _Reader:
         found, depth = [], 0
         for i, token in enumerate(self.tokens):
             depth += (token.kind is Kind.OPEN) - (token.kind is Kind.CLOSE)
+            depth += token.is_command("left", "begin") - token.is_command("right", "end")
             if depth == 0:
                 found.append((i, token))
         return found
@@ -297,6 +294,7 @@ class _Reader:
         tokens = without_spaces(tokens)
         equals = _equals_sign(tokens)
         if equals:
+            tokens = _split(tokens, lambda each: each.is_mark(";"))[0] or tokens  # `j = 1; j \ne i`
             letters = _split(tokens[:equals], lambda each: each.is_mark(","))
             if len(letters) > 1 and all(letters):
                 left: Node = Vec(span, tuple(self.inside(each, span) for each in letters))
@@ -412,6 +410,8 @@ class _Reader:
             return self.differential()
         atom = self.atom()
         node = self.scripted(atom)
+        if isinstance(node, Letter) and self.next_is("!"):  # `U\!\left(`
+            self.skip_spacing()
         if isinstance(node, Letter) and self.opens_bracket():
             return self.maybe_applied(node)
         if isinstance(node, Pow) and isinstance(node.base, Letter) and self.opens_bracket() and self.is_call():
@@ -442,7 +442,20 @@ class _Reader:
         token, after = self.peek(), self.peek(1)
         if token is None:
             return False
+        if token.is_mark("[") and self.at and self.tokens[self.at - 1].kind is not Kind.CLOSE:
+            return self.closes_after_letter()  # a functional: `S[q]`
         return token.is_mark("(") or (token.is_command("left") and after is not None and after.is_mark("("))
+
+    def closes_after_letter(self) -> bool:
+        """Whether square brackets contain one letter with its marks and scripts."""
+        close = next((i for i in range(self.at, len(self.tokens)) if self.tokens[i].is_mark("]")), 0)
+        inner = self.tokens[self.at + 1 : close]
+        if not inner or len(inner) > 8 or any(each.kind is Kind.MARK for each in inner):
+            return False
+        try:
+            return isinstance(self.inside(inner, inner[0].span), Letter)
+        except Unreadable:
+            return False
 
     def maybe_applied(self, head: Letter) -> Node:
         group = self.bracketed()
@@ -680,8 +693,9 @@ class _Reader:
             self.at += 1
             return Num(token.span, token.text)
         if token.kind is Kind.LETTER:
-            self.at += 1
-            return Letter(token.span, token.text)
+            name = self.bare_function()
+            self.at += len(name) or 1
+            return self.function(token, name) if name else Letter(token.span, token.text)
         if token.kind is Kind.OPEN:
             return self.braced(token)
         if token.is_mark("(", "["):
@@ -696,6 +710,19 @@ class _Reader:
         if token.kind is Kind.COMMAND:
             return self.command(token)
         raise Unreadable(f"`{token.text}` was not expected here", token.span)
+
+    def bare_function(self) -> str:
+        """Return the name of a function that is written without a backslash and has an argument in brackets."""
+        run: list[Token] = []
+        for token in self.tokens[self.at :]:
+            if token.kind is not Kind.LETTER or (run and run[-1].span.end != token.span.start):
+                break
+            run.append(token)
+        before = self.peek(-1) if self.at else None
+        joined = before is not None and before.kind is Kind.LETTER and before.span.end == run[0].span.start
+        word, after = "".join(each.text for each in run), self.peek(len(run))
+        opens = after is not None and (after.is_mark("(") or after.is_command("left"))
+        return word if word in BARE_FUNCTIONS and opens and not joined else ""
 
     def braced(self, token: Token) -> Node:
         value = self.argument()
@@ -870,6 +897,12 @@ class _Reader:
                         letter = replace(letter, primes=len(raised))
                     elif len(raised) == 1 and raised[0].text.isdigit():
                         order = int(raised[0].text)
+                    elif (
+                        len(raised) == 1
+                        and isinstance(letter, Letter)
+                        and (raised[0].text in GREEK or raised[0].kind is Kind.LETTER)
+                    ):
+                        letter = replace(letter, label=reader.label(raised))
                     else:
                         return None
             except Unreadable:
@@ -985,6 +1018,10 @@ class _Reader:
             return Letter(self.since(token), word, marks=frozenset({mark}))
         if isinstance(inner, Num):
             return Letter(self.since(token), inner.text, marks=frozenset({mark}))
+        if isinstance(inner, Open) and inner.kind == "letter d" and isinstance(inner.alternatives[0], Diff):
+            inner = inner.alternatives[0]
+        if isinstance(inner, Diff) and isinstance(inner.of, Letter):  # `\mathbf{dr}`
+            return replace(inner, of=replace(inner.of, marks=inner.of.marks | {mark}), span=self.since(token))
         if isinstance(inner, Pow | Mul | Add | Open | Apply):
             return Group(inner.span, inner, "{")
         raise Unreadable(f"`\\{token.text}` is allowed only at a letter", token.span)

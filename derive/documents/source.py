@@ -199,7 +199,11 @@ def source_of(text: str, kind: Format, path: str = "") -> Source:
     return source
 
 
-_FORMULA = r"(?<!\\)\$\$.*?\$\$|(?<![\\$])\$(?![$\s]).*?(?<![\\$\s])\$|\\\[.*?\\\]|\\\(.*?\\\)"
+_FORMULA = (
+    r"(?<!\\)\$\$.*?\$\$|(?<![\\$])\$(?![$\s]).*?(?<![\\$\s])\$|\\\[.*?\\\]|\\\(.*?\\\)"
+    r"|\\begin\{(?P<name>[a-z]+\*?)\}.*?\\end\{(?P=name)\}"
+)
+_QUOTATION = r"(?:(?<=\n\n)|\A)(?:[ \t]*>[^\n]*(?:\n|\Z))+"
 
 
 def _undo_escapes(source: Source) -> None:
@@ -209,6 +213,7 @@ def _undo_escapes(source: Source) -> None:
         source.replace(r"\\\\(?=[{}|,;!])", r"\\", within=_FORMULA)
         source.replace(r"\\\\\\\\", r"\\\\", within=_FORMULA)
     source.replace(r"\\([_*])", r"\1", within=_FORMULA)
+    source.replace(r"(?m)^[ \t]*>[ \t]?", "", within=_QUOTATION)
 
 
 _JSON_STRING = re.compile(r'"(?:[^"\\]|\\.)*"', re.DOTALL)

@@ -116,6 +116,8 @@ def _of_piece(piece: re.Match[str]) -> list[Token]:
     text = piece[kind]
     if kind == "comment":
         return []
+    if kind == "command" and text.isspace():
+        return [Token(Kind.COMMAND, " ", span)]
     if kind == "command" and text.endswith("*") and len(text) > 1 and text not in _STARRED:
         return [
             Token(Kind.COMMAND, text[:-1], Span(span.start, span.end - 1)),

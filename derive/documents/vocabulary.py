@@ -24,6 +24,8 @@ FUNCTIONS = _words(
     "sin cos tan cot sec csc arcsin arccos arctan arccot sinh cosh tanh coth sech csch arcsinh arccosh arctanh asin "
     "acos atan ln log exp sgn sign det tr Tr min max arg cosec Re Im arsinh arcosh artanh"
 )
+# Functions that some authors write without a backslash: `arccos(x)`.
+BARE_FUNCTIONS = _words("arcsin arccos arctan sinh cosh tanh sin cos tan cot exp log ln")
 DOTS = {"dot": 1, "ddot": 2, "dddot": 3, "ddddot": 4}
 MARKS = {
     "vec": "vec", "overrightarrow": "vec", "va": "vec", "underline": "vec", "hat": "hat", "widehat": "hat", "vu": "hat",
@@ -31,7 +33,7 @@ MARKS = {
     "bm": "vec", "vb": "vec", "vect": "vec", "vv": "vec", "mat": "vec", "uv": "hat",
     "unitvec": "hat", "pmb": "vec", "bold": "vec", "mathcal": "cal", "mathscr": "cal", "mathfrak": "frak",
     "mathbb": "bb", "check": "check", "breve": "breve", "overleftrightarrow": "tensor", "bf": "vec", "uvec": "hat",
-    "uvect": "hat",
+    "uvect": "hat", "vectorbold": "vec", "vectorarrow": "vec", "vectorunit": "hat",
 }  # fmt: skip
 TEXTS = _words(
     "text textrm mathrm rm textit mathit mbox operatorname operatorname* textbf textnormal mathsf textsf hbox symrm "
@@ -42,7 +44,7 @@ IGNORED = _words(
     "scriptscriptstyle limits nolimits nonumber notag big Big bigg Bigg bigl Bigl biggl Biggl bigr Bigr biggr Biggr "
     "bigm Bigm middle mathstrut strut allowbreak nobreak break relax vphantom kern unboldmath protect noindent "
     "boldmath mathord mathbin mathrel mathopen mathclose mathpunct mathinner mathop normalsize small large it up "
-    "mathnormal"
+    "mathnormal qedhere"
 )
 IGNORED_WITH_ARGUMENT = _words(
     "vphantom hspace vspace phantom hphantom label tag color textcolor hskip ref eqref cite footnote"

@@ -160,6 +160,9 @@ class _Grading:
         count = len(self.part.targets)
         if len(found) > count:
             found = self.with_own_letters(found)
+        if len(found) < count:
+            found = [one for each in found for one in self.of_each_name(each)]
+        found = self.with_results_of_others(found)
         vectors = [self.entries_of(each) for each in found]
         if len(found) < count and not any(_has_two_signs(each.value) for each in self.part.targets):
             found = [one for each in found for one in self.of_each_sign(each)]
@@ -172,18 +175,72 @@ class _Grading:
         substitute these definitions in the other statements."""
         asked = [target.symbol for target in self.part.targets]
         found = statements
-        for own in statements:
+        for own in map(self.solved_for_letter, statements):
             name = own.name
-            others = [each for each in found if each is not own]
+            others = [each for each in found if each.read is None or own.read is None or (
+                each.read.written is not own.read.written
+            )]  # fmt: skip
             if own.read is None or own.relations != ("=",) or name is None or name in asked:
                 continue
-            if not any(name in read.value.free_symbols for each in others for read in each.last):
+            sides = [side for each in others if each.read is not None for side in each.read.sides]
+            if not any(name in read.value.free_symbols for side in sides for read in side):
                 continue
             value = own.last[0]
             if not isinstance(value.value, Expr) or name in value.value.free_symbols:
                 continue
             found = [self.put_in(each, name, value) for each in others]
         return found
+
+    def solved_for_letter(self, statement: _Statement) -> _Statement:
+        """Return `w = sqrt(g/l)` for `w^2 = g/l`, if the problem has no w."""
+        if statement.read is None or statement.relations != ("=",):
+            return statement
+        left = statement.first[0]
+        if not isinstance(left.value, sympy.Pow) or left.value.exp != 2:
+            return statement
+        if left.value.base not in left.unknown or not isinstance(statement.last[0].value, Expr):
+            return statement
+        right = replace(statement.last[0], value=sympy.sqrt(statement.last[0].value))
+        sides = ((replace(left, value=left.value.base),), (right,))
+        return replace(statement, read=replace(statement.read, sides=sides))
+
+    def of_each_name(self, statement: _Statement) -> list[_Statement]:
+        """Return `x'' = a` and `y'' = -a` for the chain `x'' = -y'' = a`."""
+        asked = [target.symbol for target in self.part.targets]
+        found = [statement]
+        if statement.read is None or not statement.is_equation:
+            return found
+        for side in statement.read.sides[1:-1]:
+            for sign, name in ((1, side[0].value), (-1, -side[0].value)):
+                if name in asked:
+                    last = tuple(replace(each, value=sign * each.value) for each in statement.last)
+                    sides = ((replace(side[0], value=name),), last)
+                    found.append(_Statement(
+                        ReadStatement(sides, ("=",), statement.read.written), statement.texts[-1:], ("=",)
+                    ))  # fmt: skip
+        return found
+
+    def with_results_of_others(self, statements: list[_Statement]) -> list[_Statement]:
+        """Return the statements with the values of other statements: `y'' = -x''` after `x'' = ...`."""
+        if any(target.is_relation for target in self.part.targets):
+            return statements
+        allowed = {each for target in self.part.targets for each in getattr(target.value, "free_symbols", ())}
+        found = list(statements)
+        for own in statements:
+            if own.name is None or own.name in allowed or own.relations != ("=",) or len(statements) < 2:
+                continue
+            value = own.last[0] if own.last else None
+            if value is not None and isinstance(value.value, Expr) and own.name not in value.value.free_symbols:
+                found = [each if each.name == own.name else self.put_in_right(each, own.name, value) for each in found]
+        return found
+
+    def put_in_right(self, statement: _Statement, name: Symbol, value: Read) -> _Statement:
+        """Return a statement in which a letter is replaced by its value on the right side only."""
+        new = self.put_in(statement, name, value)
+        if statement.read is None or new.read is None or statement.is_single or new.read == statement.read:
+            return new
+        sides = (*statement.read.sides[:-1], new.read.sides[-1])
+        return replace(new, read=replace(new.read, sides=sides))
 
     @staticmethod
     def put_in(statement: _Statement, name: Symbol, value: Read) -> _Statement:

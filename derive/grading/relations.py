@@ -18,7 +18,7 @@ from derive.algebra.expressions import PLUS_MINUS, Relation
 from derive.audit.time_limit import FAULTS
 from derive.grading.comparing import _Comparison, aligned, factor_is_near, shown, verdict_on_value
 from derive.grading.key import Key, Number, Target
-from derive.grading.outcomes import Outcome, Verdict
+from derive.grading.outcomes import Outcome, Verdict, best_of
 from derive.grading.reading import Read
 from derive.grading.structure import are_equal, are_surely_equal, factor_between, slips_between
 
@@ -55,7 +55,8 @@ def verdict_on_relation(left: Read, mark: str, right: Read, target: Target, key:
         return renamed
     if goal.operator == "=" and mark == "=":
         return _wrong_equation(comparison, full, expanded)
-    return _wrong_inequality(full, expanded, key)
+    found = [_wrong_inequality(full, expanded, key)]
+    return best_of(found + [_wrong_inequality(of_angles, goal, key)] if of_angles is not None else found)
 
 
 def _says_nothing(relation: Relation) -> bool:
@@ -95,10 +96,12 @@ def _renamed(typed: Relation, goal: Relation, comparison: _Comparison) -> Verdic
         return None
     for letter in sorted(goal.free_symbols - typed.free_symbols, key=str)[:8]:
         named = typed.xreplace({unknown[0]: letter})
-        tried = [named, _with_function(named, goal)]
-        if any(each is not None and _are_equivalent(each, goal) for each in tried):
-            names = (shown(each, comparison.key) for each in (unknown[0], letter))
-            return Verdict(Outcome.CONVENTION, "if `{}` is the problem's `{}`".format(*names))
+        for each in filter(None, (named, _with_function(named, goal))):
+            other = None if _are_equivalent(each, goal) else _wrong_inequality(each, goal, comparison.key)
+            if other is None or other.is_right:
+                names = (shown(one, comparison.key) for one in (unknown[0], letter))
+                renamed = Verdict(Outcome.CONVENTION, "if `{}` is the problem's `{}`".format(*names))
+                return renamed.adding(other.because) if other is not None else renamed
     return None
 
 
@@ -231,6 +234,8 @@ def verdict_on_equation_for(left: Read, right: Read, target: Target, key: Key) -
     if symbol not in residual.free_symbols:
         alone = left.value.free_symbols - right.value.free_symbols
         others = [each for each in alone if isinstance(each, Symbol) and _base(each) == _base(symbol)]
+        if isinstance(left.value, sympy.Pow) and left.value.exp == 2:  # `T^2 = ...`, with any name for the answer
+            others = others or [each for each in alone if each == left.value.base]
         if len(others) != 1:
             return None
         residual = residual.xreplace({others[0]: symbol})

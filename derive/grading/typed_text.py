@@ -31,7 +31,9 @@ TYPED_FUNCTIONS = {name: name for name in FUNCTIONS if name not in ("arg", "det"
 GREEK_WORDS = {*GREEK, "infty"} - {"ell", "Re", "Im", "wp", "imath", "jmath"}
 _COMMENT = re.compile(r"\b(?:where|with|because|since|for|when|if)\b(?!\s*\})")
 
-_DEFINED = re.compile(r"[\s$]*\\?([^\W\d_]+)\s*=")  # the letter that an answer itself defines: `where I = ...`
+_DEFINED = re.compile(
+    r"[\s$]*\\?([^\W\d_]+)\s*(?:\^\{?2\}?\s*|²\s*)?="
+)  # the letter that an answer itself defines: `where I = ...`
 
 
 class Unread(Exception):
@@ -139,7 +141,7 @@ def _tidy(source: Source, names: Names, notes: list[str]) -> None:
     if (comment := _COMMENT.search(source.text)) and comment.start() and "\\text" not in source.text:
         cut = comment.start()
         defined = _DEFINED.match(source.text, comment.end())
-        if defined and not names.has_base(GREEK_LETTERS.get(defined[1], defined[1])):
+        if defined and not names.has(GREEK_LETTERS.get(defined[1], defined[1]), ""):
             source.replace(r"(?s)" + comment[0] + "(?=" + re.escape(source.text[comment.end() :]) + r"\Z)", ";")
         else:
             notes.append(f"the words from `{comment[0]}` on are not read")
@@ -152,12 +154,13 @@ def _tidy(source: Source, names: Names, notes: list[str]) -> None:
         lambda found: _numbered(found[1], found[2], names) or found[0],
     )
     source.replace(
-        r"(?<![A-Za-z\\])d(\^?\{?2\}?|²)?\s*([^\W\d_]\w*|\\[A-Za-z]+\w*)\s*/\s*\(?d\s*t\s*(?:\^?\{?2\}?|²)?\)?",
+        r"(?<![A-Za-z\\])d(\^?\{?2\}?|²)?\s*([^\W\d_]\w*|\\[A-Za-z]+\w*)\s*/\s*"
+        r"(?:d\s*t\s*(?:\^?\{?2\}?|²)?|\(\s*d\s*t\s*(?:\^?\{?2\}?|²)?\s*\))",
         _derivative,
     )
     source.replace(
         r"\\(?:text|mathrm|operatorname|rm|textrm|mbox|SI|si|qty|unit|num|mathit)\s*\*?\s*\{[^{}]*\}|\\[A-Za-z]+"
-        r"|[A-Za-z]+(?:_[A-Za-z0-9]+)*",
+        r"|[A-Za-z]+(?:_[A-Za-z0-9]+)*|[\u0391-\u03c9\u03d5]_[A-Za-z]{2,}",
         lambda found: _word(found[0], names, source.text, found.start()),
     )
 
@@ -211,6 +214,7 @@ def _word(word: str, names: Names, text: str, start: int) -> str:
     if word.startswith("\\"):
         return word
     base, *subs = word.split("_")
+    base = GREEK_LETTERS.get(base, base)
     dots = 0
     if subs and subs[-1] in ("dot", "ddot", "dddot"):
         dots = len(subs.pop()) - 2
@@ -221,7 +225,7 @@ def _word(word: str, names: Names, text: str, start: int) -> str:
     *before, last = _segments(base, names) or [base]
     sub, rest = _subscript(last.strip().lstrip("\\"), "_".join(subs), names, "\\" in text)
     letter = _dotted(last.strip().lstrip("\\"), dots) if dots else last.rstrip()
-    tail = "".join(_segments(rest, names)) if rest else ""
+    tail = _word(rest, names, text, start) if rest else ""
     return f"{''.join(before)}{letter}_{{{sub}}} {tail}"
 
 
@@ -233,12 +237,13 @@ def _dotted(base: str, dots: int) -> str:
 def _subscript(base: str, written: str, names: Names, in_latex: bool) -> tuple[str, str]:
     """Split the text after an underscore into the subscript and the letters after it: `v_0t` is v_0 times t."""
     plain = bare(written)
-    for size in range(len(plain), 0, -1):
-        if names.has(base, plain[:size]):
-            return plain[:size], plain[size:]
-    if digits := re.match(r"\d+", plain):
-        return digits[0], plain[digits.end() :]
-    return (plain[:1], plain[1:]) if in_latex else (plain, "")
+    known = next((size for size in range(len(plain), 0, -1) if names.has(base, plain[:size])), 0)
+    digits = re.match(r"\d+", plain)
+    size = known or (digits.end() if digits else 1 if in_latex else len(plain))
+    rest = written
+    for each in plain[:size]:
+        rest = rest[rest.index(each) + 1 :]
+    return plain[:size], rest.lstrip("_")
 
 
 def _segments(word: str, names: Names) -> list[str]:

@@ -124,11 +124,70 @@ def test_a_row_that_follows_from_a_wrong_row_carries_its_slip_on() -> None:
         "so $\\mathbf{J}^T = \\mathbf{J}^{-1} = -\\mathbf{J}$",
         "$z_i = x_i$, so $Y = \\sum_i z_i y_i = \\sum_i x_i y_i$",
         "$x_\\nu x^\\nu = s$, so $a = 4 x_\\nu x^\\nu - 2 x^\\nu x_\\nu = 2 x_\\nu x^\\nu$",
+        "$$ T = \\frac12 m a^2 \\dot\\theta^2 $$\n\n$$ V = m g a \\cos\\theta $$\n\n$$ L = T - V $$\n\n"
+        "$$ E = \\dot q_i \\frac{\\partial L}{\\partial \\dot q_i} - L = T + V $$",
+        "$$ \\frac12 m v^2 - \\frac{k}{R} = 0 $$\n\n$$ v_\\theta = \\sqrt{\\frac{k}{m R}} $$",
+        "# Notes\n\n**Problem 1**\n\n$$ m \\ddot x = -k x $$\n\n**Problem 2**\n\n$$ m \\ddot x = -2 k x $$",
+        "The origin is $P = O$.\n\n$$ f = \\frac{1 + b/2 + O(b^2)}{1 - b/2 + O(b^2)} = 1 + b + O(b^2) $$",
+        "$$ h = G(x_0, y_0) - G(x, y) = a $$\n\n$$ \\frac{k}{G(x_0, y_0) - G(x, y)} = \\frac{k}{a} $$",
+        "$$ x(1) = 3 $$\n\n$$ x = 3 t^2 $$",
+        "$$ \\frac{d \\mathbf r}{dt} = \\mathbf{C} = \\mathbf{v} $$",
+        "$$ a = A_{ij} B_{jk} = B_{ij} A_{jk} $$",
+        "$$ W = \\int_{\\mathbf{r}_0}^{\\mathbf{r}_1} \\mathbf{F}\\, d\\mathbf{r} = \\frac12 m v^2 $$",
         "$f(x) = x^2$, so $f(a+h) = a^2 + 2 a h + h^2$",
     ],
 )
 def test_what_is_not_known_is_not_accused(text: str) -> None:
     assert wrong(text) == []
+
+
+def test_a_potential_of_a_coordinate_is_differentiated() -> None:
+    text = (
+        "$$ L(r, \\theta) = \\frac12 m \\dot r^2 + \\frac12 m r^2 \\dot\\theta^2 - U(r) $$\n\n"
+        "$$ F_r = \\frac{\\partial L}{\\partial r} = m r \\dot\\theta^2 - \\frac{d U}{d r} $$\n\n"
+        "$$ m \\ddot r = m r \\dot\\theta^2 - \\frac{d U}{d r} $$"
+    )
+    assert outcomes(text) == ["defines", "defines", "holds", "holds"]
+    assert outcomes(text.replace("- \\frac{d U}", "+ \\frac{d U}", 1))[2] == "differs"
+
+
+def test_the_variable_of_an_integral_may_get_a_value() -> None:
+    text = (
+        "$$ \\begin{aligned} \\frac{k}{r^3} &= -\\frac{dV}{dr} \\\\ \\int dV &= -k \\int \\frac{dr}{r^3} \\\\"
+        "V &= \\frac{k}{2 r^2} \\end{aligned} $$\n\n$$ E = V + \\int dV $$\n\n$$ E = \\frac{k}{r^2} $$"
+    )
+    assert "differs" not in outcomes(text)
+
+
+def test_a_moment_about_an_axis_is_not_an_approximation() -> None:
+    text = "The moment of inertia about the end is\n\n$$ I = \\int_0^l \\lambda x^2\\, dx = \\frac12 \\lambda l^3 $$"
+    assert outcomes(text) == ["defines", "differs"]
+    assert outcomes("It is about $$ a = \\sin x = x $$") == ["defines", "approximates"]
+
+
+def test_the_limit_of_an_inner_integral_may_depend_on_the_outer_variable() -> None:
+    text = (
+        "The radius is $r = R z/h$. The volume is\n\n"
+        "$$ V = \\int_0^h \\int_0^r 2 \\pi s\\, ds\\, dz = \\int_0^h \\pi r^2\\, dz $$"
+    )
+    assert outcomes(text)[-1] == "holds"
+
+
+def test_a_coordinate_stays_fixed_in_a_partial_derivative() -> None:
+    text = (
+        "The curve is $y(x)$.\n\n$$ F = y^2 + y'^2 $$\n\n$$ \\frac{\\partial F}{\\partial y} = 2 y $$\n\n"
+        "$$ \\frac{\\partial F}{\\partial x} = 0 $$"
+    )
+    assert outcomes(text) == ["defines", "holds", "holds"]
+
+
+def test_the_derivative_of_a_value_follows_the_chain_rule() -> None:
+    text = "$$ U(r) = -\\frac{k}{r} $$\n\n$$ \\frac{d}{du} U\\!\\left( \\frac{1}{u} \\right) = -k $$"
+    assert outcomes(text) == ["defines", "holds"]
+    unknown = (
+        "$$ U(r) + c = 0 $$\n\n$$ c \\frac{d}{du} U(1/u) = -k $$\n\n$$ U = -k/r $$\n\n$$ \\frac{d}{du} U(1/u) = -k $$"
+    )
+    assert outcomes(unknown)[-1] == "holds"
 
 
 def test_a_motion_that_satisfies_its_equation_holds() -> None:

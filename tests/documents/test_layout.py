@@ -35,6 +35,12 @@ def test_a_row_that_begins_with_a_sign_is_the_rest_of_a_side() -> None:
         ("$a = b \\Rightarrow a^2 = b^2$", [["="], ["="]]),
         ("$a \\leq b < c$", [["<=", "<"]]),
         ("```\n$a = b$\n```\n`$c = d$` and $e = f$", [["="]]),
+        ("$$ a = b \\\\$$ and $c = d$", [["="], ["="]]),
+        (
+            "$$ \\begin{aligned} a =& \\\\ =& b \\\\ c &= d + \\quad \\\\ & \\quad e \\end{aligned} $$",
+            [[], ["="], ["="]],
+        ),
+        ("The $3_{rd}$ row $(*)$ has $A \\not= 0$.", [["!="]]),
         ("It costs \\$5 and $p = 1$.", [["="]]),
     ],
 )

@@ -121,3 +121,28 @@ def test_a_bold_zero_is_the_vector_zero_and_not_a_letter(zero: str) -> None:
     (claim,) = audit(rf"$\vec r \times \vec r = {zero}$").claims
     assert claim.values is not None and not claim.values[1].free_symbols
     assert claim.verdict is not None and claim.verdict.outcome is Outcome.HOLDS
+
+
+@pytest.mark.parametrize(
+    ("written", "value"),
+    [
+        ("x(1)", "x(1)"),
+        ("G(x_0, y_0) - G(x, y)", "-G + G(x_0,y_0)"),
+        ("\\frac{\\partial L}{\\partial q^j}", "dL/dq^j"),
+        ("S[q] - S", "0"),
+        ("c[a + b]", "c*(a + b)"),
+        ("O(b^2) + 1", "1"),
+    ],
+)
+def test_a_function_of_an_argument_is_not_a_product(written: str, value: str) -> None:
+    assert values(f"$${written} = k$$")[0][0] == value
+
+
+def test_a_vector_that_is_differentiated_by_time_changes() -> None:
+    assert "r_1." in values("$$ \\frac{d \\mathbf r}{dt} = 0 $$")[0][0]
+
+
+def test_a_function_of_the_variable_of_an_integral_is_not_constant() -> None:
+    text = "$$ f = \\int_0^a g(x)\\, dx $$ $$ \\mathbf{h} = \\int_0^t \\mathbf r(t') dt' $$"
+    scalar, vector = values(text)
+    assert scalar[1].startswith("Integral(g") and "Integral(r_1" in vector[1]

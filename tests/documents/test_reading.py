@@ -129,6 +129,12 @@ def test_every_row_of_cases_is_read() -> None:
         ("a = g/l \\sin\\theta", ("a", "g*sin(theta)/l")),
         ("\\sum F_x = m a", ("sum F_x", "a*m")),
         ("b = a\\Bigl(c + \\sin\\theta\\Bigr)\\notag", ("b", "a*(c + sin(theta))")),
+        ("\\sin(arccos(x)) = b", ("sqrt(1 - x**2)", "b")),
+        ("x = 0{,}25 b \\qedhere", ("x", "b/4")),
+        ("a = || \\mathbf v || b", ("a", "b*sqrt(v_1**2 + v_2**2 + v_3**2)")),
+        ("f = \\left( {a + b} \\over c \\right)", ("f", "(a + b)/c")),
+        ("\\frac{\\partial g_{\\mu\\nu}(x)}{\\partial x^\\rho} = 0", ("dg_munu/dx^rho", "0")),
+        ("x = \\vectorbold{v} \\cdot \\vectorunit{x}", ("x", "v_1")),
         ("\\left\\{\\begin{align} F - N &= m a & (1) \\\\ N &= 0 \\end{align}\\right.", ("F - N", "a*m")),
     ],
 )

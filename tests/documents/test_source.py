@@ -32,6 +32,11 @@ def test_double_backslashes_before_brackets_are_read_as_delimiters() -> None:
     assert source_of("so \\\\(x = 1\\\\)", Format.MARKDOWN).text == "so \\(x = 1\\)"
 
 
+def test_a_formula_in_a_quotation_has_no_marks_of_the_quotation() -> None:
+    source = source_of("So\n\n> \\begin{equation}\n> a\\_1 > b\n> \\end{equation}\n", Format.MARKDOWN)
+    assert source.text == "So\n\n\\begin{equation}\na_1 > b\n\\end{equation}\n"
+
+
 def test_the_cells_of_a_notebook_have_places_in_its_file() -> None:
     cells = [
         {"cell_type": "code", "source": ["x = 1\n"]},
