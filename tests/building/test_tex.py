@@ -237,9 +237,9 @@ def test_a_pdf_that_is_shorter_than_its_log_says_does_not_replace_one(programs: 
     assert target.read_bytes() == b"earlier"
 
 
-def pages_of(body: str, target: Path) -> list[str]:
-    preamble = beginning(templates_of(ROOT), None)
-    typeset(rf"{preamble}\begin{{document}}\shortlastpageavoided {body}\end{{document}}", target, chosen_engine(None))
+def pages_of(body: str, target: Path, *included: Path) -> list[str]:
+    document = rf"{beginning(templates_of(ROOT), None)}\begin{{document}}\shortlastpageavoided {body}\end{{document}}"
+    typeset(document, target, chosen_engine(None), included=[(each.name, each.read_bytes()) for each in included])
     return [page.extract_text() for page in PdfReader(target).pages]
 
 
@@ -257,3 +257,19 @@ def test_the_space_that_is_saved_depends_on_the_last_page(target: Path) -> None:
 
     usual, tight, tighter = map(space, (10, 41, 43))
     assert usual > tight > tighter
+
+
+def test_a_drawing_is_larger_beside_a_long_statement_and_smaller_beside_a_short_one(
+    target: Path, tmp_path: Path
+) -> None:
+    page = r"\usepackage[paperwidth=4cm,paperheight=4cm,margin=0pt]{geometry}"
+    drawing = tmp_path / "drawing.pdf"
+    typeset(source("x", page), drawing, chosen_engine(None))
+
+    def width(count: int) -> float:
+        words = "A block slides down a smooth plane. " * count
+        statement = rf"\begin{{statement}}\beside{{{words}}}{{drawing.pdf}}{{}}{{}}{{}}\end{{statement}}"
+        text = pages_of(rf"{statement}\par room \the\dimexpr\textwidth-\besidewidth-1.2em\relax", target, drawing)[0]
+        return float(text.split("room ")[1].split("pt")[0]) / 28.45275
+
+    assert [round(width(count), 2) for count in (1, 30)] == [0.88 * 4, 1.25 * 4]

@@ -91,6 +91,7 @@ PINNED = [
     (sqrt(42) / 28 * M * a**2 * omega**2, r"\frac{\sqrt{42}}{28}\,Ma^{2}\omega^{2}", "√42/28 M a² ω²"),
     (sqrt(a**2 + b**2), r"\sqrt{a^{2}+b^{2}}", "√(a² + b²)"),
     (a / 4 + sqrt(a**2 + b**2) / 4, r"\frac{a+\sqrt{a^{2}+b^{2}}}{4}", "(a + √(a² + b²))/4"),
+    (-a / 2 - sqrt(a**2 + b**2), r"-\frac{a}{2}-\sqrt{a^{2}+b^{2}}", "-a/2 - √(a² + b²)"),
     (10 * sqrt(3) / 9 - sqrt(30) / 9, r"\frac{10\sqrt{3}-\sqrt{30}}{9}", "(10√3 - √30)/9"),
     (2 * sqrt(7) / 3 - Rational(1, 3), r"\frac{2\sqrt{7}-1}{3}", "(2√7 - 1)/3"),
     (a / 4 + b / 4, r"\frac{a}{4}+\frac{b}{4}", "a/4 + b/4"),

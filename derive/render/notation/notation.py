@@ -96,11 +96,14 @@ def _swings(factor: Expr) -> bool:
     return any(each.has(ex.TIME) for each in factor.atoms(Function))
 
 
-def _is_root_of_quadratic(total: Expr) -> bool:
-    """Return whether a sum is like the numerator of the quadratic formula: two numbers of which at least one has a
-    square root, or two terms of which exactly one has a square root, and this term contains a sum."""
+def _is_root_of_quadratic(total: Expr, below: int) -> bool:
+    """Return whether a sum over `below` is like the quadratic formula: two numbers of which at least one has a square
+    root, or two terms of which exactly one is a root of a sum that keeps the denominator, as in (b + sqrt(b^2 + c^2))/2
+    but not in sqrt(b^2 + c^2) + b/2."""
     roots = [term for term in total.args if _has_root(term)]
-    return len(total.args) == 2 and (total.is_number and roots != [] or len(roots) == 1 and roots[0].has(Add))
+    if len(total.args) != 2 or total.is_number:
+        return len(total.args) == 2 and roots != []
+    return len(roots) == 1 and bool(roots[0].has(Add)) and roots[0].as_coeff_Mul()[0] % below != 0
 
 
 def _has_root(term: Expr) -> bool:
@@ -180,7 +183,7 @@ class Notation:
             in_sums = any(f.is_Add for term in rest.args for f in Mul.make_args(term))
             if content != 1 and content.q == 1 and not holds_rates(expr) and not in_sums:
                 return self._factors([content, rest])  # 4(b^2 + c^2), not 4 b^2 + 4 c^2
-            if content.p == 1 and content.q != 1 and _is_root_of_quadratic(rest):
+            if content.p == 1 and content.q != 1 and _is_root_of_quadratic(rest, content.q):
                 return Fraction(self._terms(self._ordered_terms(rest)), Digits(str(content.q)))
         return self._terms(list(expr.args) if isinstance(expr, ex.Terms) else self._ordered_terms(expr))
 
