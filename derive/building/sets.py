@@ -15,7 +15,7 @@ from functools import cache, partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from derive.building.cache import NOT_KEPT, PACKAGES, Cache, Kept, digest, engine_digest, file_digest, not_kept
+from derive.building.cache import CACHE, NOT_KEPT, PACKAGES, Cache, Kept, digest, engine_digest, file_digest, not_kept
 from derive.building.class_record import RECORD
 from derive.building.documents import named_documents, still_there, with_asked
 from derive.building.files import folder, write, writing
@@ -66,7 +66,6 @@ from derive.render.rendered import Files, Rendered
 if TYPE_CHECKING:
     from derive.course.problem_set import ProblemSet
 
-CACHE = ".derived"  # the folder in which a set stores data between builds
 FIRST, LAST = -float("inf"), float("inf")  # ranks of jobs that begin before or after all derivations
 
 
