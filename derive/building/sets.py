@@ -393,7 +393,7 @@ class _Build:
         there = there_of(self.outputs, self.documents, self._wanted())
         index = partial(index_page, self.root, self.heading, parts)
         pages = self._page(INDEX, partial(index, papers(self.root, self.set_id, there)))
-        sheets = papers_of(self.root, [pair for pair in there if pair[0] == SHEET])
+        sheets = papers_of(self.root, self.set_id, [pair for pair in there if pair[0] == SHEET])
         pages |= self._page(f"{STUDENTS}/{INDEX}", partial(index, sheets, for_students=True))
         if self._record(pages):
             self._was_made(INDEX)
