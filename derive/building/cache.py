@@ -19,8 +19,10 @@ from typing import Any
 from derive import FOLDER
 from derive.building import signatures
 from derive.building.files import shown_path
+from derive.building.set_names import set_folder
 from derive.errors import BuildFailed, Complaint
 
+CACHE = ".derived"  # the folder in which a set stores data between builds
 PACKAGES = ("sympy", "mpmath", "jinja2", "pyyaml", "pylatexenc", "matplotlib")
 LIMIT = 256 * 1024 * 1024
 NOT_KEPT = "not-kept"
@@ -129,6 +131,12 @@ class Cache:
 
 
 NO_CACHE = Cache()
+
+
+def cache_of_set(root: Path, set_id: str) -> Cache:
+    """Return the store of a set; a set without a folder of outputs keeps nothing."""
+    outputs = set_folder(root, set_id)
+    return Cache(outputs / CACHE) if outputs.is_dir() else NO_CACHE
 
 
 @dataclass(frozen=True)

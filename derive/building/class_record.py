@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import unicodedata
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -47,12 +48,16 @@ class ClassRecord:
     def code_of(self, student: str) -> str | None:
         """Return the code of the student with this code or name; None if there is no such student, or if several
         students have this name."""
-        wanted = " ".join(student.split()).casefold()
+        wanted = _comparable(student)
         for code in self.students:
-            if code.casefold() == wanted:
+            if _comparable(code) == wanted:
                 return code
-        named = [code for code, name in self.students.items() if name.casefold() == wanted]
+        named = self.codes_with_name(student)
         return named[0] if len(named) == 1 else None
+
+    def codes_with_name(self, student: str) -> list[str]:
+        wanted = _comparable(student)
+        return [code for code, name in self.students.items() if _comparable(name) == wanted]
 
     def unknown(self, student: str) -> Complaint:
         """Return the error about an answer of a student who is not in the class."""
@@ -60,12 +65,20 @@ class ClassRecord:
             message = f"the problem has variants, but no student of the class of `{self.set_id}` is named"
             return Complaint("no-such-student", message, help="give the code of the student in the column `student`")
         shown = student if len(student) <= 40 else f"{student[:40]} ..."
+        if several := self.codes_with_name(student):
+            message = f"several students of the class of `{self.set_id}` have the name `{shown}`"
+            return Complaint("no-such-student", message, help=f"give the code of the student: {', '.join(several)}")
         help_line = did_you_mean(student, [*self.students, *self.students.values()])
         return Complaint(
             "no-such-student",
             f"the class of `{self.set_id}` has no student with the code or the name `{shown}`",
             help=help_line or f"the roster or `build/{self.set_id}/class/answers.csv` has the codes",
         )
+
+
+def _comparable(text: str) -> str:
+    """Return a code or a name without differences of case, of spaces, and of how Unicode encodes accents."""
+    return " ".join(unicodedata.normalize("NFC", text).split()).casefold()
 
 
 def class_to_grade(root: Path, set_id: str, seed: str | None, students: Mapping[str, str] | None) -> ClassRecord | None:

@@ -19,7 +19,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from derive.building.cache import Cache, digest, file_digest, folder_digest
+from derive.building.cache import CACHE, Cache, digest, file_digest, folder_digest
 from derive.building.class_record import ClassRecord
 from derive.building.cluster import Cluster
 from derive.building.document_list import list_again
@@ -35,14 +35,13 @@ from derive.building.workers import Bug, Crew, Job, done
 from derive.course.names import CLASS, INDEX, KEY, LOGO, NAME, SHEET, SOLUTIONS, STUDENTS
 from derive.course.problem_set import ProblemSet, problem_set
 from derive.errors import Complaint, DeriveError, Faults, Misused, Place, Rejected
-from derive.grading.table import harmless
+from derive.grading.table import harmless, read_cells
 
-CACHE, MADE = ".derived", ".made"
+MADE = ".made"
 ANSWERS = "answers"
 KINDS = (SHEET, KEY, SOLUTIONS)
 COLUMNS = ("student", "name", "problem", "part", "answer", "formula", "value", "unit", "figures")
 AT_ONCE = 10  # the number of students in one job
-LONGEST_ROSTER = 2_000_000
 RESEED = "leave out `--seed`, or add `--reseed`; the students then get values that differ from those on their sheets"
 
 
@@ -80,32 +79,24 @@ def read_roster(path: Path) -> tuple[Student, ...]:
     of the file."""
     shown, faults = str(path), Faults()
     try:
-        if path.stat().st_size > LONGEST_ROSTER:
-            raise Rejected(Complaint("roster", f"`{shown}` is larger than {LONGEST_ROSTER // 10**6} MB"))
-        text = path.read_text(encoding="utf-8-sig")
+        cells = read_cells(path.read_bytes(), shown)
     except OSError as error:
         message, help_line = f"`{shown}` cannot be read: {error.strerror}", "give the path of a CSV file"
         raise Rejected(Complaint("roster", message, help=help_line)) from None
-    except UnicodeError:
-        raise Rejected(Complaint("roster", f"`{shown}` is not in UTF-8", help="save it as CSV in UTF-8")) from None
-    lines = text.splitlines()
-    delimiter = ";" if lines and ";" in lines[0] and "," not in lines[0] else ","
-    table = csv.DictReader(io.StringIO(text), delimiter=delimiter)
-    columns = {(name or "").strip().lower(): name for name in table.fieldnames or ()}
+    columns = [name.lower() for name in cells.heading]
     if "name" not in columns:
-        place = Place(shown, 1, 1, lines[0] if lines else "", 1)
+        place = Place(shown, 1, 1, cells.first, 1)
         raise Rejected(
             Complaint("roster", "the roster has no column `name`", place, help="name the columns in the first line")
         )
     found: list[Student] = []
     taken: dict[str, int] = {}
-    for row in table:
-        line = table.line_num
-        place = Place(shown, line, 1, lines[line - 1] if line <= len(lines) else "", 1)
-        name = " ".join((row[columns["name"]] or "").split())
-        code = (row[columns["code"]] or "").strip() if "code" in columns else ""
-        if any(cell.strip() for cell in row.get(None) or ()):
-            help_line = f"put a cell that contains `{delimiter}` in double quotes"
+    for line, row in cells.rows:
+        place = Place(shown, line, 1, cells.delimiter.join(row), 1)
+        of_column = dict(zip(columns, row, strict=False))
+        name, code = " ".join(of_column.get("name", "").split()), of_column.get("code", "").strip()
+        if any(cell.strip() for cell in row[len(columns) :]):
+            help_line = f"put a cell that contains `{cells.delimiter}` in double quotes"
             faults.error("roster", "this line has more cells than the first line", place, help=help_line)
             continue
         if not name:
@@ -395,7 +386,7 @@ def _rows(student: Student, problem: str, page: Mapping[str, Any]) -> list[tuple
             number = answer["number"] or {}
             value, unit = str(number.get("value", "")), number.get("unit", answer["unit"])
             of_part = (student.code, student.name, problem, part["label"], key)
-            rows.append((*of_part, answer["sympy"], value, unit, str(number.get("figures") or "")))
+            rows.append((*of_part, answer["text"], value, unit, str(number.get("figures") or "")))
     return rows
 
 

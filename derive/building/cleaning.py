@@ -7,10 +7,10 @@ from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
 
+from derive.building.cache import CACHE
 from derive.building.files import writing
 from derive.building.lock import locked
 from derive.building.set_names import set_names
-from derive.building.sets import CACHE
 from derive.errors import Complaint, Misused, did_you_mean
 
 

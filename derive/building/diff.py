@@ -10,13 +10,12 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from derive.building.cache import PACKAGES, Cache, engine_digest
+from derive.building.cache import PACKAGES, cache_of_set, engine_digest
 from derive.building.changes import Change, changes
 from derive.building.files import shown_path
 from derive.building.manifest import Manifest
 from derive.building.revision import TEMPLATES, course_at
 from derive.building.set_names import set_folder
-from derive.building.sets import CACHE
 from derive.building.workers import Bug, Job, done, job_of
 from derive.course.problem_set import path_of, problem_paths
 from derive.errors import Complaint, DeriveError, Misused
@@ -88,8 +87,7 @@ def _job(root: Path, of: Path, problem_id: str, detail: str | None, limit: float
 def _page(root: Path, of: Path, problem_id: str, detail: str | None) -> Page:
     from derive.building.solution import rendered
 
-    outputs = set_folder(root, problem_id.partition("/")[0])
-    cache = Cache(outputs / CACHE if outputs.is_dir() else None)
+    cache = cache_of_set(root, problem_id.partition("/")[0])
     page: Page = json.loads(rendered(of, problem_id, detail, cache, only=("json",)).texts["json"])
     return page
 

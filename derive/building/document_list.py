@@ -12,6 +12,7 @@ from derive.building.lock import locked
 from derive.building.manifest import EXPORT_SUFFIX, Documents, Manifest
 from derive.building.set_names import set_folder
 from derive.course.names import CLASS, INDEX, ON_A_PAGE, STUDENTS
+from derive.course.problem_set import language_of
 from derive.page.template import templates_of
 from derive.page.wording import phrases
 from derive.render.printing.templates import filled_html
@@ -28,9 +29,9 @@ class Paper:
     files: tuple[tuple[str, str], ...]
 
 
-def papers_of(root: Path, documents: Documents) -> list[Paper]:
-    """Return these documents of a set with their printed names and the addresses of their files."""
-    names = phrases(templates_of(root)).labels["documents"]
+def papers_of(root: Path, set_id: str, documents: Documents) -> list[Paper]:
+    """Return these documents of a set with their names in the language of the set and the addresses of their files."""
+    names = phrases(templates_of(root), language_of(root, set_id)).labels["documents"]
     page = {kind: ((f"{file}.html", "HTML"),) for kind, file in documents if kind in ON_A_PAGE}
     return [Paper(names[kind], ((f"{file}.pdf", "PDF"), *page.get(kind, ()))) for kind, file in documents]
 
@@ -42,12 +43,13 @@ def there_of(outputs: Path, documents: Documents, made: Documents = ()) -> Docum
 
 def papers(root: Path, set_id: str, documents: Documents) -> list[Paper]:
     """Return these documents, followed by the page for students, the page of the class and the exports."""
-    outputs, words = set_folder(root, set_id), phrases(templates_of(root)).labels["web"]
+    outputs = set_folder(root, set_id)
+    words = phrases(templates_of(root), language_of(root, set_id)).labels["web"]
     of_class = (outputs / CLASS / f"{INDEX}.html").is_file()
     folders = [(STUDENTS, words["for_students"]), *([(CLASS, words["class"])] if of_class else [])]
     exported = sorted(each.name for each in outputs.glob("*") if _EXPORTED.fullmatch(each.name))
     return [
-        *papers_of(root, documents),
+        *papers_of(root, set_id, documents),
         *(Paper(name, ((f"{folder}/{INDEX}.html", "HTML"),)) for folder, name in folders),
         *(Paper(name, ((name, name.rpartition(".")[2].upper()),)) for name in exported),
     ]

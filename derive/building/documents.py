@@ -9,6 +9,7 @@ from collections.abc import Collection
 from typing import TYPE_CHECKING
 
 from derive.building.manifest import Documents, Manifest
+from derive.course.names import DOCUMENTS
 from derive.errors import Complaint, Misused
 
 if TYPE_CHECKING:
@@ -28,9 +29,16 @@ def still_there(documents: Documents, record: Manifest, asked: Collection[str]) 
 
 
 def named_documents(heading: ProblemSet, record: Manifest, asked: Collection[str]) -> list[list[str]]:
-    """Update and return the documents of the set; remove the files of documents that the set no longer has."""
+    """Update and return the documents of the set; remove the files of documents that the set no longer has.
+
+    If the record is empty, for example because another user built the set, each PDF with the name of a document counts
+    as requested. Otherwise it would stay without an update.
+    """
     own = [kind for kind, _ in heading.documents]
-    requested = [kind for kind in dict.fromkeys([*record.asked, *asked]) if kind not in own]
+    others = {*(file for _, file in heading.documents), *(each.rpartition("/")[2] for each in heading.problems)}
+    there = [kind for kind in DOCUMENTS if kind not in others and (record.folder / f"{kind}.pdf").is_file()]
+    earlier = record.asked if record.documents else there
+    requested = [kind for kind in dict.fromkeys([*earlier, *asked]) if kind not in own]
     named = with_asked(heading.documents, requested)
     files = [file for _, file in named]
     if twice := [file for file in files if files.count(file) > 1]:

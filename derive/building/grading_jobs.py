@@ -7,10 +7,8 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
-from derive.building.cache import Cache
+from derive.building.cache import cache_of_set
 from derive.building.class_record import ClassRecord
-from derive.building.set_names import set_folder
-from derive.building.sets import CACHE
 from derive.building.workers import TIME_LIMIT, Bug, Crew, Job, job_of
 from derive.errors import BuildFailed, Complaint, DeriveError, Misused
 from derive.grading.grading import SECONDS, Graded
@@ -89,8 +87,7 @@ def _graded(root: Path, problem_id: str, rows: Sequence[Asked], of_class: ClassR
     from derive.grading.key import Key
 
     set_id, _, problem = problem_id.partition("/")
-    outputs = set_folder(root, set_id)
-    cache = Cache(outputs / CACHE if outputs.is_dir() else None)
+    cache = cache_of_set(root, set_id)
     with_class = of_class is not None and of_class.set_id == set_id
     variations = load_problem(root, problem_id).variations if with_class else ()
     keys: dict[tuple[tuple[str, int], ...], Key] = {}

@@ -15,7 +15,7 @@ from functools import cache, partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from derive.building.cache import NOT_KEPT, PACKAGES, Cache, Kept, digest, engine_digest, file_digest, not_kept
+from derive.building.cache import CACHE, NOT_KEPT, PACKAGES, Cache, Kept, digest, engine_digest, file_digest, not_kept
 from derive.building.class_record import RECORD
 from derive.building.documents import named_documents, still_there, with_asked
 from derive.building.files import folder, write, writing
@@ -66,7 +66,6 @@ from derive.render.rendered import Files, Rendered
 if TYPE_CHECKING:
     from derive.course.problem_set import ProblemSet
 
-CACHE = ".derived"  # the folder in which a set stores data between builds
 FIRST, LAST = -float("inf"), float("inf")  # ranks of jobs that begin before or after all derivations
 
 
@@ -392,7 +391,7 @@ class _Build:
         there = there_of(self.outputs, self.documents, self._wanted())
         index = partial(index_page, self.root, self.heading, parts)
         pages = self._page(INDEX, partial(index, papers(self.root, self.set_id, there)))
-        sheets = papers_of(self.root, [pair for pair in there if pair[0] == SHEET])
+        sheets = papers_of(self.root, self.set_id, [pair for pair in there if pair[0] == SHEET])
         pages |= self._page(f"{STUDENTS}/{INDEX}", partial(index, sheets, for_students=True))
         if self._record(pages):
             self._was_made(INDEX)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import os
 import re
+from contextlib import suppress
 from pathlib import Path
 
 from derive import FOLDER
@@ -70,7 +71,14 @@ def problem_id_of(text: str) -> str:
 
 
 def new_id_of(text: str) -> str:
-    """Return the id of a new problem from the id or path that the user wrote."""
+    """Return the id of a new problem from the id or path that the user wrote.
+
+    The path of a file that exists may begin anywhere; any other path begins with `problems/`.
+    """
+    with suppress(OSError, ValueError, RuntimeError):  # it is not the path of a file in the folder `problems`
+        file, root = Path(text).expanduser(), found_root(None)
+        if root is not None and file.suffix == ".yaml" and file.is_file():
+            text = file.resolve().relative_to((root / "problems").resolve()).as_posix()
     return text.removeprefix("./").removeprefix("problems/").removesuffix(".yaml").rstrip("/")
 
 

@@ -24,6 +24,7 @@ MOST_PIXELS = 16_000_000
 KINDS = ("pdf", "svg", "png")
 _BEGINS = {"pdf": b"%PDF-", "png": b"\x89PNG\r\n\x1a\n"}
 _SVG = "http://www.w3.org/2000/svg"
+_EMPTY = f'<svg xmlns="{_SVG}" width="1" height="1"/>'.encode()
 _XLINK = "http://www.w3.org/1999/xlink"
 _SHAPES = {
     "svg", "g", "defs", "symbol", "use", "path", "rect", "circle", "ellipse", "line", "polyline", "polygon", "text",
@@ -61,25 +62,35 @@ class OwnFigure:
 def read_figure(
     root: Path, problem: str, written: FigureKeys | None, drawings: tuple[Placement, ...], faults: Faults
 ) -> OwnFigure | None:
-    """Return the figure of a problem, or None after an error. The path in `written` is relative to the folder of the
-    file `problem`."""
+    """Return the figure of a problem, or None after an error in its keys. The path in `written` is relative to the folder
+    of the file `problem`.
+
+    After an error of the file, the figure is empty, so that prose may still mention it.
+    """
     if written is None or written.file is None or written.alt is None:  # a missing key is already reported
         return None
-    place, kind = written.file.place, written.file.rpartition(".")[2].lower()
-    if kind not in KINDS:
-        help_line = "save the figure as PDF, SVG or PNG"
-        faults.error("figure", f"`{written.file}` is not a PDF, SVG or PNG file", place, help=help_line)
-        return None
-    content = _content(root, problem, written.file, faults)
-    if content is None:
-        return None
+    place = written.file.place
     if not NAME.fullmatch(Path(written.file).stem):
         help_line = "use letters, digits, `-` and `_`"
         faults.error("figure", f"`{Path(written.file).name}` cannot be the name of a figure", place, help=help_line)
     if any(drawing.key == Path(written.file).stem for drawing in drawings):
         message = f"the figure `{written.file}` has the name of one of `drawings:`"
         faults.error("figure", message, place, help="rename the file")
-    wrong = ""
+    kind, content = _checked(root, problem, written.file, faults) or ("svg", _EMPTY)
+    path = (Path(problem).parent / written.file).as_posix()
+    return OwnFigure(path, kind, content, written.alt, written.caption, width_of(written.width, faults), place)
+
+
+def _checked(root: Path, problem: str, name: Word, faults: Faults) -> tuple[str, bytes] | None:
+    """Return the kind and the content of the file; None after an error."""
+    kind = name.rpartition(".")[2].lower()
+    if kind not in KINDS:
+        help_line = "save the figure as PDF, SVG or PNG"
+        faults.error("figure", f"`{name}` is not a PDF, SVG or PNG file", name.place, help=help_line)
+        return None
+    content, wrong = _content(root, problem, name, faults), ""
+    if content is None:
+        return None
     if kind == "svg":
         content, wrong = shapes_of(content)
     elif not content.startswith(_BEGINS[kind]):
@@ -88,10 +99,9 @@ def read_figure(
         wrong = f"has more than {MOST_PIXELS // 10**6} million pixels"
     if wrong:
         help_line = "save it again as plain SVG, without links" if kind == "svg" else "save it again in this format"
-        faults.error("figure", f"`{written.file}` {wrong}", place, help=help_line)
+        faults.error("figure", f"`{name}` {wrong}", name.place, help=help_line)
         return None
-    path = (Path(problem).parent / written.file).as_posix()
-    return OwnFigure(path, kind, content, written.alt, written.caption, width_of(written.width, faults), place)
+    return kind, content
 
 
 def _content(root: Path, problem: str, name: Word, faults: Faults) -> bytes | None:

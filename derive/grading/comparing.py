@@ -7,6 +7,7 @@ letters that the problem does not have; a factor; a term; special values.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import combinations, permutations
 from typing import Any
@@ -402,14 +403,7 @@ class _Comparison:
                 found = None
             outcome = Outcome.FACTOR if found in (None, NUMBER) else Outcome.DIMENSION
             return Verdict(outcome, f"it is {shown(ratios[0], self.key)} times the right answer")
-        wrong = [(i, each) for i, each in enumerate(entries) if not each.is_right]
-        first, worst = wrong[0][0], max((each for _, each in wrong), key=lambda each: each.rank)
-        where = _entry(first, right.shape)
-        outcome = worst.outcome if len(wrong) == 1 else Outcome.DIFFERENT
-        if all(each.outcome is wrong[0][1].outcome for _, each in wrong):
-            outcome = wrong[0][1].outcome
-        others = f", and {len(wrong) - 1} more" if len(wrong) > 1 else ""
-        return Verdict(outcome, f"{where}: {wrong[0][1].because}{others}")
+        return verdict_of_entries(entries, right.shape)
 
     def one_for_all(self, value: Expr, right: MatrixBase) -> Verdict:
         """Judge a single number that is given for a matrix. It may be right for a multiple of the unit matrix, and for
@@ -481,6 +475,17 @@ def _named(dimension: Dimension) -> str:
     return "a number" if dimension == NUMBER else f"{named(dimension)} ({exponents(dimension)})"
 
 
+def verdict_of_entries(entries: Sequence[Verdict], shape: tuple[int, int]) -> Verdict:
+    """Return the verdict on a matrix from the verdicts on its entries; an error names the first wrong entry."""
+    wrong = [(i, each) for i, each in enumerate(entries) if not each.is_right]
+    if not wrong:
+        return max(entries, key=lambda each: each.rank)
+    first, verdict = wrong[0]
+    outcome = verdict.outcome if all(each.outcome is verdict.outcome for _, each in wrong) else Outcome.DIFFERENT
+    others = f", and {len(wrong) - 1} more" if len(wrong) > 1 else ""
+    return Verdict(outcome, f"{_entry(first, shape)}: {verdict.because}{others}")
+
+
 def _size(value: MatrixBase) -> str:
     rows, columns = value.shape
     return f"a list of {rows}" if columns == 1 else f"a matrix of {rows} by {columns}"
@@ -493,4 +498,4 @@ def _entry(index: int, shape: tuple[int, int]) -> str:
     return f"entry {index + 1}" if shape[1] == 1 else f"entry {row + 1}, {column + 1}"
 
 
-__all__ = ["shown", "verdict_on_value"]
+__all__ = ["shown", "verdict_of_entries", "verdict_on_value"]

@@ -73,6 +73,14 @@ def with_units(text: str) -> Iterator[tuple[str, Unit]]:
                 return
 
 
+def components_of(text: str) -> list[str]:
+    r"""Return the decimals of a typed vector, such as `(1.5, 0, -2)` or `\begin{pmatrix} 1.5 \\ 0 \end{pmatrix}`; an
+    empty list for any other text."""
+    plain = re.sub(r"\\(?:begin|end)\s*\{[a-z]*matrix\}|\\(?:left|right)\b|[()\[\]$]", " ", text).replace("\u2212", "-")
+    found = [re.sub(r"\s", "", each) for each in re.split(r",|\\\\", plain)]
+    return found if all(re.fullmatch(r"[-+]?\d+(\.\d+)?([eE][-+]?\d+)?", each) for each in found) else []
+
+
 @dataclass(frozen=True)
 class Typed:
     """A typed number: its value, each decimal in it with the number of its digits after the point, and its unit."""
@@ -201,4 +209,4 @@ def _told(exact: Expr, figures: int, unit: str) -> str:
     return f"it is {number} {unit}".rstrip() if unit != "the SI" else f"it is {number} in SI units"
 
 
-__all__ = ["figures_of", "unit_in", "verdict_on_number", "with_units"]
+__all__ = ["components_of", "figures_of", "unit_in", "verdict_on_number", "with_units"]

@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import Any
 
 import sympy
-from sympy import Abs, Expr, Matrix, MatrixBase, Symbol
+from sympy import Abs, Expr, Matrix, MatrixBase, Rational, Symbol
 
 from derive.algebra.expressions import PLUS_MINUS, Relation
 from derive.algebra.order import in_order
@@ -19,8 +19,8 @@ from derive.documents.meaning import Meaningless
 from derive.documents.source import Source, Span
 from derive.documents.syntax import Letter, Node, Num
 from derive.documents.tokens import TooLarge
-from derive.grading.comparing import DIFFERS, verdict_on_value
-from derive.grading.decimals import figures_of, verdict_on_number, with_units
+from derive.grading.comparing import DIFFERS, verdict_of_entries, verdict_on_value
+from derive.grading.decimals import components_of, figures_of, verdict_on_number, with_units
 from derive.grading.key import Key, Number, Part, Target
 from derive.grading.names import parts_of
 from derive.grading.outcomes import Outcome, Verdict, best_of, share_of
@@ -556,10 +556,12 @@ class _Grading:
         """Judge a number, with or without a unit; None if the problem gives no number or none is typed."""
         if target.is_relation and (angle := angle_of(target, statement.name)) is not None:
             target = angle
-        if target.number is None or (not statement.is_equation and not target.is_relation):
+        if not statement.is_equation and not target.is_relation:
             return None
         if not statement.is_single and statement.name is None and statement.read is not None:
             return None
+        if target.number is None:
+            return self.as_components(statement, target) if target.numbers else None
         text = statement.texts[-1]
         for number, unit in with_units(text):
             try:
@@ -581,6 +583,22 @@ class _Grading:
                 found = replace(found, reading=self.named(statement, latex_of(read.node, self.key.names)))
                 return self.with_direction(found, statement, target)
         return None
+
+    def as_components(self, statement: _Statement, target: Target) -> Verdict | None:
+        """Judge a vector of decimals, with or without a unit; None if none is typed."""
+        text = statement.texts[-1]
+        number, unit = next(with_units(text), (text, None))
+        components = components_of(number)
+        if len(components) != len(target.numbers) or (unit is None and not any(map(Rational, components))):
+            return None  # zero needs no unit and is compared exactly
+        verdicts = [
+            verdict_on_number(value, True, figures_of(each), unit, target, right, _places(value, each))
+            for each, right in zip(components, target.numbers, strict=True)
+            for value in [Rational(each)]
+        ]
+        shown = f"({', '.join(components)})" + (f"\\,\\mathrm{{{unit.text}}}" if unit else "")
+        found = verdict_of_entries(verdicts, target.value.shape)
+        return replace(found, reading=self.named(statement, shown))
 
     def with_direction(self, found: Verdict, statement: _Statement, target: Target) -> Verdict:
         if not target.is_relation or not found.is_right or target.value.operator == "=":

@@ -21,6 +21,7 @@ from derive.algebra.expressions import (
     At,
     BodyRate,
     CarriedRate,
+    MatrixAmount,
     Relation,
     Slope,
     TimeRate,
@@ -66,6 +67,7 @@ class Target:
     scaled   whether the value is known up to a factor only, such as the amplitudes of a mode
     own      the points of the answer in the rubric
     whole    the points of the answer and of the steps before it
+    numbers  the numbers of the components, if the value is a vector whose letters have numbers
     """
 
     key: str
@@ -81,6 +83,7 @@ class Target:
     exact: bool = True
     own: Fraction = Fraction(1)
     whole: Fraction = Fraction(1)
+    numbers: tuple[Number, ...] = ()
 
     @property
     def is_relation(self) -> bool:
@@ -281,6 +284,7 @@ class _Making:
             of_set,
             scaled,
             step.exact,
+            numbers=() if of_set or scaled else self._numbers(step, value),
         )
 
     def _dimension(self, step: Step, value: Any) -> Dimension | None:
@@ -292,6 +296,12 @@ class _Making:
             return dimension_of(value, self.dimensions)
         except Exception:
             return None
+
+    def _numbers(self, step: Step, value: Any) -> tuple[Number, ...]:
+        if not step.kind or not isinstance(value, MatrixBase) or value.cols != 1:
+            return ()
+        found = [self._number(step, entry) for entry in value]
+        return tuple(each for each in found if each is not None) if None not in found else ()
 
     def _number(self, step: Step, value: Any) -> Number | None:
         shown = self.values.get(step.key)
@@ -305,6 +315,10 @@ class _Making:
             amount = form.expr.right if isinstance(form.expr, Relation) else form.expr
             if isinstance(amount, Amount) and isinstance(amount.args[0], Rounded):
                 return Number(exact, str(amount.args[1].name), amount.args[2], int(amount.args[0].args[1]))
+            if isinstance(amount, MatrixAmount):
+                figures = [int(entry.args[1]) for entry in amount.args[0] if isinstance(entry, Rounded)]
+                factor = amount.args[2] if len(amount.args) > 2 else Integer(1)
+                return Number(exact, str(amount.args[1].name), factor, max(figures, default=self.problem.figures))
             if isinstance(amount, Rounded):
                 return Number(exact, "", Integer(1), int(amount.args[1]))
         return Number(exact, figures=self.problem.figures)

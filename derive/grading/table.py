@@ -39,6 +39,24 @@ class Table:
 
 def read_table(content: bytes, path: str, problem: str = "") -> Table:
     """Read the answers; `problem` is the problem of each row that does not name one."""
+    cells = read_cells(content, path)
+    columns = _columns(cells.heading, path, cells.first, not problem)
+    rows = [_row(line, row, columns, len(cells.heading), problem) for line, row in cells.rows]
+    return Table(cells.heading, rows, cells.delimiter)
+
+
+@dataclass(frozen=True)
+class Cells:
+    """The cells of a CSV file; `first` is the text of its first line, and each row has the number of its line."""
+
+    heading: tuple[str, ...]
+    first: str
+    delimiter: str
+    rows: list[tuple[int, list[str]]]
+
+
+def read_cells(content: bytes, path: str) -> Cells:
+    """Return the cells of a CSV file in UTF-8 with `,`, `;` or tabs, without its empty rows."""
     if len(content) > LARGEST:
         raise Rejected(Complaint("too-large", f"`{path}` has more than {LARGEST // 1_000_000} million bytes"))
     try:
@@ -46,24 +64,26 @@ def read_table(content: bytes, path: str, problem: str = "") -> Table:
     except UnicodeDecodeError as error:
         message = f"`{path}` is not in UTF-8; the first byte that does not fit is at position {error.start}"
         raise Rejected(Complaint("encoding", message, help="save it as CSV in UTF-8")) from error
-    first = text.partition("\n")[0]
+    first = text.partition("\n")[0].rstrip("\r")
     delimiter = max(",;\t", key=first.count)
     csv.field_size_limit(LARGEST)
-    reader = csv.reader(io.StringIO(text, newline=""), delimiter=delimiter)
+    reader = csv.reader(io.StringIO(text, newline=""), delimiter=delimiter, strict=True)
+    line, rows = 1, list[tuple[int, list[str]]]()
     try:
         heading = tuple(cell.strip() for cell in next(reader, []))
-        columns = _columns(heading, path, first, not problem)
-        table = Table(heading, delimiter=delimiter)
-        first_line = reader.line_num + 1  # a cell in quotes may contain line breaks
+        line = reader.line_num + 1  # a cell in quotes may contain line breaks
         for cells in reader:
             if any(cell.strip() for cell in cells):
-                table.rows.append(_row(first_line, cells, columns, len(heading), problem))
-            first_line = reader.line_num + 1
-            if len(table.rows) > MOST_ROWS:
+                rows.append((line, cells))
+            line = reader.line_num + 1
+            if len(rows) > MOST_ROWS:
                 raise Rejected(Complaint("too-large", f"`{path}` has more than {MOST_ROWS} rows"))
-    except csv.Error as error:
-        raise Rejected(Complaint("csv", f"`{path}` is not CSV: {error}", Place(path, reader.line_num))) from error
-    return table
+    except csv.Error:
+        shown = "".join(text.splitlines(keepends=True)[line - 1 : line]).rstrip()
+        help_line = "put a cell with a quotation mark in quotes, and write each quotation mark in it twice"
+        message = "the quotation marks of this row do not match"
+        raise Rejected(Complaint("csv", message, Place(path, line, 1, shown, 1), help=help_line)) from None
+    return Cells(heading, first, delimiter, rows)
 
 
 def _columns(heading: tuple[str, ...], path: str, first: str, with_problem: bool) -> dict[str, int]:

@@ -66,10 +66,9 @@ def answer(root: Path, question: dict[str, Any], trace: int = 2) -> dict[str, An
 
 def main_part(root: Path, problem_id: str, detail: str | None) -> str:
     """Return the main part of a problem's page for a browser."""
-    from derive.building.cache import Cache
+    from derive.building.cache import CACHE, Cache
     from derive.building.set_document import problem_main
     from derive.building.set_names import set_folder
-    from derive.building.sets import CACHE
     from derive.building.solution import rendered
     from derive.course.problem_set import problem_set
     from derive.render.formats import HTML

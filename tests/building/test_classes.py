@@ -34,6 +34,7 @@ def roster(folder: Path, text: str) -> Path:
         "name,code\nAda Lovelace,A1\nEmmy Noether,E2\n",
         "\ufeffcode;name\r\nA1;Ada Lovelace\r\nE2;Emmy  Noether\r\n",
         'Code,Name,group\nA1,"Ada Lovelace",x\nE2, Emmy Noether ,y\n',
+        "name\tcode\nAda Lovelace\tA1\n\t\nEmmy Noether\tE2\n",
     ],
 )
 def test_a_roster_of_any_spreadsheet_is_read(tmp_path: Path, text: str) -> None:
@@ -48,6 +49,8 @@ def test_without_codes_the_name_gives_the_code(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "lines"),
     [
+        ('name,code\n"Ada,A1\nEmmy,E2\n', [2]),
+        ("code,name\nA1\n", [2]),
         ("student\nAda\n", [1]),
         ("", [1]),
         ("name\n", [1]),
@@ -96,8 +99,9 @@ def test_each_student_has_documents_with_own_numbers_and_the_sheet_has_no_answer
         assert value not in sheet and value not in page
         assert (build / "class" / f"{student.code}-key.pdf").exists()
     assert {file.suffix for file in (build / "students").iterdir()} == {".pdf", ".html"}
+    assert {row["formula"] for row in rows.values()} == {"ω_0 = √(g/b)"}
     for row in rows.values():
-        answer = {"sympy": row["formula"], "text": "√(g/b)", "latex": r"\sqrt{\frac{g}{b}}"}
+        answer = {"sympy": "sqrt(g/b)", "text": "√(g/b)", "latex": r"\sqrt{\frac{g}{b}}"}
         page = json.dumps({"answers": {"frequency": {**answer, "number": {"value": row["value"]}}}})
         assert leaks(build / "students", {"json": page}) == []
     assert {each.partition(":")[0] for each in leaks(build / "class", {"json": page})} >= {"E2-solutions.pdf"}
@@ -211,6 +215,13 @@ def test_only_students_of_the_class_are_graded(tmp_path: Path, capfd: pytest.Cap
     assert "no student of the class of `week1` is named" in told.err
     for more in (["--student", "A2"], ["--seed", "autumn"], ["--seed", "B", "--student", "A1"]):
         assert main([*grade, "1 rad/s", *more]) == 2
+
+
+def test_a_name_is_found_however_unicode_encodes_it_and_two_of_a_name_need_the_code() -> None:
+    made = ClassRecord("week1", "", {"O1": "\u00c5sa \u00d6berg", "A1": "Ada", "A2": "Ada"})
+    assert made.code_of("A\u030asa  o\u0308berg") == "O1" and made.code_of("Ada") is None
+    told = made.unknown("Ada")
+    assert told.message.startswith("several students") and told.help is not None and "A1, A2" in told.help
 
 
 @pytest.mark.long

@@ -79,3 +79,10 @@ def test_the_page_of_a_set_lists_the_documents_that_any_command_wrote(
     (course.outputs / "hw1-qti.zip").unlink()
     list_again(tmp_path, "hw1")
     assert page.read_text() == text + "edited", "an edited page stays"
+
+
+def test_the_documents_have_names_in_the_language_of_the_set(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    stand_in_course(tmp_path, monkeypatch)
+    (tmp_path / "course.yaml").write_text("language: de\n")
+    found = papers(tmp_path, "hw1", [("key", "key")])
+    assert [paper.name for paper in found] == ["Musterlösung für die Lehrenden", "Für Studierende"]

@@ -35,6 +35,14 @@ def test_what_was_asked_for_is_kept_while_its_pdf_is_there(tmp_path: Path) -> No
     assert record.asked == []
 
 
+def test_without_a_record_a_pdf_that_is_there_counts_as_requested(tmp_path: Path) -> None:
+    (tmp_path / "key.pdf").touch()
+    record = Manifest(tmp_path)
+    assert named_documents(heading(), record, [])[-1] == ["key", "key"] and record.asked == ["key"]
+    own = (("solutions", "key"),)
+    assert named_documents(heading(*own), Manifest(tmp_path), []) == [["solutions", "key"]]
+
+
 def test_a_document_that_the_set_names_later_is_its_own_from_then_on(tmp_path: Path) -> None:
     record = Manifest(tmp_path, asked=["key"])
     assert named_documents(heading(("key", "key")), record, []) == [["key", "key"]]

@@ -8,6 +8,7 @@ import pytest
 from fake_course import Course
 
 from derive.cli.options import main
+from derive.cli.problem_ids import problem_id_of
 
 
 @pytest.mark.parametrize(
@@ -20,6 +21,18 @@ def test_wrong_usage_is_exit_code_2(course: Course, arguments: list[str], capfd:
         main(arguments)
     assert caught.value.code == 2
     assert "usage:" in capfd.readouterr().err
+
+
+def test_the_path_of_a_problem_may_begin_anywhere(
+    course: Course, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    file = course.folder / "one.yaml"
+    elsewhere = tmp_path / "other" / "problems" / "hw1" / "one.yaml"  # a problem of another course
+    elsewhere.parent.mkdir(parents=True)
+    elsewhere.touch()
+    monkeypatch.chdir(course.folder)
+    assert {problem_id_of(path) for path in ("one.yaml", str(file), "../hw1/one.yaml", "hw1/one")} == {"hw1/one"}
+    assert problem_id_of(str(elsewhere)) != "hw1/one"
 
 
 def test_the_root_is_found_above_and_by_name(

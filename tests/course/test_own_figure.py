@@ -77,6 +77,13 @@ def test_any_other_file_is_an_error_with_its_line(
     assert message in error(tmp_path, written, **files).message
 
 
+def test_a_missing_file_is_one_error_although_prose_mentions_the_figure(tmp_path: Path) -> None:
+    root = course(tmp_path, "{file: cart.svg, alt: A, caption: B}\nnote: See <<figure cart>>.")
+    with pytest.raises(Rejected) as caught:
+        rendered(root, "week1/bead", only=("text",))
+    assert [each.code for each in caught.value.complaints] == ["figure"]
+
+
 def test_a_link_does_not_lead_out_of_the_course(tmp_path: Path) -> None:
     (tmp_path / "secret.png").write_bytes(PNG)
     root = course(tmp_path / "course", "{file: cart.png, alt: A}")

@@ -14,6 +14,7 @@ from xml.etree import ElementTree
 
 import pytest
 
+from derive.building import solution
 from derive.building.solution import rendered
 from derive.cli.options import main
 from derive.errors import BuildFailed
@@ -195,13 +196,18 @@ def test_hostile_titles_stay_text(questions: list[Question]) -> None:
                 assert not list(ElementTree.fromstring(package.read(name)).iter(f"{{{QTI}}}x"))
 
 
-def test_the_command_writes_the_file(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+def test_the_command_writes_the_file(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
     folder = with_week1(tmp_path)
     assert main(["--root", str(tmp_path), "export", "week1", "--format", "qti"]) == 0
     assert zipfile.is_zipfile(tmp_path / "build" / "week1" / "week1-qti.zip")
     why = ["--root", str(tmp_path), "why", str(tmp_path / "build" / "week1" / "week1-qti.zip")]
     capfd.readouterr()
     assert main(why) == 0 and capfd.readouterr().out.endswith("week1-qti.zip is up to date\n")
+    with monkeypatch.context() as patch:
+        patch.setattr(solution, "derived", lambda *_: pytest.fail("the first export has kept the steps"))
+        assert main(["--root", str(tmp_path), "export", "week1", "--format", "canvas"]) == 0
     (folder / "bead.yaml").write_text(PROBLEM.replace("Find the frequency and", "Find both the frequency and"))
     assert main(why) == 0 and "`problems/week1/bead.yaml` has changed" in capfd.readouterr().out
     assert main(["--root", str(tmp_path), "export", "week1/bead", "-o", "-"]) == 0

@@ -10,12 +10,15 @@ from pathlib import Path
 
 import pytest
 
+from derive.building.solution import answer_key
 from derive.cli.options import main
 from derive.errors import Rejected
+from derive.grading.grading import grade
 from derive.grading.outcomes import Outcome, share_of
 from derive.grading.table import harmless, read_table, written_table
 from derive.render.notation.latex import latex
 from tests.grading.test_answers import graded, key
+from tests.stock.described import course_with
 
 TOO_LARGE = [
     "9^{9^{9^{9}}}",
@@ -165,6 +168,35 @@ def test_one_bad_row_stops_no_other(tmp_path: Path, capfd: pytest.CaptureFixture
     assert verdicts == ["equal", "unreadable", "not graded", "not graded", "equal"]
     assert "no problem is called `blok`" in err
     assert "has no part `q`" in err
+
+
+PLATE = """\
+title: A plate
+solve: rotation
+symbols: {m: mass, a: length, omega: angular speed}
+given:
+  body: {shape: plate, sides: [a, 2*a], mass: m}
+  rate: omega
+  along: [1, 2, 0]
+statement: A plate <<a>>, <<m>>, <<omega>>.
+parts: [{ask: Find L., answer: angular_momentum}]
+values: {a: 20 cm, m: 2 kg, omega: 30 rad/s}
+"""
+
+
+def test_the_components_of_a_vector_are_judged_as_numbers_with_its_unit(tmp_path: Path) -> None:
+    of_plate = answer_key(course_with(tmp_path, PLATE), "trial/one")
+
+    def outcome(answer: str) -> Outcome:
+        return grade(answer, of_plate.parts[0], of_plate).verdict.outcome
+
+    assert outcome("(0.3578, 0.1789, 0) kg m^2/s") is Outcome.EQUAL
+    assert outcome(r"\begin{pmatrix} 0.358 \\ 0.179 \\ 0 \end{pmatrix} \mathrm{kg\,m^2/s}") is Outcome.EQUAL
+    assert outcome("m a^2 omega/(6 sqrt(5)) (2, 1, 0)") is Outcome.EQUAL
+    assert outcome("(0.3578, 0.1788, 0) kg m^2/s") is Outcome.DIFFERENT
+    assert outcome("(-0.3578, -0.1789, 0) kg m^2/s") is Outcome.SIGN
+    assert outcome("(0.3578, 0.1789, 0)") is Outcome.DIMENSION
+    assert outcome("(0.3578, 0.1789) kg m^2/s") is not Outcome.EQUAL
 
 
 def test_an_answer_may_begin_with_a_minus_sign(capfd: pytest.CaptureFixture[str]) -> None:

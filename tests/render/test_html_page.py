@@ -113,7 +113,7 @@ def test_the_page_of_a_set_leads_to_its_problems_and_to_what_can_be_printed(tmp_
     root = course_in(tmp_path)
     solved = rendered_once(root, "hw9/block", draws=True, only=("html",))
     heading = problem_set(root, "hw9")
-    page = index_page(root, heading, [solved], papers_of(root, heading.documents))
+    page = index_page(root, heading, [solved], papers_of(root, "hw9", heading.documents))
     assert "A uniform block of mass" in page and "<svg" in page, "its statement and its drawing"
     tags = read(page)
     assert (tags.open, tags.faults) == ([], [])

@@ -4,6 +4,7 @@ author's editor."""
 from __future__ import annotations
 
 import argparse
+import shlex
 import sys
 from pathlib import Path
 
@@ -14,7 +15,7 @@ from derive.errors import Complaint, Misused
 def init(arguments: argparse.Namespace) -> int:
     folder = Path(arguments.folder)
     _write_course(folder, arguments.title)
-    inside = "" if folder.resolve() == Path.cwd() else f"cd {arguments.folder}; "
+    inside = "" if folder.resolve() == Path.cwd() else f"cd {shlex.quote(arguments.folder)}; "
     print(f"next: `{inside}derive preview week1/bead` shows the first problem, `derive new week1/NAME` begins another")
     return 0
 

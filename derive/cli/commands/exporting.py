@@ -13,8 +13,9 @@ from derive.cli.terminal import complain
 
 
 def export(arguments: argparse.Namespace) -> int:
+    from derive.building.cache import cache_of_set
     from derive.building.document_list import list_again
-    from derive.building.files import shown_path
+    from derive.building.files import folder, shown_path
     from derive.building.manifest import EXPORT_SUFFIX, Manifest
     from derive.building.recipe import input_digest, recipe_of, stated_by
     from derive.building.set_names import set_folder
@@ -36,10 +37,12 @@ def export(arguments: argparse.Namespace) -> int:
         path_of(root, asked)
     if arguments.format == "docx":
         check_installed()
-    pages = []
+    if not arguments.output:
+        folder(set_folder(root, set_id))
+    pages, cache = [], cache_of_set(root, set_id)
     for problem_id in [asked] if name else heading.problems:
         with waiting(f"deriving {problem_id}"):
-            work = partial(rendered, root, problem_id, heading.detail, draws=True, only=("questions",))
+            work = partial(rendered, root, problem_id, heading.detail, cache, draws=True, only=("questions",))
             pages.append(done(job_of(root, problem_id, work, arguments.time_limit)))
     complain(warning for page in pages for warning in page.warnings)
     questions = questions_of(pages)
