@@ -417,7 +417,7 @@ class _Writer:
             if step.key in self.selection.needed.letters:
                 self.clauses.define_at_use(step)
             return
-        if step.key not in self.asked and step.display.repeats in self.numbers:
+        if self._is_repeated(step):
             self.numbers[step.key] = self.numbers[step.display.repeats]
             return
         if (manner := self.selection.manner(step.key)) is not OWN:
@@ -522,7 +522,12 @@ class _Writer:
 
     def _is_told(self, key: str) -> bool:
         """Return whether the page has shown the equation of a step, in a display or in a sentence."""
-        return key in self.numbers or key in self.selection.needed.in_words and key in self.clauses.told
+        in_words = key in self.selection.needed.in_words and key in self.clauses.told
+        return in_words or key in self.numbers and not self._is_repeated(self.derivation.step(key))
+
+    def _is_repeated(self, step: Step) -> bool:
+        """Return whether an earlier equation of the page is the result of a step that no part asks for."""
+        return step.key not in self.asked and step.display.repeats in self.numbers
 
     def _phrase(self, step: Step, follows_words: bool = False) -> tuple[Inline, ...]:
         own = names_of_step(step, self.words, self.dimensions.get(step.symbol))
