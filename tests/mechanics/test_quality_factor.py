@@ -9,11 +9,12 @@ import pytest
 from sympy import Rational, sqrt, symbols
 
 from derive.algebra.equality import equal
+from derive.building.solution import rendered
 from derive.errors import Rejected, Unverified
 from derive.mechanics import Coordinate, coordinate, quality_factor
 from derive.mechanics.vibrations import driven
 from tests.mechanics.test_answers import equation
-from tests.stock.described import edited, messages, solved
+from tests.stock.described import course_with, edited, messages, solved
 from tests.test_phrases_used import variants
 
 m, k, b, w = symbols("m k b w", positive=True)
@@ -83,3 +84,12 @@ def test_a_file_asks_for_it_by_its_name(tmp_path: Path) -> None:
 def test_an_assumption_decides_whether_the_oscillator_oscillates(tmp_path: Path) -> None:
     assuming = edited(variants()["quality"], ("\n  results:", "\n  assume: [b**2 < 4*k*m]\n  results:"))
     assert solved(tmp_path, assuming)["of_the_cart"].step.outcome == "oscillates"
+
+
+def test_the_condition_of_oscillation_is_no_part_of_the_formula(tmp_path: Path) -> None:
+    text = " ".join(
+        rendered(course_with(tmp_path, variants()["quality"]), "trial/one", only={"text"}).texts["text"].split()
+    )
+    before, after = text.split(", * Q = √(k m)/b", 1)
+    assert before.endswith("constant force of the same size")
+    assert "oscillates if this quality factor is greater than one half." in after
