@@ -129,7 +129,6 @@ def test_a_sentence_names_the_earlier_unknowns_that_its_equations_contain(tmp_pa
     [
         ("library/atwood", "The length of the string is constant, "),
         ("library/race", "At the contact the body and the surface have the same velocity, "),
-        ("library/rough_cylinder", "At the contact the body and the surface have the same velocity, "),
     ],
 )
 def test_a_constraint_is_differentiated_after_its_reason(problem_id: str, reason: str) -> None:

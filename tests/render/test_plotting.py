@@ -374,7 +374,7 @@ def test_the_axis_of_several_quantities_has_all_their_names(drawn: list[Shape]) 
     U = Symbol("U")
     both = Plot("both", V, cos(theta), theta, -pi / 2, pi / 2, "energy", "angle", others=(Further(U, sin(theta), "U"),))
     (panel,) = panels(both, together=None)
-    assert panel.names[1] == r"$V,\,U\,/\,\mathrm{J}$"
+    assert panel.names[1] == r"$(V,\,U)\,/\,\mathrm{J}$"
     assert [trace.name for trace in panel.traces] == ["$V$", "$U$"]
     assert drawings_from_data(drawings_to_data([both])) == (both,)
 
