@@ -14,7 +14,7 @@ from derive.course.given import Measured, read_end, read_numbers, read_value
 from derive.course.problem_file import MARKS_OF_BODY, DrawingKeys, MarkKeys
 from derive.course.prose import Prose
 from derive.course.schema import wrong_type
-from derive.course.yaml_tree import Formula, Scalar, Tree, Word
+from derive.course.yaml_tree import Formula, Scalar, Sequence, Tree, Word
 from derive.errors import Faults, Place, did_you_mean, rejected
 
 STATEMENT, HIDDEN = "statement", "hidden"
@@ -112,6 +112,13 @@ class Placement:
     def adds(self) -> tuple[MarkKeys, ...]:
         """Return the other marks, such as points and lines, whose places the problem states."""
         return tuple(mark for mark in self.marks if mark.mark not in MARKS_OF_BODY)
+
+    @property
+    def is_sketch(self) -> bool:
+        """Whether the marks make a plane drawing of their own: each place has two components."""
+        places = [place for mark in self.marks for place in (mark.at, mark.start, mark.end) if place is not None]
+        in_plane = (isinstance(place, Sequence) and len(place.items) == 2 for place in places)
+        return not self.like and bool(places) and all(in_plane)
 
     @property
     def is_diagram(self) -> bool:

@@ -39,7 +39,7 @@ from derive.steps.step import Quantity
 from derive.stock.answering.answers import Answers, StockAnswers, answer, answer_for_each
 from derive.stock.keys.bodies import BODY, Bodies, BodyKeys, DescribedBody
 from derive.stock.keys.directions import DIRECTION, Axis, Directions
-from derive.stock.keys.outlines import SHOWS, drawn, name_of_drawing
+from derive.stock.keys.outlines import SHOWS, drawn, name_of_drawing, sketched
 from derive.stock.keys.results import RESULTS, read_results
 
 AXES = "xyz"
@@ -351,6 +351,10 @@ class BodiesAnswers(StockAnswers[DescribedBodies]):
             for name, drawing in drawn_with.items() if len(self.of) == 1 else ():
                 with told_at(drawing.place):
                     drawn(one, at, is_named, name, drawing.shows)
+        bodies = {name_of_drawing(one.body) for one in self.of.values()}
+        for drawing in drawings:
+            if drawing.is_sketch and drawing.key not in bodies:
+                sketched(drawing.key)
         return super().solve(asked, drawings)
 
     @property

@@ -63,6 +63,16 @@ def test_a_further_drawing_shows_the_centre_of_mass_and_the_principal_axes(tmp_p
     assert not any(isinstance(mark, CentreMark) for mark in marks_of(tmp_path, PLATE, "body"))
 
 
+def test_marks_in_a_plane_make_a_drawing_without_the_body(tmp_path: Path) -> None:
+    line = "{mark: line, from: [0, 0], to: [a, a]}"
+    sketch = edited(PLATE, ("{mark: centre_of_mass}, {mark: principal_axes}", line), ("The axes", "A line"))
+    (drawn,) = marks_of(tmp_path, sketch, "axes")
+    assert isinstance(drawn, Line)
+    assert list(drawn.end) == [a, a]
+    in_space = edited(sketch, ("[0, 0], to: [a, a]", "[0, 0, 0], to: [a, a, 0]"))
+    assert "draws nothing called `axes`" in str(complaints(tmp_path, in_space))
+
+
 def test_the_masses_are_at_the_centres_of_the_parts(tmp_path: Path) -> None:
     parts = "{parts: {rod: {shape: rod, length: a, mass: M}, ball: {shape: ball, radius: b, mass: M, at: [0, 0, a]}}}"
     points = [mark for mark in marks_of(tmp_path, body(parts, "masses"), "body") if isinstance(mark, PointMark)]

@@ -58,6 +58,11 @@ def drawn(answers: Any, about: str = "", is_named: bool = False, key: str = "", 
     drawing(key or name_of_drawing(body), marks, more, view=view, values=_proportions(body))
 
 
+def sketched(key: str) -> None:
+    """Begin a plane drawing to which the problem adds all marks."""
+    drawing(key, view=PLANE)
+
+
 # --- what a problem names --------------------------------------------------------------------------------------
 
 
