@@ -191,7 +191,7 @@ def test_a_problem_gets_its_number_where_it_is_listed_and_nothing_in_it_is_repla
     heading = problem_set(course, "hw9")
     for document in (problem_document(course, problem, heading), sheet_document(course, heading, [solved[0], problem])):
         assert document.count(typed) == 1
-        assert r"\problem{2}{A block turning about a long diagonal}{10 points}" in document
+        assert r"\problem{2}{A block turning about a long{~}diagonal}{10 points}" in document
 
 
 def test_only_a_document_that_is_not_in_english_lists_its_divided_words(course: Path, solved: list[Rendered]) -> None:

@@ -104,8 +104,7 @@ def test_an_inequality_is_not_divided_by_what_has_no_known_sign() -> None:
 def test_no_angle_has_a_cosine_above_one() -> None:
     assert where(given(cos(alpha) - Rational(3, 2)), "=", 0, cos(alpha)).step.outcome == "never"
     phi = symbols("phi", real=True)
-    with pytest.raises(Rejected, match="but no value of phi gives this"):
-        where(given(cos(phi) - Rational(3, 2)), "=", 0, cos(phi))
+    assert where(given(cos(phi) - Rational(3, 2)), "=", 0, cos(phi)).step.outcome == "never"
 
 
 def test_what_is_positive_in_the_range_is_positive_always() -> None:
@@ -197,8 +196,7 @@ def test_contact_is_told_only_where_the_force_is_known_to_push() -> None:
     with pytest.raises(Rejected, match="not known to be positive"):
         leaves_contact(given(-m * g * (3 * cos(q) - 2) * sin(q)), cos(q), Integer(1))
     assert leaves_contact(given(m * g * (5 - 3 * cos(q)) * sin(q)), cos(q), Integer(1)).step.outcome == "never"
-    with pytest.raises(Rejected, match="but no value of phi gives this"):
-        leaves_contact(given(m * g * (5 - 3 * cos(phi))), cos(phi), Integer(1))
+    assert leaves_contact(given(m * g * (5 - 3 * cos(phi))), cos(phi), Integer(1)).step.outcome == "never"
 
 
 def test_a_contact_that_would_be_lost_elsewhere_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -275,7 +275,7 @@ def two() -> System:
 @pytest.mark.parametrize(
     ("wrong", "said"),
     [
-        (lambda: force((1, 2, 3), point(0, 0)), "needs 2 components"),
+        (lambda: force((1, 2, 3), point(0, 0)), "must have 2 components"),
         (lambda: force((1, 2), "here"), "needs a place|needs a `Location`"),
         (lambda: couple(tau, alpha), "is constant"),
         (lambda: damping(c * t, point(*lengths("x", "y"))), "needs a constant constant"),
