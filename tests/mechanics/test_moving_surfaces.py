@@ -9,6 +9,7 @@ from sympy import Expr, Integer, Symbol, cos, sin, symbols
 
 from derive.algebra.expressions import explicit
 from derive.building.solution import rendered
+from derive.mechanics.lagrange import constraint_forces
 from derive.mechanics.model import contacts
 from derive.steps.step import is_zero
 from tests.stock.described import course_with, edited, messages, solved
@@ -99,6 +100,14 @@ def test_the_normal_of_a_surface_in_rotating_axes_rotates_with_them(tmp_path: Pa
     m, g, R, Omega, alpha = symbols("m g R Omega alpha")
     assert is_zero(N - m * (g * cos(alpha) + R * Omega**2 * sin(alpha)))
     assert is_zero(F - m * (g * sin(alpha) - R * Omega**2 * cos(alpha)))
+    fixed = [str(value) for role, value in steps["N"].step.roles if role.startswith("fixed_")]
+    assert any("b_dot" in each for each in fixed), "the sentence states the rate that static friction keeps zero"
+
+
+def test_a_rate_that_static_friction_does_not_keep_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    wrong = {symbols(name, real=True): Integer(1) for name in ("s_dot", "b_dot")}
+    monkeypatch.setattr(constraint_forces, "rates_at_rest", lambda *_: wrong)
+    assert messages(tmp_path, BANK)
 
 
 @pytest.mark.parametrize(

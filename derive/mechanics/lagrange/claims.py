@@ -487,8 +487,11 @@ def _constants(facts: Judged) -> dict[Symbol, Expr]:
 
 def follows_from_a_constraint(facts: Judged, told: Relation) -> bool:
     """Whether a constraint that contains this coordinate holds for the values that the sentence states. An
-    acceleration must be the second derivative of such a value."""
+    acceleration must be the second derivative of such a value, and a rate must be zero by the constraints between
+    rates."""
     moving = facts.inputs["moving"]
+    if told.left in map(rate, moving):
+        return bool(is_zero(told.right)) and told.left in _rates_at_rest(facts)
     values = {s: v for s, v in _values_by_constraints(facts).items() if s in moving}
     accelerated = {rate(q, 2): q for q in values}
     q = accelerated.get(told.left, told.left)
@@ -497,6 +500,16 @@ def follows_from_a_constraint(facts: Judged, told: Relation) -> bool:
     known = {**_constants(facts), **values}
     about = [explicit(each) for each in facts.inputs["constraints"] if each.has(q)]
     return any(is_zero(with_known(each, known, moving)) for each in about)
+
+
+def _rates_at_rest(facts: Judged) -> set[Symbol]:
+    """Return the rates in the constraints between rates if these constraints hold only where all the rates are zero."""
+    values = {s: v for s, v in _values_by_constraints(facts).items() if s in facts.inputs["moving"]}
+    rows = [with_known(explicit(each), values, facts.inputs["moving"]) for each in facts.inputs["between_rates"]]
+    rates = [rate(q) for q in facts.inputs["moving"] if any(row.has(rate(q)) for row in rows)]
+    slopes = Matrix(rows).jacobian(rates) if rows and rates else Matrix()
+    homogeneous = all(is_zero(row.xreplace(dict.fromkeys(rates, Integer(0)))) for row in rows)
+    return set(rates) if homogeneous and slopes.is_square and not is_zero(slopes.det()) else set()
 
 
 def eliminated(facts: Judged) -> bool:

@@ -471,8 +471,8 @@ class _Isolation:
 
     @property
     def named(self) -> dict[str, Any]:
-        """Return the eliminated unknowns, and the values of coordinates and accelerations from constraints that are
-        substituted in the equations."""
+        """Return the eliminated unknowns, and the values of coordinates, rates and accelerations from constraints that
+        are substituted in the equations."""
         eliminated = {f"eliminated_{i}": each for i, each in enumerate(self.found.eliminated, 1)}
         known, moving = self.problem.known, self.problem.moving
         fixed_ones = constant_ones(known, moving)
@@ -489,6 +489,8 @@ class _Isolation:
                 (constant[q], Relation(rate(q, 2), "=", ZERO)) if q in constant else (Relation(q, "=", known[q]),)
             )
         ]
+        still = [rate(q) for q in moving if q not in known and rate(q) in known and rate(q) in present]
+        fixed += [Relation(each, "=", known[each]) for each in still]
         return {**eliminated, **{f"fixed_{i}": each for i, each in enumerate(fixed, 1)}}
 
     @property
@@ -502,6 +504,7 @@ class _Isolation:
                 for i, each in enumerate(self.problem.constraints)
                 if not each.in_rates
             ],
+            "between_rates": [each.residual for each in self.problem.constraints if each.in_rates],
         }
 
 
