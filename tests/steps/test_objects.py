@@ -104,7 +104,7 @@ def test_what_an_object_finds_when_it_is_asked_is_no_part_of_it_but_is_told() ->
     twin = Cuboid((g, g, g), m)
     other = Objects()
     other.described(twin)
-    other.has_found(names[0], "density", density)
+    other.put_found(names[0], "density", density)
     assert twin.density is density
 
 
