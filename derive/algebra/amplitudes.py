@@ -51,8 +51,8 @@ class Determinant(ScalarNode):
     def dimension(self, of: DimensionOf) -> Dimension | None:
         """The dimension of one term of the determinant: a product of nonzero entries, one from each row and column.
 
-        All such products are assumed to have the same dimension. Return None if there is no such
-        product, or if the dimension of an entry of the chosen product is unknown.
+        The products are assumed to have the same dimension. Return None if all of them are zero, or if the dimension of
+        an entry of the chosen product is unknown.
         """
         matrix = self.args[0]
         for entry in matrix:

@@ -110,7 +110,7 @@ def claims_of(document: Document) -> tuple[list[Claim], Facts, list[tuple[Row, s
 
 
 def scope_of(document: Document, row: Row) -> int:
-    """Return the number of the heading that begins the problem or section of a row; -1 if there is no such heading."""
+    """Return the number of the heading that begins the problem or section of a row; -1 before the first one."""
     for index in range(row.block.heading, -1, -1):
         heading = document.headings[index]
         if heading.level <= 1 or _NEW_SCOPE.search(heading.text):

@@ -678,7 +678,7 @@ def _solves(equation: Expr, letter: Symbol, value: Expr) -> bool:
 
 def _combination(wanted: Expr, equations: list[tuple[Expr, int]]) -> tuple[int, ...] | None:
     """Return the claims of two or three equations that add up, with some choice of signs, to a multiple of the wanted
-    equation; None if there are none."""
+    equation; otherwise None."""
     goal = fingerprint(wanted)
     for count in (2, 3):
         for chosen in combinations(equations, count):
@@ -767,8 +767,8 @@ def small_letters(symbols: set[Symbol], meaning: Meaning) -> list[tuple[Symbol, 
 def order_of_error(
     left: Expr, right: Expr, meaning: Meaning, among: list[tuple[Symbol, ...]] | None = None
 ) -> tuple[tuple[Symbol, ...], int] | None:
-    """Return small letters in which two sides agree to the leading order, and the order of their difference; None if
-    there are no such letters."""
+    """Return small letters in which two sides agree to the leading order, and the order of their difference;
+    otherwise None."""
     symbols = left.free_symbols | right.free_symbols
     for letters in among or small_letters(symbols, meaning):
         slopes = []

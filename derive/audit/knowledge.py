@@ -17,6 +17,7 @@ ROUNDS = 8  # rounds of substitution
 LARGEST = 4000  # the greatest number of operations in an expression after substitution
 LAST_EQUATIONS = 24
 MOMENTA = ("p", "l", "L", "J", "ell")
+INDICES_OF_COORDINATES = ("i", "j", "k", "n", "a", "μ")
 ASSUMED = -1  # replaces the number of a claim if an equation is assumed
 
 
@@ -160,10 +161,9 @@ class Known:
         """Whether a letter stands for each coordinate, such as q_i, although a value is written in other letters."""
         letters = self.meaning.symbols
         letter = letters.get(symbol)
-        if letter is None or not (letter.base in ("q", "p") or (len(letter.sub) == 1 and letter.sub in "ijknaμ")):
+        if letter is None or letter.base not in ("q", "p") and letter.sub not in INDICES_OF_COORDINATES:
             return False
-        return not any((other := letters.get(each)) is not None and other.base == letter.base
-                       for each in value.free_symbols)  # fmt: skip
+        return all(letters[each].base != letter.base for each in value.free_symbols if each in letters)
 
     def is_rate(self, symbol: Symbol) -> bool:
         letter = self.meaning.symbols.get(symbol)

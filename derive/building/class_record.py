@@ -26,7 +26,7 @@ class ClassRecord:
 
     @classmethod
     def read(cls, root: Path, set_id: str) -> ClassRecord | None:
-        """Return the record; None if there is no readable record."""
+        """Return the record; None if its file is missing or unreadable."""
         try:
             kept = json.loads((set_folder(root, set_id) / RECORD).read_bytes())
             students = {str(code): str(name) for code, name in kept["students"].items()}
