@@ -10,7 +10,7 @@ from sympy import MatrixBase, MatrixSymbol, Symbol
 from derive.algebra.expressions import explicit
 from derive.page.introduced_symbols import expressions_in, letters_in, letters_of
 from derive.page.selection import is_short
-from derive.page.wording import Inline, Math, Phrases, Text, filled, joined, names_asked, names_of_step
+from derive.page.wording import EQUALS, Inline, Math, Phrases, Text, filled, joined, names_asked, names_of_step
 from derive.steps.step import Step
 
 BY_VALUE = "<<definition>>"  # the clause of a step without a phrase: symbol = value
@@ -109,7 +109,7 @@ class Clauses:
         return filled(phrase, names if by_value or phrase == BY_VALUE else {**names, "definition": Math(step.symbol)})
 
     def _names(self, step: Step) -> dict[str, Any]:
-        definition = (Math(step.symbol), Text(" = "), *_in_a_row(step.result))
+        definition = (Math(step.symbol), EQUALS, *_in_a_row(step.result))
         return {**names_of_step(step, self.words, None), "definition": definition}
 
 

@@ -38,7 +38,7 @@ from derive.page.plots import (
     told_value,
     with_unit,
 )
-from derive.page.wording import Inline, Math, Phrases, Text, filled, joined
+from derive.page.wording import EQUALS, Inline, Math, Phrases, Text, filled, joined
 from derive.steps.derivation import Derivation
 from derive.steps.signs import truth_known
 
@@ -698,7 +698,7 @@ def _surfaces(plot: m.Plot, words: Phrases) -> Iterator[tuple[Inline, ...]]:
 
 def _put_in(numbers: Sequence[Measured]) -> list[tuple[Inline, ...]]:
     """Return `symbol = number` for each of these numbers."""
-    return [(Math(n.symbol), Text(" = "), Math(Amount(n.number, n.unit, n.factor))) for n in numbers]
+    return [(Math(n.symbol), EQUALS, Math(Amount(n.number, n.unit, n.factor))) for n in numbers]
 
 
 def _shared(curves: Curves, words: Phrases) -> list[tuple[Inline, ...]]:

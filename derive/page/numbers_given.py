@@ -12,7 +12,7 @@ from derive.course.given import Measured
 from derive.course.placement import case_label
 from derive.course.problem import Problem
 from derive.course.transcript import Transcript
-from derive.page.wording import Inline, Math, Phrases, Text, filled, joined
+from derive.page.wording import EQUALS, Inline, Math, Phrases, Text, filled, joined
 
 
 def numbers_left(problem: Problem, shown: Sequence[Inline], words: Phrases) -> tuple[Inline, ...]:
@@ -58,13 +58,13 @@ def _listed(numbers: Iterable[Measured]) -> tuple[Inline, ...]:
 
 
 def _stated(each: Measured) -> tuple[Inline, ...]:
-    return Math(each.symbol), Text(" = "), Math(Amount(each.number, each.unit, each.factor))
+    return Math(each.symbol), EQUALS, Math(Amount(each.number, each.unit, each.factor))
 
 
 def _letters_with_numbers(shown: Sequence[Inline]) -> Iterator[Symbol]:
     """Yield the letters that prose states with a number, by a mention or in a formula."""
     for letter, sign, value in zip(shown, shown[1:], shown[2:], strict=False):
-        if isinstance(letter, Math) and sign == Text(" = ") and isinstance(value, Math):
+        if isinstance(letter, Math) and sign == EQUALS and isinstance(value, Math):
             yield letter.expr
     for node in shown:
         if isinstance(node, Math) and isinstance(node.expr, Transcript) and len(node.expr.values) == 2:

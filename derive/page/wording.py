@@ -49,6 +49,9 @@ class Text:
         object.__setattr__(self, "text", unbroken(self.text))
 
 
+EQUALS = Text(" = ")
+
+
 @dataclass(frozen=True)
 class Verdict(Text):
     """A word that answers the question of a part, such as "stable"; it is framed like a formula that is an answer."""
@@ -554,7 +557,7 @@ def stated_once(nodes: Sequence[Inline], last: str, also: str) -> tuple[Inline, 
     for i, node in enumerate(nodes):
         kept.append(node)
         letter, sign = (kept[-3:-1]) if len(kept) > 2 else (None, None)
-        if not (sign == Text(" = ") and isinstance(letter, Math) and isinstance(node, Math)):
+        if not (sign == EQUALS and isinstance(letter, Math) and isinstance(node, Math)):
             continue
         if not isinstance(node.expr, Amount) or letter.expr not in known:
             known.add(letter.expr)
@@ -577,16 +580,16 @@ def conversions(problem: Problem, put_in: Collection[Any]) -> list[tuple[Inline,
 def conversion(measured: Measured, amount: Amount, figures: int) -> tuple[Inline, ...]:
     """Return `omega = 900 rpm = 30 pi rad/s ≈ 94.25 rad/s`, or `M = 1.5 kg` if nothing is converted."""
     written = Amount(measured.number, measured.unit, measured.factor)
-    nodes: list[Inline] = [Math(measured.symbol), Text(" = "), Math(written)]
+    nodes: list[Inline] = [Math(measured.symbol), EQUALS, Math(written)]
     if measured.unit != amount.args[1].name:
-        nodes += [Text(" = "), Math(amount)]
+        nodes += [EQUALS, Math(amount)]
     if not explicit(amount).is_Rational and amount.args[1].name not in IN_DEGREES:
         nodes += [Text(" \u2248 "), Math(Amount(rounded_form(measured.si, figures), amount.args[1], amount.args[2]))]
     return tuple(nodes)
 
 
 def _stated(symbol: Any, amounts: Mapping[Any, Amount]) -> tuple[Inline, ...]:
-    return Math(symbol), Text(" = "), Math(amounts[symbol])
+    return Math(symbol), EQUALS, Math(amounts[symbol])
 
 
 def around_chain(nodes: tuple[Inline, ...]) -> tuple[tuple[Inline, ...], tuple[Inline, ...]]:

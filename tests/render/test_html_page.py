@@ -8,13 +8,16 @@ from html.parser import HTMLParser
 from pathlib import Path
 
 import pytest
+from sympy import Integer
 
+from derive.algebra.amounts import Amount
 from derive.building.document_list import papers_of
 from derive.building.set_document import document_page, index_page, problem_page
 from derive.building.solution import rendered
 from derive.course.names import MORE, SHEET
 from derive.course.problem_set import problem_set
 from derive.page.chain_lines import ChainLine, Equations
+from derive.page.wording import EQUALS, Math, Text
 from derive.render.printing.html_page import HtmlPage
 from derive.render.rendered import Rendered
 from tests.courses import course_in, kept, rendered_once
@@ -164,3 +167,10 @@ def test_a_line_may_end_before_a_term_of_a_wide_side_and_never_before_its_punctu
     assert not re.search(r"</(?:math|span)>[.,;:](?!</span>)", prose)
     stops = [stop for row in rows for stop in re.findall(r'(.{7})<span class="stop">', row)]
     assert stops and set(stops) <= {"</math>", "</span>"}
+
+
+def test_no_line_begins_with_a_measured_value() -> None:
+    mass = (Math(M), EQUALS, Math(Amount(Integer(2), "kg", Integer(1))), Text(". It rests."))
+    shown = HtmlPage(page(), WORDS, NOTATION).inline(mass)
+    assert shown.startswith('<span class="ended"><span class="ended"><math>')
+    assert shown.endswith(".</span> It rests.")

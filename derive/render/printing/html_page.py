@@ -11,6 +11,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
 
+from derive.algebra.amounts import Amount
 from derive.course.parts import points_text
 from derive.course.placement import STATEMENT
 from derive.page.chain_lines import ChainLine
@@ -20,6 +21,7 @@ from derive.page.template import Templates
 from derive.page.theorems import standalone
 from derive.page.tree import Block, Display, Document, Folded, Illustration, PartPage
 from derive.page.wording import (
+    EQUALS,
     DimensionMark,
     DisplayedMath,
     FigureRef,
@@ -141,9 +143,9 @@ class HtmlPage:
         return Html(f"<strong>{escape(self.words.labels['checked'])}</strong> {self.inline(self.document.closing)}")
 
     def inline(self, nodes: Sequence[Inline]) -> Html:
-        """Return words and formulas; no line begins with the punctuation after a formula."""
+        """Return words and formulas; no line begins with the punctuation after a formula, or with a measured value."""
         found: list[str] = []
-        for node in nodes:
+        for before, node in zip((None, *nodes), nodes, strict=False):
             printed = self._node(node)
             stop = PUNCTUATION.match(printed) if found and type(node) is Text else None
             if stop and found[-1].startswith(DISPLAYED):
@@ -151,6 +153,8 @@ class HtmlPage:
             elif stop and found[-1].endswith(("</math>", CLOSED)):
                 found[-1], printed = _ended(found[-1], stop[0]), printed[stop.end() :]
             found.append(printed)
+            if before == EQUALS and isinstance(node, Math) and isinstance(node.expr, Amount):
+                found[-3:] = [_together("".join(found[-3:]))]
         return Html("".join(found))
 
     def plain(self, nodes: Sequence[Inline]) -> str:
@@ -164,7 +168,7 @@ class HtmlPage:
                 return self._figure(figure, "&nbsp;")
             case Verdict(text):
                 return f'<span class="verdict">{escape(text)}</span>'
-            case Text(" = "):
+            case node if node == EQUALS:
                 return "&nbsp;=&nbsp;"
             case Text(text):
                 return escape(text)
@@ -310,11 +314,15 @@ def _ending(sides: Sequence[str], stop: str) -> str:
 def _ended(formula: str, stop: str) -> str:
     """Add punctuation to a formula so that no line begins with the punctuation."""
     before, at, last = formula.rpartition("<wbr>")
-    return f'{before}{at}<span class="ended">{last}{stop}</span>'
+    return f"{before}{at}{_together(last + stop)}"
 
 
 def _stop(stop: str) -> str:
     return f'<span class="stop">{escape(stop)}</span>' if stop else ""
+
+
+def _together(formula: str) -> str:
+    return f'<span class="ended">{formula}{CLOSED}'
 
 
 CLOSED = "</span>"
