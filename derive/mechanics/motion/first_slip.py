@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import takewhile
 
 from sympy import Expr, Integer, Pow, Rational, Symbol, sqrt
 
@@ -62,14 +63,23 @@ class Motion:
         there = {**point, self.q: at}
         return value_at(most, there) - abs(value_at(F, there))
 
-    def reaches(self, at: Expr, point: Mapping[Symbol, Expr]) -> bool:
-        """Whether the motion reaches the place: the place is in the range of the coordinate, and the squared rate is
-        not negative at trial places on the way from the start."""
-        known, begin = range_of(self.q), value_at(self.start, point)
-        if not at.is_real or known is not None and not (known.least <= at and at <= known.greatest):
+    def allows(self, here: Expr, point: Mapping[Symbol, Expr]) -> bool:
+        """Whether the place is in the range of the coordinate, and the squared rate is not negative there."""
+        known = range_of(self.q)
+        if not here.is_real or known is not None and not (known.least <= here and here <= known.greatest):
             return False
-        way = [begin + (at - begin) * part for part in (*PARTS, Integer(1))]
-        return all(value_at(self.values[2], {**point, self.q: here}) >= 0 for here in way)
+        return bool(value_at(self.values[2], {**point, self.q: here}) >= 0)
+
+    def reaches(self, at: Expr, point: Mapping[Symbol, Expr]) -> bool:
+        """Whether the motion is allowed at the place and at trial places on the way from the start."""
+        begin = value_at(self.start, point)
+        return all(self.allows(begin + (at - begin) * part, point) for part in (Integer(1), *PARTS))
+
+    def reached(self, side: int, point: Mapping[Symbol, Expr]) -> Iterator[Expr]:
+        """Yield trial places on one side of the start, in their order, until no motion is allowed at one of them."""
+        begin = value_at(self.start, point)
+        far = (begin + side * (abs(begin) + 1) * part for part in PARTS)
+        return takewhile(lambda here: self.allows(here, point), far)
 
 
 def places_of_limit(motion: Motion) -> tuple[list[Expr], bool]:
@@ -155,11 +165,9 @@ def is_never_reached(motion: Motion) -> Verdict:
     """Check numerically that |F| < mu_s N at all places tried that the motion reaches from its start."""
 
     def is_so(point: Mapping[Symbol, Expr]) -> bool | None:
-        begin = value_at(motion.start, point)
-        if not motion.margin(begin, point) > 0:
+        if not motion.margin(value_at(motion.start, point), point) > 0:
             return None
-        far = [begin + side * (abs(begin) + 1) * part for part in PARTS for side in (1, -1)]
-        return all(motion.margin(here, point) > 0 for here in far if motion.reaches(here, point))
+        return all(motion.margin(here, point) > 0 for side in (1, -1) for here in motion.reached(side, point))
 
     return sampled(is_so, motion.letters, motion.contact.F)
 
