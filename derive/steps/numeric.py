@@ -109,7 +109,8 @@ def value_of(
 ) -> Quantity | None:
     """The value of an answer in a unit, rounded to significant figures.
 
-    Return None if the value has no number, for example if symbols remain or if the value is not real.
+    Return None if symbols remain in the value, if the value is not real, or if a number in it needs no rounding: zero,
+    or whole numbers without symbols.
 
     answer    any quantity; in a relation with a single symbol on its left side, the right side gets the number
     amounts   symbol -> its number with a unit

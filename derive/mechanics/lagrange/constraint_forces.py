@@ -514,7 +514,7 @@ def _isolated(problem: _Problem) -> dict[Symbol, Isolated]:
 
 
 def _repeated(step: Step) -> str:
-    """Return the key of the equation that already is the acceleration, otherwise an empty text."""
+    """Return the key of the equation that already gives the acceleration; otherwise an empty text."""
     roles = dict(step.roles)
     return str(roles["equation_1"].name) if "as_it_is" in roles else ""
 
