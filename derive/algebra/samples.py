@@ -262,7 +262,7 @@ _OF_ZERO = -(10**30)
 # `_GROWING`; the size may be four times as large if the exponent is a multiple of 1/2. Larger values would hide the
 # other terms of a sum.
 _LARGEST = 300
-_MOST = 60  # greatest number of bits of the integer part of a function's argument
+_MOST = 60  # greatest number of bits of the integer part of a function's argument, and of an exponent
 _GROWING = {"exp", "sinh", "cosh", "tanh", "coth", "sech", "csch", "erf"}
 _OF_ANY_SIZE = {"Abs", "sign", "re", "im", "conjugate", "arg", "Max", "Min", "log"}
 _ONE_ARGUMENT = {
