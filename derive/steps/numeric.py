@@ -362,7 +362,7 @@ def _is_fourth_root(base: Expr, power: Expr) -> bool:
 
 COMPARISON = Rule(
     "numeric.comparison",
-    source="as `value_of`",
+    source=VALUE.source,
     outcomes={"fulfilled": numbers_fulfil(True), "not_fulfilled": numbers_fulfil(False)},
     evidence={"floats": CHECK},
 )
@@ -378,7 +378,7 @@ def comparison_of(condition: Quantity, amounts: Mapping[Symbol, Amount], key: st
 
     Check: both sides and the sign of their difference, evaluated again as for `value_of`.
     Outcomes: fulfilled, not_fulfilled.
-    Source: as `value_of`.
+    Source: the same as for `value_of`.
     """
     relation = condition.value
     if not isinstance(relation, Relation) or relation.operator not in FULFILLED:
@@ -424,7 +424,7 @@ def coefficient_of(answer: Quantity, figures: int, of_vectors: bool = False) -> 
 
     Check: the answer divided by its symbols, evaluated again as for `value_of`.
     Outcomes: exact.
-    Source: as `value_of`.
+    Source: the same as for `value_of`.
     """
     value = answer.value
     if answer.step.chain[-1].because == NATURAL:
