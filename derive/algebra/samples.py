@@ -259,10 +259,10 @@ def as_sympy(x: Any) -> Expr:
 
 _OF_ZERO = -(10**30)
 # Largest size of a power (the exponent times the number of bits of the base) and largest argument of a function in
-# `_GROWING`; a power with an integer exponent may have four times this size. Larger values would hide the other terms
-# of a sum.
+# `_GROWING`; the size may be four times as large if the exponent is a multiple of 1/2. Larger values would hide the
+# other terms of a sum.
 _LARGEST = 300
-_MOST = 60  # greatest number of bits of the integer part of a function's argument
+_MOST = 60  # greatest number of bits of the integer part of a function's argument, and of an exponent
 _GROWING = {"exp", "sinh", "cosh", "tanh", "coth", "sech", "csch", "erf"}
 _OF_ANY_SIZE = {"Abs", "sign", "re", "im", "conjugate", "arg", "Max", "Min", "log"}
 _ONE_ARGUMENT = {

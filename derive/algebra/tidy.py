@@ -172,7 +172,7 @@ def _as_one_fraction(value: Expr) -> Expr:
 
 
 def _with_term_in_common(value: Expr) -> Expr:
-    """Write 2 (2 u + v)/(4 u + w) as (u + v/2)/(u + w/4), so that both sums contain the same term."""
+    """Write 2 g (2 u + v)/(4 u + w) as g (u + v/2)/(u + w/4), so that both sums contain the same term."""
     above, below = fraction(value) if value.is_Mul else (value, Integer(1))
     number, factors = above.as_coeff_Mul()
     sums = [part for part in Mul.make_args(factors) if part.is_Add]

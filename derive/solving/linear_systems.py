@@ -280,7 +280,8 @@ class Conservative(LinearSystem):
         """The irreducible factors of the determinant, polynomials in lambda/scale."""
         stiffness, mass = self._reduced
         size = stiffness.shape[0]
-        fits = size <= 3 or size <= LARGEST and size * len((stiffness + mass).free_symbols) <= LETTERS
+        _check_size(size, size <= LARGEST, f"(more than {LARGEST})")
+        fits = size <= 3 or size * len((stiffness + mass).free_symbols) <= LETTERS
         _check_size(size, fits, "with this many symbols", "use one symbol for equal masses or equal springs")
         found = self._factored(determinant_of(stiffness - LAMBDA * mass), LAMBDA, size)
         return tuple(Factor.of(part, times) for part, times in found)

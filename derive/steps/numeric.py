@@ -109,7 +109,8 @@ def value_of(
 ) -> Quantity | None:
     """The value of an answer in a unit, rounded to significant figures.
 
-    Return None if the value has no number, for example if symbols remain or if the value is not real.
+    Return None if symbols remain in the value, if the value is not real, or if a number in it needs no rounding: zero,
+    or whole numbers without symbols.
 
     answer    any quantity; in a relation with a single symbol on its left side, the right side gets the number
     amounts   symbol -> its number with a unit
@@ -361,7 +362,7 @@ def _is_fourth_root(base: Expr, power: Expr) -> bool:
 
 COMPARISON = Rule(
     "numeric.comparison",
-    source="as `value_of`",
+    source=VALUE.source,
     outcomes={"fulfilled": numbers_fulfil(True), "not_fulfilled": numbers_fulfil(False)},
     evidence={"floats": CHECK},
 )
@@ -377,7 +378,7 @@ def comparison_of(condition: Quantity, amounts: Mapping[Symbol, Amount], key: st
 
     Check: both sides and the sign of their difference, evaluated again as for `value_of`.
     Outcomes: fulfilled, not_fulfilled.
-    Source: as `value_of`.
+    Source: the same as for `value_of`.
     """
     relation = condition.value
     if not isinstance(relation, Relation) or relation.operator not in FULFILLED:
@@ -423,7 +424,7 @@ def coefficient_of(answer: Quantity, figures: int, of_vectors: bool = False) -> 
 
     Check: the answer divided by its symbols, evaluated again as for `value_of`.
     Outcomes: exact.
-    Source: as `value_of`.
+    Source: the same as for `value_of`.
     """
     value = answer.value
     if answer.step.chain[-1].because == NATURAL:

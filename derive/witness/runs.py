@@ -1,8 +1,8 @@
 """Tests of motions that are simulated from their start. A test returns None if nothing could be tested.
 
 SciPy integrates the accelerations of the described system by a multistep method, which needs few evaluations of the
-accelerations, and finds when an event occurs: Hairer, Norsett, Wanner, *Solving Ordinary Differential Equations I*,
-chapter III and section II.6.
+accelerations. SciPy also finds the time of an event.
+Source: Hairer, Norsett, Wanner, *Solving Ordinary Differential Equations I*, chapter III and section II.6.
 """
 
 from __future__ import annotations

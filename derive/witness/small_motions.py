@@ -92,7 +92,8 @@ class Neighbourhood:
 
 
 def neighbourhood(claim: Claim, trial: Trial, place: Mapping[Symbol, Expr]) -> Neighbourhood | None:
-    """The states near the equilibrium at `place`; None if such states cannot be found."""
+    """The states near the equilibrium at `place`; None if `place` contains a symbol that is not a coordinate, or if
+    constraints act and cyclic coordinates are eliminated."""
     q = claim.blueprint.coordinates
     cyclic = {q.index(of): value for of, value in claim.constants.items() if of not in place}
     if cyclic and claim.blueprint.of.conditions:

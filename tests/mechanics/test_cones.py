@@ -17,6 +17,7 @@ from derive.mechanics import (
     RigidBody,
     angular_momentum,
     axis_of_symmetry,
+    changing_angular_velocity,
     inertia_tensor,
     momentary_angular_velocity,
     precession_rate,
@@ -103,6 +104,8 @@ def test_other_questions_that_do_not_fit() -> None:
     tensor, omega, L = free(A, A, C, omega=(0, 0, r))
     with pytest.raises(Rejected, match="direction is then constant"):
         precession_rate(tensor, L)
+    with pytest.raises(Rejected, match="at one instant, use `momentary_angular_velocity`"):
+        precession_rate(tensor, angular_momentum(tensor, changing_angular_velocity(through="centre_of_mass")))
     with pytest.raises(Rejected, match="known at one instant only"):
         torque(omega, L)
     with pytest.raises(Rejected, match="are perpendicular"):

@@ -167,6 +167,15 @@ def test_the_frequencies_of_a_uniform_chain(size: int) -> None:
         assert all(abs(entry.subs({k: 1, m: 1}).evalf(20)) < Rational(1, 10**15) for entry in residual)
 
 
+@pytest.mark.parametrize(("size", "reason"), [(13, "more than 12"), (6, "with this many symbols")])
+def test_too_large_a_system_is_rejected_with_the_reason(size: int, reason: str) -> None:
+    masses = symbols(f"m_:{size}", positive=True) if size == 6 else [m] * size
+    stiffness = ImmutableDenseMatrix(size, size, lambda i, j: k * (2 if i == j else -int(abs(i - j) == 1)))
+    mass = ImmutableDenseMatrix.diag(*masses) + c * ImmutableDenseMatrix.eye(size)
+    with pytest.raises(Rejected, match=reason):
+        _ = Conservative(mass, ImmutableDenseMatrix.zeros(size), stiffness).factors
+
+
 def test_a_given_angle_in_the_stiffness_is_no_angle_of_a_chain() -> None:
     """A sine in lambda once meant a uniform chain, so this shape was wrong and its second route refused it."""
     alpha = symbols("alpha", real=True)

@@ -517,9 +517,8 @@ def as_asked(facts: Judged, outcome: str) -> bool:
 
 
 def word_of_its_mark(facts: Judged, outcome: str) -> bool:
-    """Whether the word fits the comparison sign of the first line, such as "at most" for <=, and quantity minus bound
-    is the solved difference. The sentence may call the quantity a radicand only if it is a
-    discriminant."""
+    """Whether the word fits the comparison sign of the first line, such as "at most" for <=, and whether the solved
+    difference is quantity minus bound. The sentence may call the quantity a radicand only if it is a discriminant."""
     difference = explicit(facts.inputs["quantity"]) - explicit(facts.inputs["bound"])
     mark = str(facts.inputs["mark"])
     right_word = MARK_OF.get(facts.words["comparison"]) == mark

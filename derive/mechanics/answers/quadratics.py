@@ -320,10 +320,10 @@ def _of_sign(both: Expr, sign: int) -> Expr:
 
 
 def _none_real(both: Quantity, keys: Sequence[str]) -> Quantity:
-    """Statement that there is no real root for the given numbers, b^2 - 4 a c < 0.
+    """Statement that there is no real root, b^2 - 4 a c < 0.
 
     Outcomes: none.
-    Check: the discriminant from the resultant, with the numbers substituted.
+    Check: the resultant gives the same discriminant, and this discriminant is known to be negative.
     Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1.
     """
     of = both.needed(Roots)

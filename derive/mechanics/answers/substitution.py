@@ -419,8 +419,8 @@ def _check_holds(of: Quantity, result: Any) -> None:
 def _name(of: Quantity, symbol: str | None) -> Any:
     """Return the symbol of the result: the requested symbol or, by default, the symbol of the original.
 
-    If the symbol of the original cannot be solved for, such as a derivative, the key of the original is the symbol. A
-    relation has no symbol.
+    If the original has a symbol that is not a valid unknown, such as a derivative, the key of the original becomes the
+    symbol. A relation has no symbol.
     """
     if isinstance(of.value, Relation):
         return None

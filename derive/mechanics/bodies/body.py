@@ -62,7 +62,7 @@ class Body(Placeable, OfParticles):
 
     mass: Expr
     filling: ClassVar[str] = "volume"
-    reference: ClassVar[str] = "centre"  # the named point at the origin of the body axes
+    reference: ClassVar[str] = "centre"  # the named point from which positions are measured by default
     other_centre: ClassVar[str] = ""  # a point, not the centre of mass, that readers may call "centre"
     called: str = ""  # the name of the body on a page with several bodies: "upper rod"
     names_given: tuple[str, ...] = ()  # names that the author gave to points: such a name does not imply a position
@@ -490,7 +490,7 @@ def centre_of_mass(
     """Centre of mass, r_C = (1/M) integral of r dm, measured from a named point of the body.
 
     body         a body with a mass and a region
-    origin       the name of the point from which to measure; by default the point at the origin of the body axes
+    origin       the name of the point from which to measure; by default the `reference` of the body
     coordinates  "cartesian" or "cylindrical", for a body whose limits are known in both systems
 
     For a round solid, one step derives the component along the axis. For any other body without inversion symmetry, a

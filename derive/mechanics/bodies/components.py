@@ -86,7 +86,7 @@ def centre_component(
 
     body         a body of mass M
     axis         "x", "y" or "z": the body axis of the component
-    origin       the name of the point from which to measure; by default the point at the origin of the body axes
+    origin       the name of the point from which to measure; by default the `reference` of the body
     coordinates  "cartesian" or "cylindrical", for a body whose limits are known in both systems
 
     Second route: the mean position of the body's equimomental particles.

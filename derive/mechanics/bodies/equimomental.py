@@ -49,8 +49,10 @@ class OfParticles:
 
     def particles(self) -> Particles:
         """Particles with the mass, centre of mass and second moments of the body. If `is_of_particles` is true, they
-        are found without integrals, so they can check integrals. Source: Routh, *Elementary Rigid Dynamics*, chapter
-        1."""
+        are found without integrals, so they can check integrals.
+
+        Source: Routh, *Dynamics of a System of Rigid Bodies*, elementary part, chapter 1.
+        """
         raise AttributeError(f"{type(self).__name__} must define its equimomental particles")
 
     def another_way(
@@ -156,7 +158,7 @@ def from_moments(
 
     A Cholesky decomposition gives S = sum of D_k l_k l_k^T. For each k, a pair of particles with the total mass D_k/L^2
     is at +-L l_k, where L^2 is the trace of S divided by the mass. The rest of the mass is at the centre of mass.
-    Source: Routh, *Elementary Rigid Dynamics*, chapter 1.
+    Source: Routh, *Dynamics of a System of Rigid Bodies*, elementary part, chapter 1.
     """
     left = Matrix(second) if second is not None else Matrix.diag(*about_origin) - mass * centre * centre.T
     trace = tidied(left.trace())

@@ -3,7 +3,7 @@
 The size of a cell is the square root of det(r_i . r_j), from the scalar products of the edges. The integral over each
 variable x uses Gauss's rule in t. Here x = m - h cos(pi t), m is the midpoint of the interval, and h is half of its
 length. Square roots that vanish at an end of the interval are smooth in t.
-Source: Press, Teukolsky, Vetterling, Flannery, *Numerical Recipes*, section 4.6.
+Source: Press, Teukolsky, Vetterling, Flannery, *Numerical Recipes*, 3rd edition, section 4.6.
 """
 
 from __future__ import annotations

@@ -140,7 +140,7 @@ def _put_aside(of: Quantity, constants: Sequence[Quantity], verb: str) -> list[C
 
 ROUTHIAN = Rule(
     "hamilton.routhian",
-    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 8.3, where it has the other sign",
+    source="Goldstein, Poole, Safko, *Classical Mechanics*, section 8.3, where R has the other sign",
     outcomes={"one": claims.routhian_one, "several": claims.routhian_several},
     evidence={"matter": ROUTE, "energies": ROUTE, "given_matter": CHECK},
 )

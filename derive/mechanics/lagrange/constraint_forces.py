@@ -97,8 +97,12 @@ class _Problem:
 
     @property
     def known(self) -> dict[Symbol, Expr]:
-        """Coordinate -> an expression in the other coordinates, by a constraint that is solved for this coordinate, or
-        a constant, by several constraints; also the rate of the coordinate -> the rate of this expression."""
+        """Coordinate or rate -> its value, as far as the constraints give one.
+
+        A coordinate is an expression in the other coordinates if one constraint is solved for this coordinate, or a
+        constant if several constraints fix it. The rate of the coordinate is the rate of this value. Several
+        constraints on rates may also require that some rates vanish.
+        """
         constant = {told.left: told.right for told in _together(self.constraints, self.moving).values()}
         found = {**constant, **dict.fromkeys(map(rate, constant), ZERO)}
         still = rates_at_rest(
@@ -514,7 +518,7 @@ def _isolated(problem: _Problem) -> dict[Symbol, Isolated]:
 
 
 def _repeated(step: Step) -> str:
-    """Return the key of the equation that already is the acceleration, otherwise an empty text."""
+    """Return the key of the equation that already gives the acceleration; otherwise an empty text."""
     roles = dict(step.roles)
     return str(roles["equation_1"].name) if "as_it_is" in roles else ""
 

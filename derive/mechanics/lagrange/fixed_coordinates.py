@@ -28,10 +28,11 @@ def fixed_together(residuals: Sequence[Expr], moving: Sequence[Symbol]) -> dict[
     residuals   f of each constraint f = 0 between coordinates
     moving      all coordinates
 
-    Coordinates are zero if the constraints hold there and fix them. Otherwise sums and differences of two constraints
-    are examined, because they may contain a single coordinate. If this coordinate has a single admissible value, it is
-    fixed; an angle whose sine vanishes is taken to be zero. The result is empty unless the values satisfy exactly as
-    many constraints as there are values.
+    If the constraints hold where as many coordinates as constraints are zero, and are independent there, these
+    coordinates are zero. Otherwise sums and differences of two constraints are examined, because they may contain a
+    single coordinate. If this coordinate has a single admissible value, it is fixed; an angle whose sine vanishes is
+    taken to be zero. The result is then empty unless the values satisfy exactly as many constraints as there are
+    values.
     """
     if not 1 < len(residuals) <= MOST or any(map(depends_on_time, residuals)):
         return {}

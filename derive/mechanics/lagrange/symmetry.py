@@ -186,8 +186,8 @@ def _change(of: Quantity, xi: Mapping[Symbol, Expr], gain: Expr, key: str) -> Qu
 
 
 def _in_order(L: Expr, *groups: Mapping[Symbol, Expr]) -> dict[Symbol, Expr]:
-    """Return the changes of the coordinates, then those of the rates. In each group, positive terms of the change of L
-    come first, and a group without positive terms comes last."""
+    """Return the changes of the coordinates and the changes of the rates, as two groups one after the other. In each
+    group, positive terms of the change of L come first. A group without positive terms comes last."""
 
     def is_negative(way: tuple[Symbol, Expr]) -> bool:
         return bool(_times(Partial(L, way[0]), way[1]).could_extract_minus_sign())

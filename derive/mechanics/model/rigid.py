@@ -131,7 +131,7 @@ def convenient_axes(placed: PlacedBody, inertia: ImmutableMatrix) -> Axes:
     """Return axes along which the inertia of a body in space is constant, and its angular velocity has short
     components.
 
-    If the last rotation is about an axis of symmetry, these are the axes before this rotation.
+    If the last of several rotations is about an axis of symmetry, these are the axes before this rotation.
     """
     axes: Any = placed.turned
     count = len(axes.turns)

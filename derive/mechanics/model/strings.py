@@ -416,7 +416,8 @@ def _kept_lengths(pieces: Sequence[tuple[Location, Location]], whole: Expr | Non
 
 
 def _possible_lengths(start: Location, end: Location) -> tuple[Expr, ...]:
-    """Return u and -u for the length |u| of a straight piece, or only the positive one, if the sign of u is known."""
+    """Return u and -u for the length |u| of a straight piece, or only the positive of the two, if the sign of u is
+    known."""
     length = raw_distance(start, end).replace(Abs, lambda size: size)
     positive = [each for each in (length, -length) if sign_for_all(each) == 1]
     return tuple(positive) or (length, -length)

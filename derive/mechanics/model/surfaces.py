@@ -389,10 +389,10 @@ def direction_between(start: Location, end: Location) -> Location:
 
 
 def _positive(length: Expr) -> Expr:
-    """Return u or -u for a distance |u|, whichever is positive for all values of its symbols.
+    """Return u or -u for a distance |u|: the expression that is positive for all values of its symbols.
 
-    If the sign depends on the values, return the one that is positive where all coordinates are zero, and assume that
-    it stays positive.
+    If the sign depends on the values, return the expression that is positive where all coordinates are zero, and assume
+    that this expression stays positive. Reject a distance whose sign is unknown there.
     """
     moving = coordinates_in(ImmutableDenseMatrix([length]))
     at_zero = Add(*(term for term in Add.make_args(length.xreplace(dict.fromkeys(moving, Integer(0))).expand())

@@ -1,7 +1,7 @@
 """Numerical integration of a motion, to compare the change of a quantity with the integral of its rate.
 One motion with a limited number of figures proves nothing, but the integration shares no code with the algebra that it
 checks. The integration is by Gragg's rule, extrapolated to zero step length.
-Source: Press, Teukolsky, Vetterling, Flannery, *Numerical Recipes*, section 17.3.
+Source: Press, Teukolsky, Vetterling, Flannery, *Numerical Recipes*, 3rd edition, section 17.3.
 """
 
 from __future__ import annotations

@@ -70,7 +70,7 @@ def arrivals(
     places: Iterable[tuple[Expr, Expr]],
     limit: Callable[[Expr], Expr] | None = None,
 ) -> list[Arrival]:
-    """Return how motions come to the places at which a result is evaluated.
+    """Return an `Arrival` for each motion and each place at which a result is evaluated.
 
     of, others   the result, and other results that are substituted into it
     places       pairs of a coordinate, or a function of a coordinate, and the constant value of this expression at the

@@ -453,8 +453,9 @@ def order_of(*orders: int, more: bool = False) -> Predicate:
 
 
 def shaped(shape: str, at_bound: bool) -> Predicate:
-    """Judge by differentiation whether the first nonzero derivative, from the second on, yields this shape. If
-    `at_bound` is true, a case must be named, and the second derivative must vanish.
+    """Judge by differentiation whether the first nonzero derivative, from the second on, yields this shape.
+
+    A case must be named if and only if `at_bound` is true, and the second derivative must then vanish.
     """
 
     def is_so(facts: Judged) -> bool:

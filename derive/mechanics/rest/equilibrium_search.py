@@ -4,7 +4,7 @@ A starting point is random, or a known equilibrium with one coordinate reflected
 if quadratic convergence confirms it to many digits; a point where the forces only become small, or are stationary, is
 not confirmed.
 
-Source: Press, Teukolsky, Vetterling, Flannery, *Numerical Recipes*, section 9.6.
+Source: Press, Teukolsky, Vetterling, Flannery, *Numerical Recipes*, 3rd edition, section 9.6.
 """
 
 from __future__ import annotations

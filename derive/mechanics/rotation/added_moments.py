@@ -121,7 +121,7 @@ def _own_moment(body: Any, axis: str, letter: str, turn: MatrixBase) -> Quantity
 
 OWN_MOMENT = Rule(
     "rotation.own_moment",
-    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, section 7.3",
+    source="Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, section 7.3",
     outcomes={"none": claims.on_its_axis, "flat": claims.is_flat},
     evidence={"particles": ROUTE, "integration": ROUTE},
     statements=[claims.names_the_axis_of_the_whole],

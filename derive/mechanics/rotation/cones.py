@@ -26,7 +26,7 @@ from derive.algebra.expressions import (
     vector,
 )
 from derive.algebra.tidy import tidied
-from derive.errors import Complaint, Rejected
+from derive.errors import Complaint, Rejected, Spelled
 from derive.mechanics.bodies.facts import AboutPoint, OfBody
 from derive.mechanics.rotation import claims
 from derive.mechanics.rotation.vectors import Through, length_by_turning
@@ -185,7 +185,11 @@ def precession_rate(
     """
     require_kind("precession_rate", "inertia", inertia, "moment of inertia")
     require_kind("precession_rate", "momentum", momentum, "angular momentum")
-    require_constant("precession_rate", "angular momentum in the body", momentum, "for one instant use `start`")
+    at_one_instant = Spelled(
+        "for an angular velocity at one instant, use `momentary_angular_velocity`",
+        "for an angular velocity at one instant, use `start`",
+    )
+    require_constant("precession_rate", "angular momentum in the body", momentum, at_one_instant)
     which = axis_number(inertia)
     axis, L = column(*(int(k == which) for k in range(3))), momentum.value
     beside = tidied(Norm(Cross(axis, L)))

@@ -162,9 +162,9 @@ class RigidBody(Placeable, OfParticles):
         return principal_tensor(self)
 
     def particles(self) -> list[tuple[Expr, ImmutableMatrix]]:
-        """Return six particles, at +1 and -1 on each axis, which together have the second moments of the body about the
-        origin. The mass and the centre of mass of these particles may differ from the mass and the centre of mass of
-        the body."""
+        """Return six particles, at +1 and -1 on each axis. Their second moments about the origin are the second moments
+        of the body about the point of its moments. The mass and the centre of mass of the particles may differ from
+        the mass and the centre of mass of the body."""
         places = [(i, sign) for i in range(3) for sign in (1, -1)]
         return [(self.second_moments[i] / 2, column(*(sign * (k == i) for k in range(3)))) for i, sign in places]
 
@@ -347,7 +347,7 @@ def euler_equations(rate: Quantity, torque: tuple[Expr, Expr, Expr] = NO_TORQUE)
     """Euler's equations, I_x omega_x_dot - (I_y - I_z) omega_y omega_z = N_x and cyclically: components of dL/dt = N.
 
     rate     rate of change of the angular momentum in space, vector (3), N m, along the principal axes of the body
-    torque   N about the same point, three components along the same axes, N m; by default zero
+    torque   N about the point of L, three components along the same axes, N m; by default zero
 
     Second route: the components of the sum of m r x a over particles.
     Outcomes: driven (a torque acts); without a torque, coupled (a product of components of omega remains in this

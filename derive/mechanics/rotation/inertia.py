@@ -411,8 +411,8 @@ def moved_to(tensor_there: Quantity, centre: Quantity, symbol: str = "I", key: s
     tensor_there    tensor J (3, 3), kg m^2, about a point of the body
     centre          vector c (3), m: the position of the centre of mass relative to the point of J, along the same axes
 
-    Second route: each entry, and the whole tensor, integrated about the centre of mass; also, the trace must be twice
-    the integral of r.r dm.
+    Second route: each entry, and the whole tensor, integrated about the centre of mass. Check: the trace is twice the
+    integral of r.r dm.
     Outcomes: the same as those of `inertia_tensor`.
     Errors: the tensor is already about the centre of mass; the centre is not measured from the point of the tensor; no
     step derives the entries of the tensor.
@@ -435,7 +435,7 @@ def moved_from_centre(inertia: Quantity, centre: Quantity, symbol: str = "J", ke
     inertia   tensor I (3, 3), kg m^2, about the centre of mass
     centre    vector c (3), m: the position of the centre of mass relative to the other point, along the same axes
 
-    Second route: each entry, and the whole tensor, integrated about the other point; also, the trace must be twice the
+    Second route: each entry, and the whole tensor, integrated about the other point. Check: the trace is twice the
     integral of r.r dm.
     Outcomes: outward.
     Errors: the tensor is not about the centre of mass; the axes differ; no step derives the entries of the tensor.

@@ -150,8 +150,8 @@ def _tensor_there(moments: Quantity, found: Relation, one: int) -> tuple[Any, An
 
 
 def _differences_beside(difference: Expr, found: Relation) -> tuple[Any, Any]:
-    """Return two columns. The first has the difference of the moments above the root, the difference below the root,
-    and the root itself. The second has the same magnitudes with the signs that are required."""
+    """Return two columns. The first column contains the difference of the moments above the root, the difference below
+    the root, and the root itself. The second column contains the same magnitudes with the required signs."""
     letter, bound = found.sides
     u = Dummy("u", positive=True)
     beyond, before = (tidied(difference.subs(letter, bound * (1 + u) ** sign)) for sign in (1, -1))
