@@ -743,7 +743,7 @@ def _relative_error(left: Expr, right: Expr) -> float | None:
 
 
 def changing_letters(symbols: set[Symbol], meaning: Meaning) -> tuple[Symbol, ...]:
-    """Return those of the symbols that change with time, are rates, or have names that are usual for angles."""
+    """Return the symbols of a set that change with time, are rates, or have names that are usual for angles."""
     return tuple(
         sorted(
             (

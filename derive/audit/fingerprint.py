@@ -55,7 +55,7 @@ Number = Callable[[Symbol], complex]  # returns the number of a letter
 
 
 def at(value: Expr, number: Number) -> complex:
-    """Return the number of an expression; `number` returns the number of each letter."""
+    """Return the value of an expression; `number` returns the number of each letter."""
     return program(value)(number)
 
 

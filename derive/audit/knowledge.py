@@ -114,7 +114,7 @@ class Known:
 
     def computed(self, symbol: Symbol) -> Definition | None:
         """Return the value of a rate, of a derivative or of a function at a place, computed from the definition of its
-        letter; None if this letter has no definition."""
+        letter; None if it cannot be computed."""
         if symbol in self.meaning.evaluations:
             function, variable, at = self.meaning.evaluations[symbol]
             inner = self.latest(function)

@@ -24,7 +24,7 @@ SMALL = 1e-10  # an equation with a smaller residual, relative to its terms, cou
 DAMPING = 1e-9  # the relative increase of the diagonal of the linear system
 SMALLEST = 1e-3  # the smallest absolute value of a letter
 LARGEST = 1e3  # the largest absolute value of a letter
-WEIGHTS = (0.05, 0.3, 1.0)  # the weights of the changes of constants, of letters that change with time, and of rates
+WEIGHTS = (0.05, 0.3, 1.0)  # the weights in changes: of constants, of letters that change with time, of rates
 
 Numbers = dict[Symbol, complex]
 

@@ -194,8 +194,8 @@ def motion(known: Known, meaning: Meaning) -> Iterator[tuple[Expr, tuple[int, ..
 
 
 def root_equation(letter: Symbol, meaning: Meaning, known: Known) -> tuple[Symbol, Expr, int] | None:
-    """Return the letter without its index, the last earlier equation of which `letter`, such as w_1 or x_0, may name a
-    root, and the number of its claim; None if there is no such equation."""
+    """A letter such as w_1 or x_0 may name a root of an earlier equation in w or x: return the letter without its
+    index, the last such equation and the number of its claim; otherwise None."""
     named = meaning.symbols.get(letter)
     if named is None or not named.sub or named.dots or named.marks or named.base == "t":
         return None

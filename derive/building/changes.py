@@ -158,7 +158,7 @@ def _worth(page: Mapping[str, Any]) -> str:
 
 
 def _asked(parts: Iterable[tuple[Any, Any]]) -> Iterator[Change]:
-    """Return the changes of parts and of what they ask for."""
+    """Yield the changes of parts and of what they ask for."""
     for old, new in parts:
         name = _name(old, new)
         if old is _NO_PART or new is _NO_PART:
@@ -195,7 +195,7 @@ def _result(step: Mapping[str, Any]) -> str:
 
 
 def _facets(old: Mapping[str, Any], new: Mapping[str, Any]) -> Iterator[tuple[str, str, str]]:
-    """Return the properties in which two versions of a step differ, each with its old and its new text."""
+    """Yield the properties in which two versions of a step differ, each with its old and its new text."""
     if _left_side(old) != _left_side(new):
         yield "name", _left_side(old), _left_side(new)
     if _result(old) != _result(new):
@@ -236,7 +236,7 @@ def _sentences(before: Mapping[str, Any], after: Mapping[str, Any], parts: Itera
 
 
 def _of_part(old: Mapping[str, Any], new: Mapping[str, Any]) -> Iterator[tuple[str, Blocks, Blocks]]:
-    """Return the texts of a part to compare. The question of a new or removed part is not compared."""
+    """Yield the texts of a part to compare. The question of a new or removed part is not compared."""
     if old is not _NO_PART and new is not _NO_PART:
         yield f"{_name(old, new)}, question", _plain(old["ask"]), _plain(new["ask"])
     yield f"{_name(old, new)}, solution", old["says"], new["says"]

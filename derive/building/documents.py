@@ -1,4 +1,4 @@
-"""The documents of a set: the documents that its file lists, and those that a command requests with `--only`.
+"""The documents of a set: the documents that its file lists, and the documents that a command requests with `--only`.
 
 A document that was requested once is made again by later builds of the whole set, until you remove its PDF.
 """

@@ -38,7 +38,7 @@ BESIDE_STATEMENT = 0.74  # the height of a drawing of the statement, divided by 
 WIDE, LOW = 7.0, 0.4  # the width of a low drawing: at the width WIDTH, its height is at most LOW times its width
 # A drawing without a given width is made larger if its labels are crowded. Labels are crowded if the greatest cost of
 # the position of a label is more than CROWDED, or if there are at least MANY labels and more than DENSE per square
-# centimetre. The larger drawing is kept unless its greatest cost exceeds that of the smaller drawing by over SLIGHT.
+# centimetre. The larger drawing is kept unless its greatest cost is more than that of the smaller drawing plus SLIGHT.
 CROWDED, MANY, DENSE, SLIGHT = 5.5, 7, 0.45, 3.0
 # the widths for the drawing of a normal mode of at most FEW masses; the second is for low drawings
 OF_MODES, FEW = (3.6, 4.7), 4

@@ -14,7 +14,7 @@ from derive.steps.homogeneity import dimension_table
 
 
 def expected_results(root: Path, problem_id: str) -> list[Expected]:
-    """Derive a problem and return its steps; those that answer a part are marked as asked."""
+    """Derive a problem and return its steps; the steps that answer a part are marked as asked."""
     problem = load_problem(root, problem_id)
     derivation, *_ = derived(problem)
     notation = Notation(dimension_table(problem.dimensions, derivation.steps)[0])

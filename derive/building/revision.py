@@ -1,4 +1,4 @@
-"""A course at a revision of git: the files of one set and the templates, in a temporary folder.
+"""A course at a revision of git: the files of one set, the templates and the file of the course, in a temporary folder.
 
 Files are read as git stores them and not checked out, because a repository may name programs that run at checkout.
 """
@@ -15,6 +15,7 @@ from pathlib import Path
 
 from derive.building.files import writing
 from derive.building.scratch import Scratch
+from derive.course.problem_set import COURSE, logo_of_set
 from derive.errors import Complaint, Misused
 
 TEMPLATES = "templates"
@@ -26,27 +27,35 @@ _TIME_LIMIT = 60
 def course_at(root: Path, revision: str, set_id: str) -> Iterator[Path]:
     """Provide the root of the course at that revision inside the `with` block; no other machine is contacted."""
     commit = _commit(root, revision)
-    wanted = (f"problems/{set_id}", TEMPLATES)
+    wanted = (f"problems/{set_id}", TEMPLATES, COURSE)
     there = _git(root, "ls-tree", "--name-only", commit, "--", *wanted).stdout.decode().splitlines()
     if wanted[0] not in there:
         message = f"no set was called `{set_id}` at `{revision}`"
         raise Misused(
             Complaint("no-such-set", message, help=f"`git log -- {wanted[0]}` lists the revisions that have it")
         )
-    files = _files(root, revision, commit, there)
+    with Scratch() as name, writing(Path(name)):
+        folder = Path(name)
+        _copy(root, revision, commit, there, folder)
+        if (logo := logo_of_set(folder, set_id)) and ".." not in Path(logo).parts:
+            _copy(root, revision, commit, [logo], folder)
+        yield folder
+
+
+def _copy(root: Path, revision: str, commit: str, paths: Sequence[str], folder: Path) -> None:
+    """Write the plain files of a commit at and below these paths into a folder."""
+    files = _files(root, revision, commit, paths)
     contents = _contents(root, revision, [name for name, _ in files])
-    with Scratch() as folder, writing(Path(folder)):
-        for (_, path), content in zip(files, contents, strict=True):
-            target = Path(folder, os.fsdecode(path))
-            if target.resolve().is_relative_to(Path(folder).resolve()):
-                target.parent.mkdir(parents=True, exist_ok=True)
-                target.write_bytes(content)
-        yield Path(folder)
+    for (_, path), content in zip(files, contents, strict=True):
+        target = folder / os.fsdecode(path)
+        if target.resolve().is_relative_to(folder.resolve()):
+            target.parent.mkdir(parents=True, exist_ok=True)
+            target.write_bytes(content)
 
 
-def _files(root: Path, revision: str, commit: str, folders: Sequence[str]) -> list[tuple[bytes, bytes]]:
+def _files(root: Path, revision: str, commit: str, paths: Sequence[str]) -> list[tuple[bytes, bytes]]:
     """Return the object name and the path of each plain file; symbolic links are left out."""
-    found = _git(root, "ls-tree", "-r", "-z", commit, "--", *folders)
+    found = _git(root, "ls-tree", "-r", "-z", commit, "--", *paths)
     if found.returncode:
         raise Misused(_unreadable(revision, found.stderr))
     listed = found.stdout.split(b"\0")

@@ -71,7 +71,7 @@ FIRST, LAST = -float("inf"), float("inf")  # ranks of jobs that begin before or 
 
 @dataclass(frozen=True)
 class Options:
-    """How to build; the defaults are those of `derive build`."""
+    """The options of a build, with the defaults of `derive build`."""
 
     engine: str | None = None
     detail: str | None = None

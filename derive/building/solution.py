@@ -279,7 +279,7 @@ def _value(
 def _kind_of(
     problem: Problem, answer: Quantity, dimensions: Mapping[Any, Dimension | None]
 ) -> tuple[str | None, Dimension]:
-    """Return the kind, if any, and the dimension of an answer; for a relation such as R > a/2, those of R."""
+    """Return the kind, if any, and the dimension of an answer; a relation such as R > a/2 has the kind of R."""
     kind, symbol = answer.step.kind, answer.symbol
     if isinstance(answer.value, Relation):
         symbol = answer.value.left

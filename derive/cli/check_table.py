@@ -17,7 +17,7 @@ HEADING = (
 )  # fmt: skip
 LEGEND = """\
 steps     a step has the grade of its weakest line or, if lower, the grade of its strongest route or check
-claims    all compared lines, second routes and checks; the next column counts those that are only sampled
+claims    all compared lines, second routes and checks; the next column counts the claims that are only sampled
 compared  statements of the source that were compared, and remarks on the source"""
 _OF_STEPS = ("steps_proved", "steps_sampled", "steps_approximation", "steps_definition")
 _OF_CLAIMS = ("lines", "routes", "checks")

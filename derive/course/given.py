@@ -102,7 +102,7 @@ def read_givens(
     used: Iterable[str] = (),
     numbers: Mapping[Symbol, Expr] | None = None,
 ) -> tuple[tuple[Given, ...], dict[str, Declared]]:
-    """Return the givens in the order of `nodes`, and all symbols, including those that were introduced for numbers.
+    """Return the givens in the order of `nodes`, and all symbols, including the symbols that replace numbers.
 
     notes     for each name, a note that says where `solve()` asks for its value
     used      the names of symbols that already have a number

@@ -62,8 +62,8 @@ class OwnFigure:
 def read_figure(
     root: Path, problem: str, written: FigureKeys | None, drawings: tuple[Placement, ...], faults: Faults
 ) -> OwnFigure | None:
-    """Return the figure of a problem, or None after an error in its keys. The path in `written` is relative to the
-    folder of the file `problem`.
+    """Return the figure of a problem; None without the key `figure:` or after an error in its keys. The path in
+    `written` is relative to the folder of the file `problem`.
 
     After an error of the file, the figure is empty, so that prose may still mention it.
     """

@@ -105,7 +105,7 @@ class Placement:
 
     @property
     def shows(self) -> tuple[str, ...]:
-        """Return the names of those marks that belong to a body, such as its centre of mass."""
+        """Return the names of the marks that belong to a body, such as its centre of mass."""
         return tuple(str(mark.mark) for mark in self.marks if mark.mark in MARKS_OF_BODY)
 
     @property

@@ -366,8 +366,9 @@ class DrawingKeys(Record):
         list_of(mapping_of(SCALAR, _NUMBERS), "a list of mappings such as `{R: 20 cm, a: 5 cm}`", each="a case"),
     )
     panels: str | None = key(
-        "whether several curves or paths are `together` in one panel or `apart`. By default, `curves` are together, "
-        "and the curves of `cases` are together if they have the same range and comparable sizes",
+        "whether several curves or paths are `together` in one panel or `apart`. By default, up to four curves "
+        "share a panel; the curves of `cases` share it only if they have comparable sizes and, except for paths, the "
+        "same range",
         one_of(PANELS),
     )
 

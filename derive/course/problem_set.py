@@ -292,6 +292,15 @@ def form_of_set(root: Path, set_id: str) -> AnswerForm | None:
     return None
 
 
+def logo_of_set(root: Path, set_id: str) -> str | None:
+    """Return the path of the logo that the set or its course names; None if neither names one, or if a file cannot be
+    read."""
+    with suppress(DeriveError):
+        logo: str | None = _shared(root, set_id, "logo").get("logo")
+        return logo
+    return None
+
+
 def _shared(root: Path, set_id: str, *names: str) -> dict[str, Any]:
     """Read these keys of the set or, if the set does not have them, of the course. Other keys are not read."""
     faults, keys = Faults(), keys_of(CourseKeys)

@@ -159,7 +159,7 @@ def check_variations(problem: Mapping, variations: tuple[Variation, ...], faults
         if _path(problem, variation.name) is None:
             known = [key.text for under in ("values", "given") for key, _ in _pairs(problem.get(under))]
             message = f"neither `values` nor `given` has `{variation.name}`, so it cannot vary"
-            help_line = did_you_mean(variation.name, known) or "give the value for the problem itself in one of them"
+            help_line = did_you_mean(variation.name, known) or "write the value for the problem itself under `values`"
             faults.error("variants", message, variation.name.place, help=help_line)
 
 

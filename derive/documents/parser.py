@@ -1265,7 +1265,7 @@ class _Reader:
     # Brackets
 
     def closing_of(self, opener: Token) -> tuple[int, bool]:
-        """Return the position of the bracket that closes the one at the current position, and whether it is found."""
+        """Return the position of the bracket that closes the current bracket, and whether there is one."""
         depth = 0
         for at in range(self.at, len(self.tokens)):
             token = self.tokens[at]
@@ -1446,7 +1446,7 @@ def _is_number(node: Node) -> bool:
 
 
 def _is_product_with_bracket(node: Node) -> bool:
-    """Whether a letter before a bracket cannot be a function of what the bracket contains."""
+    """Whether a letter before a bracket cannot be a function of the contents of the bracket."""
     if not isinstance(node, Open) or node.kind != "apply":
         return False
     call = node.alternatives[0]

@@ -171,7 +171,8 @@ def _files_in(text: str, folder: Path) -> Iterator[Path]:
 
 
 def _included(text: str, main: str, folder: Path, done: set[Path]) -> Iterator[str]:
-    """Yield the texts of the main document and of the files that it includes, each before the files that use it."""
+    """Yield the texts, except `text`, of the main document and of the files that it includes; a file comes before the
+    files that use it."""
     for file in _files_in(main, folder):
         if file not in done and len(done) < MOST_INCLUDED:
             done.add(file)

@@ -406,7 +406,7 @@ def _sizes(diagrams: Sequence[Sequence[_Drawn]], scene: Connections) -> list[lis
 
 def _magnitudes(drawn: Sequence[_Drawn], scene: Connections) -> list[float] | None:
     """Return the magnitudes of the forces for trial numbers that satisfy the assumptions, and for which no surface
-    pulls; None without such numbers."""
+    pulls; None if there are no such numbers."""
     values = [explicit(with_numbers(as_expr(each.value).subs(scene.values).subs(scene.values))) for each in drawn]
     letters = sorted(set().union(*(value.free_symbols for value in values)), key=str)
     angles = {s for value in values for f in value.atoms(sin, cos) for s in f.free_symbols}
@@ -542,7 +542,7 @@ def _outline(of: Any, is_pulley: bool = False) -> Iterator[Mark]:
 
 def _over_pulley(system: System, of: Any) -> tuple[PointForce, PointForce] | None:
     """Return the pulls of the two pieces of a string that runs over a particle, which is then a small pulley; None
-    without such a string."""
+    if there is no such string."""
     if isinstance(of, PlacedBody | Pulley | _RopePiece) or len(of.at.components) != 2:
         return None
     lines = [each for each in connections_of(system, Line) if any(same(of.at, at) for at in each.places[1:-1])]

@@ -150,8 +150,8 @@ def links_about_fixed(system: System, end: Location) -> Iterator[Link]:
 
 
 def angle_of_link(system: System, link: Link) -> tuple[Expr, Location] | None:
-    """Return the angle by which a link rotates, and the fixed direction of the link at zero angle; None without such an
-    angle."""
+    """Return the angle by which a link rotates, and the fixed direction of the link at zero angle; None if there is no
+    such angle."""
     e = tuple(tidied(c / link.length) for c in link.way.components)
     for angle in _angles(e):
         zero = tuple(c.xreplace({sin(angle): ZERO, cos(angle): Integer(1)}) for c in e)

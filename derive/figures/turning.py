@@ -133,7 +133,7 @@ def _round_the_vertical(system: System, link: Link) -> Iterable[Mark]:
 
 
 def on_the_axis(carried: Location) -> Location:
-    """Return the terms of a position that do not contain the time, such as the centre of a prescribed rotation."""
+    """Return a position without the terms that contain the time: in a prescribed rotation, a place on the axis."""
     return Location(tuple(_terms_without(c, {TIME}) for c in carried.components))
 
 

@@ -263,8 +263,7 @@ def _at(mark: Mark, values: Values) -> Mark:
 
 
 def is_of_the_moment(mark: Mark, moment: Moment) -> bool:
-    """Return whether a mark does not belong in the drawing of an impact, such as an angle that is zero at the
-    impact."""
+    """Return whether the drawing of an impact omits a mark, such as an angle that is zero at the impact."""
     if isinstance(mark, DistanceMark | LengthMark):
         return mark.label in moment.rates or moment.at.get(mark.label) == 0
     return isinstance(mark, AngleBetween) and moment.at.get(mark.label) == 0

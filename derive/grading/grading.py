@@ -359,7 +359,7 @@ class _Grading:
         typed_ones = [Relation(one.first[0].value, "=", one.last[0].value) for one in statements]
         if not give_the_same(typed_ones, [target.value for target in targets]):
             return None
-        verdict = Verdict(Outcome.EQUAL, "the equations together are equivalent to those of the problem")
+        verdict = Verdict(Outcome.EQUAL, "the equations together are equivalent to the equations of the problem")
         return {
             target.key: (self.with_reading(replace(verdict, target=target.key), one, one.last[0]), [one])
             for target, one in zip(targets, statements, strict=True)

@@ -33,7 +33,7 @@ def between_bounds(assumed: Iterable[Relation]) -> list[Relation]:
 
 
 def not_implied(assumed: Iterable[Relation]) -> list[Relation]:
-    """Return the assumptions without those that numerical bounds imply: 0 < alpha < pi/2 implies sin(alpha) != 0."""
+    """Return the assumptions that numerical bounds do not imply; 0 < alpha < pi/2 implies sin(alpha) != 0."""
     conditions = list(assumed)
     below, above = _bounds(conditions)
     return [condition for condition in conditions if not _follows(condition, below, above)]

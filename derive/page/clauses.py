@@ -69,8 +69,8 @@ class Clauses:
         return (*said, Text(" ")) if said else ()
 
     def behind(self, lines: Any) -> tuple[Inline, ...]:
-        """Return a clause that continues the sentence of these lines and defines its waiting symbols, except those that
-        the lines define."""
+        """Return a clause that continues the sentence of these lines and defines the waiting symbols that occur in
+        them, unless the lines themselves define them."""
         return self._sentence("where", self._due(lines))
 
     def around(self, sentence: tuple[Inline, ...], lines: Any) -> tuple[Inline, ...]:

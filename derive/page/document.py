@@ -277,8 +277,8 @@ class _Writer:
         )
 
     def _assumed(self) -> tuple[Inline, ...]:
-        """Return a sentence with the assumptions about symbols, to follow the statement, without those that the
-        statement or a question contains."""
+        """Return a sentence, to follow the statement, with the assumptions about symbols that neither the statement
+        nor a question contains."""
         assumed = [each for each in not_implied(self.derivation.assumed) if each not in self.derivation.in_words]
         assumed = [each for each in assumed if not any(says_the_same(each, other) for other in self.formulas.stated)]
         if not assumed:

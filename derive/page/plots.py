@@ -1,6 +1,6 @@
 """The curves of a plot: the range, and the numbers and extrema of each curve.
 
-A case states the numbers that differ from the first case. Other numbers are those of the first case or of the problem.
+A case states the numbers that differ from the first case. All other numbers come from the first case or the problem.
 """
 
 from __future__ import annotations

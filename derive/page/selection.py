@@ -38,8 +38,8 @@ LONGEST_CLAUSE = 24  # greatest number of nodes of a result that appears in a cl
 
 @dataclass(frozen=True)
 class Needed:
-    """What an attempt at the page has shown: hidden steps that the page needs because it uses their symbols or refers
-    to their equations, and displays that it does not need because nothing refers to their numbers.
+    """The result of an attempt at the page: the hidden steps whose symbols the page uses or to whose equations it
+    refers, and the displays to whose numbers nothing refers.
 
     in_words   key of a step whose equation is in its sentence -> whether the page uses the symbol of the step
     """

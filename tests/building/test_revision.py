@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from derive.building.revision import course_at
+from derive.course.problem_set import PNG, problem_set
 from derive.errors import Misused
 from tests.building.repository import committed, git
 
@@ -96,3 +97,14 @@ def test_no_git_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None
     root = committed(course(tmp_path))
     monkeypatch.setenv("PATH", str(tmp_path))
     assert complaint(root, "HEAD")[0] == "no-git"
+
+
+def test_the_file_of_the_course_and_its_logo_are_there_too(tmp_path: Path) -> None:
+    root = course(tmp_path)
+    (root / "problems" / "hw1" / "set.yaml").write_text("title: T\nproblems: [one]\n")
+    (root / "course.yaml").write_text("course: C\nlogo: art/logo.png\n")
+    (root / "art").mkdir()
+    (root / "art" / "logo.png").write_bytes(PNG)
+    with course_at(committed(root), "HEAD", "hw1") as then:
+        assert problem_set(then, "hw1").facts == ["C"]
+        assert problem_set(then, "hw1").logo == PNG

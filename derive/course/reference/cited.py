@@ -121,7 +121,8 @@ class Cited:
             )
         if not shown and len(stated) > 1:
             message = f"{where} has {len(stated)} formulas in a sentence"
-            raise Rejected(Complaint("no-formula", message, place, (), "write the one that is meant under `latex:`"))
+            help_line = "write the formula that you mean under `latex:`"
+            raise Rejected(Complaint("no-formula", message, place, (), help_line))
         return stated
 
     def last_line(self, row: Row) -> int:
@@ -288,7 +289,7 @@ def cited(root: Path, set_id: str, name: str) -> Cited | None:
 
 
 def is_a_file(root: Path, set_id: str, name: str) -> bool:
-    """Return whether the name is that of a document in the folder of a set."""
+    """Return whether the folder of a set has a document with this name."""
     folder = root / "problems" / set_id
     path = folder / name
     if Path(name).name != name or path.suffix.lower() not in {*SUFFIXES} - {""} or not path.is_file():

@@ -109,7 +109,7 @@ def is_within(spot: Spot, box: Extent) -> bool:
 
 
 def _boxes(own: Sequence[Spot], size: tuple[float, float]) -> list[Extent]:
-    """Return boxes of a name on both sides of its curve, beginning with those in the middle of the curve."""
+    """Return boxes of a name on both sides of its curve, beginning with the boxes in the middle of the curve."""
     wide, high = size
     first, last = round(ENDS * len(own)), round((1 - ENDS) * len(own))
     every = range(max(first, 2), min(last, len(own) - 2), max(1, (last - first) // TRIED))

@@ -26,7 +26,7 @@ from derive.render.notation.layout import Evaluated, Fenced, Layout, Name, Opera
 from derive.render.notation.notation import Notation
 
 _DECIMAL_POINT = re.compile(r"(?<=[0-9])\.(?=[0-9])")
-MOST_ACROSS, MOST_UP = 6, 4  # usual limits of the numbers of intervals between the ticks of the two axes
+MOST_ACROSS, MOST_UP = 6, 4  # usual greatest number of intervals between ticks, on each axis
 NAME = 17.0  # in points: the space for the name of an extremum above or below a curve
 MOST_NAME = 0.25  # greatest part of the height of a panel for the names at one side
 HEIGHT = 88.0  # in points: the usual height of a panel between its axes

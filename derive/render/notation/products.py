@@ -287,7 +287,7 @@ def powers_together(expr: Expr) -> Expr:
 
 
 def _is_fourth_root(factor: Pow) -> bool:
-    """Return whether the factor is a fourth root of an integer or of a sum: a square root under a square root."""
+    """Return whether the factor is the fourth root of an integer or of a sum, or a power of this root."""
     return bool((factor.base.is_Integer or factor.base.is_Add) and factor.exp.is_Rational and factor.exp.q == 4)
 
 

@@ -35,7 +35,7 @@ def fragment(
 ) -> Tex:
     """Return a page for another document.
 
-    width   the width of the text in centimetres at the size 10 pt; by default that of the class `article`
+    width   the width of the text in centimetres at the size 10 pt; by default the width of the class `article`
     """
     page = FragmentPage(document, words, notation, WIDTH * (width or ARTICLE) / ARTICLE)
     body = filled_template(templates, "fragment.tex.j2", {"page": page})

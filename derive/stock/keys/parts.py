@@ -110,7 +110,7 @@ class ForceKeys(Record):
         TEXT,
     )
     torque: Tree | None = key("in place of `components` and `at`, a torque", SCALAR)
-    on: Tree | None = key("the angle that the torque changes", SCALAR)
+    on: Tree | None = key("the angle on which the torque acts", SCALAR)
 
     def part(self, places: Places, letters: InLetters, bodies: Collection[str]) -> Deferred[Any]:
         if self.components and self.at and not (self.torque or self.on):
