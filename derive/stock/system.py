@@ -63,6 +63,7 @@ from derive.mechanics import (
 from derive.mechanics.lagrange.facts import ForceOf
 from derive.mechanics.model.part import moved
 from derive.mechanics.model.strings import Line, circles_of
+from derive.mechanics.rest.facts import RestOf
 from derive.steps.derivation import returned_quantities, with_ancestors
 from derive.steps.record import assume, assumed, current_run, forget_words
 from derive.steps.step import Quantity, is_zero
@@ -580,7 +581,9 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
             at = at or self.stationary[0]
         elif at is None and self._is_pushed and len(self.stationary) == 1:
             at = self.stationary[0]
-        found = linearised(motions, at=at, key=key)
+        is_one_of = isinstance(at, Quantity) and at.fact(RestOf) is not None
+        others = [each for each in self.stationary if each != at] if is_one_of else []
+        found = linearised(motions, at=at, key=key, others=others)
         return found if isinstance(found, tuple) else (found,)
 
     def _check_momenta_have_symbols(self) -> None:

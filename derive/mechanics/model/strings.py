@@ -247,6 +247,12 @@ def string(
     return (replace(line, rope=mass_of),)
 
 
+BESIDE_THE_ROPE = (
+    "gravity acts on each piece of the rope, so the particle may be at any place of constant height that moves with the "
+    "speed of the rope: `at: [x, 0]` if one end is at `[0, x - l]`"
+)
+
+
 def _check_rope(line: Any, particle: Any, tension: str) -> None:
     """Require each piece of a rope to move along itself, with the speed of the particle that has the mass of the
     rope."""
@@ -262,11 +268,10 @@ def _check_rope(line: Any, particle: Any, tension: str) -> None:
     first, last, own = (velocity_at(each, line.places[0]) for each in (line.places[0], line.places[-1], particle))
     if any(not is_zero(tidied(dot(v, v) - dot(own, own))) for v in (first, last)):
         message = "the speed of the rope differs from the speed of the particle that has its mass"
-        raise Rejected(Complaint("which-body", message, help="put the particle at an end of the rope"))
+        raise Rejected(Complaint("which-body", message, help=BESIDE_THE_ROPE))
     if not is_zero(own.components[-1]):
         message = "the particle that has the mass of the rope must stay at a constant height, but it moves up or down"
-        help_line = "put the particle at an end of constant height; gravity acts on each piece of the rope"
-        raise Rejected(Complaint("which-body", message, help=help_line))
+        raise Rejected(Complaint("which-body", message, help=BESIDE_THE_ROPE))
 
 
 def _rotates(way: Location) -> bool:
