@@ -13,7 +13,7 @@ from itertools import pairwise
 from math import hypot
 from typing import Any
 
-from sympy import Abs, Add, Expr, ImmutableDenseMatrix, Integer, Mul, Rational, Symbol, cos, sin, sqrt
+from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Mul, Rational, Symbol, cos, sin, sqrt
 
 from derive.algebra.derivatives import derivative
 from derive.algebra.expressions import as_expr, explicit, rate, scalar
@@ -164,10 +164,9 @@ def forces_on_rope(
     if line.drawn is None or line.rope is None or len(line.places[0].components) != 2:
         return []
     pieces = list(pairwise(line.places))
-    lengths = [distance_of(*piece).replace(Abs, lambda size: size) for piece in pieces]
-    whole = tidied(Add(*lengths))
+    whole = tidied(Add(*line.lengths))
     alone = []
-    for i, ((start, end), length) in enumerate(zip(pieces, lengths, strict=True)):
+    for i, ((start, end), length) in enumerate(zip(pieces, line.lengths, strict=True)):
         of = _RopePiece(start, end, tidied(line.rope.mass * length / whole), whole)
         along = Location(tuple(tidied(c / length) for c in (end - start).components))
         touching = [each for each in connections_of(system, Contact) if each.of == line.rope and each.is_kept]

@@ -686,7 +686,7 @@ def _is_power_of_one_sum(value: Expr) -> bool:
 def root_of(square: Expr) -> Expr:
     """Return the square root, if possible with one root sign, as in sqrt(k/m)."""
     drawn = tidied(sqrt(square))
-    if drawn == 0 or square.has(sin) or not is_irrational(drawn):
+    if drawn == 0 or square.has(sin) or not any(p.free_symbols for p in _roots_in(drawn)):  # sqrt(3) Omega
         return drawn
     if _is_power_of_one_sum(drawn):
         return drawn
@@ -697,4 +697,8 @@ def root_of(square: Expr) -> Expr:
 
 
 def is_irrational(value: Expr) -> bool:
-    return any(p.exp.is_Rational and not p.exp.is_Integer for p in value.atoms(Pow))
+    return bool(_roots_in(value))
+
+
+def _roots_in(value: Expr) -> list[Expr]:
+    return [p for p in value.atoms(Pow) if p.exp.is_Rational and not p.exp.is_Integer]

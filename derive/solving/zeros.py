@@ -213,6 +213,8 @@ def _with_sine(value: Expr) -> list[Zero]:
 
 def _sure_roots(factor: Expr, x: Expr) -> list[Expr]:
     """The roots of a polynomial in a cosine or a sine; raise `Unsolved` if a root is real only under a condition."""
+    if (values := _of_one_power(factor, x)) is not None:
+        return values
     found = [root for root, _ in _roots(factor, x)]
     if any(root.exists is not None for root in found):
         raise Unsolved(factor)
@@ -246,15 +248,9 @@ def _of_lengths(factor: Expr, q: Symbol) -> list[Zero]:
     roots = [p for p in factor.atoms(Pow) if p.exp.is_Rational and not p.exp.is_Integer and p.has(q)]
     if roots:
         return _of_root(factor, roots, q)
-    polynomial = factor.as_poly(q)
-    if polynomial is None or polynomial.degree() > HIGHEST:
-        raise Unsolved(factor)
-    terms = polynomial.terms()
-    if polynomial.degree() > 2 and len(terms) == 2 and terms[1][0] == (0,):
-        values = _of_power(int(terms[0][0][0]), tidied(-terms[1][1] / terms[0][1]), factor)
-    else:
-        return [zero for root, sign in _roots(factor, q) for zero in _allowed(root, sign, q)]
-    return [zero for value in values for zero in _allowed(Zero(value), sign_for_all(value), q)]
+    if (values := _of_one_power(factor, q)) is not None:
+        return [zero for value in values for zero in _allowed(Zero(value), sign_for_all(value), q)]
+    return [zero for root, sign in _roots(factor, q) for zero in _allowed(root, sign, q)]
 
 
 def _of_two_powers(factor: Expr, q: Symbol) -> list[Expr]:
@@ -283,6 +279,17 @@ def _exponent(product: Expr, q: Symbol) -> Expr:
     """The exponent of q in a product of powers of q: a + b for q^a q^b; q itself for any other product."""
     parts = [f.as_base_exp() for f in Mul.make_args(product) if f != 1]
     return Add(*(power for _, power in parts)) if all(base == q for base, _ in parts) else q
+
+
+def _of_one_power(factor: Expr, x: Expr) -> list[Expr] | None:
+    """The real roots of A x^n + B, with n > 2; None for any other polynomial."""
+    polynomial = factor.as_poly(x)
+    if polynomial is None or polynomial.degree() > HIGHEST:
+        raise Unsolved(factor)
+    terms = polynomial.terms()
+    if polynomial.degree() < 3 or len(terms) != 2 or terms[1][0] != (0,):
+        return None
+    return _of_power(int(polynomial.degree()), tidied(-terms[1][1] / terms[0][1]), factor)
 
 
 def _of_power(n: int, value: Expr, factor: Expr) -> list[Expr]:

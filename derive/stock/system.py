@@ -60,9 +60,9 @@ from derive.mechanics import (
     total_energy,
     weight,
 )
-from derive.mechanics.lagrange.facts import ForceOf
 from derive.mechanics.model.part import moved
 from derive.mechanics.model.strings import Line, circles_of
+from derive.mechanics.rest.facts import RestOf
 from derive.steps.derivation import returned_quantities, with_ancestors
 from derive.steps.record import assume, assumed, current_run, forget_words
 from derive.steps.step import Quantity, is_zero
@@ -78,6 +78,7 @@ from derive.stock.answering.methods import (
     laws_of,
 )
 from derive.stock.answering.moments import check_starts, started, struck
+from derive.stock.answering.one_sided import is_of_constraint, state_one_sided
 from derive.stock.answering.sticking import state_static_friction
 from derive.stock.keys.deferred import made, parts_of, told_at_part
 from derive.stock.keys.places import PLACE
@@ -126,6 +127,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
             run = current_run.get()
             draw_modes(self.system, run.established if run is not None else (), self._named, SYSTEM)
             self._state_static_friction()
+            state_one_sided(self.system.constraints)
         return answers
 
     def _by_methods(self, asked: Sequence[Word], drawings: Sequence[Placement]) -> dict[str, object]:
@@ -580,7 +582,9 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
             at = at or self.stationary[0]
         elif at is None and self._is_pushed and len(self.stationary) == 1:
             at = self.stationary[0]
-        found = linearised(motions, at=at, key=key)
+        is_one_of = isinstance(at, Quantity) and at.fact(RestOf) is not None
+        others = [each for each in self.stationary if each != at] if is_one_of else []
+        found = linearised(motions, at=at, key=key, others=others)
         return found if isinstance(found, tuple) else (found,)
 
     def _check_momenta_have_symbols(self) -> None:
@@ -633,8 +637,7 @@ def _forces_found(steps: Sequence[Any], system: System) -> tuple[dict[Any, Quant
     rates, coordinates = {rate(q) for q in system.coordinates}, {*system.coordinates}
     forces = {each.force for each in system.constraints}
     for step in steps:
-        is_at_rest = step.symbol in forces and isinstance(step.value, Expr) and step.key == f"rest_{step.symbol}"
-        if step.fact(ForceOf) is not None or is_at_rest:
+        if step.symbol in forces and is_of_constraint(step):
             found.setdefault(step.symbol, step)
         elif step.symbol in found and not isinstance(step.value, Relation):
             letters = explicit(step.value).free_symbols

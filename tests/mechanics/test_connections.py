@@ -9,7 +9,7 @@ from random import Random
 from typing import Any
 
 import pytest
-from sympy import Expr, Integer, Symbol, cos, lambdify, sin, symbols
+from sympy import Expr, Integer, Pow, Symbol, cos, lambdify, sin, symbols
 
 from derive.algebra.equality import equal
 from derive.algebra.expressions import explicit
@@ -721,6 +721,39 @@ parts:
 """
 
 
+ON_TWO_STRINGS = """\
+title: A ball on two strings
+solve: system
+symbols: {m: mass, l: length, g: acceleration, Omega: positive angular speed}
+given:
+  coordinates: {x: positive length, z: length}
+  axes: {shaft: [{z: Omega*t}]}
+  particles: {ball: {mass: m, at: {in: shaft, by: [x, 0, z]}}}
+  strings:
+    - {from: [0, 0, l/2], to: ball, length: l, tension: T_1}
+    - {from: [0, 0, -l/2], to: ball, length: l, tension: T_2}
+  gravity: g
+statement: A ball <<m>> on two strings <<l>> turns at <<Omega>>.
+parts:
+  - {ask: Find the tensions., answer: equilibria}
+"""
+
+
+def test_the_tensions_of_two_strings_hold_where_both_strings_pull(tmp_path: Path) -> None:
+    """T_1 = m (l Omega^2/2 + g) is positive, and T_2 = m (l Omega^2/2 - g) has to be."""
+    assert assumptions(tmp_path, ON_TWO_STRINGS) >= {"Omega**2 > 2*g/l"}
+    asked = (
+        ("gravity: g\n", "gravity: g\n  results: {taut: {where: rest_T_2, is: '>', for: Omega}}\n"),
+        ("equilibria", "taut"),
+    )
+    assert not any("Omega" in each for each in assumptions(tmp_path, edited(ON_TWO_STRINGS, *asked)))
+
+
+def test_each_string_has_its_own_fraction_in_an_equation_of_motion(tmp_path: Path) -> None:
+    right = solved(tmp_path, ON_TWO_STRINGS)["motion_z"].value.right
+    assert all(sum(power.base.is_Add for power in term.atoms(Pow)) <= 1 for term in right.args)
+
+
 def test_a_rope_over_an_edge_moves_as_the_particle_with_its_mass(tmp_path: Path) -> None:
     """Each piece has the same speed: M x_ddot is the weight M g x/l of the hanging piece."""
     x, g, l = symbols("x g l", positive=True)
@@ -732,6 +765,24 @@ def test_gravity_acts_on_the_pieces_of_a_rope_on_both_sides_of_a_peg(tmp_path: P
     over_a_peg = edited(ROPE, ("from: [x - l, 0]", "from: [0, x - l]"), ("at: [x - l, 0]", "at: [x - l, 3*l]"))
     x, g, l = symbols("x g l", positive=True)
     assert (solved(tmp_path, over_a_peg)["acceleration_x"].value - g * (2 * x - l) / l).simplify() == 0
+
+
+IN_A_TUBE = (
+    ("{M: mass, l: length, g", "{M: mass, h: length, b: length, g"),
+    ("x: positive length", "x: length"),
+    ("at: [x - l, 0]", "at: [x, 0]"),
+    ("<<l>>", "<<h>> <<b>>"),
+)
+
+
+@pytest.mark.parametrize("length", ["length: 2*h + 2*b, ", ""])
+def test_a_liquid_in_a_tube_has_the_length_of_its_three_pieces(tmp_path: Path, length: str) -> None:
+    """The signs of h + x and h - x are unknown, but each is a length where x = 0: x_ddot = -2 g x/(2 h + 2 b)."""
+    tube = f"{{from: [-b, h + x], over: [[-b, 0], [b, 0]], to: [b, h - x], {length}mass_of: rope}}"
+    own = ("{from: [x - l, 0], over: [[0, 0]], to: [0, -x], length: l, mass_of: rope}", tube)
+    b, g, h = symbols("b g h", positive=True)
+    found = solved(tmp_path, edited(ROPE, *IN_A_TUBE, own))["acceleration_x"].value
+    assert (found + g * Symbol("x", real=True) / (b + h)).simplify() == 0
 
 
 def test_gravity_changes_nothing_for_a_rope_whose_pieces_keep_their_height(tmp_path: Path) -> None:

@@ -541,3 +541,9 @@ def test_without_numbers_for_all_letters_there_is_no_frequency() -> None:
     with pytest.raises(Rejected, match="a polynomial that does not factor") as refused:
         normal_modes(linearised(equations, at=dict.fromkeys(three, 0)))
     assert "give numbers to all masses and springs" in str(refused.value)
+
+
+def test_the_root_of_a_square_contains_no_square() -> None:
+    Omega, g, l = symbols("Omega g l", positive=True)
+    assert str(linear_systems.root_of(3 * Omega**2)) == "sqrt(3)*Omega"
+    assert str(linear_systems.root_of(3 * g / l)) == "sqrt(3*g/l)"

@@ -243,3 +243,13 @@ def test_a_momentum_on_which_the_equilibria_depend_is_assumed(tmp_path: Path) ->
     run = Run()
     run_solve(loaded(tmp_path, edited(PENDULUM, *planet, ("equations_of_motion", "equilibria"))), run)
     assert [str(each) for each in run.assumed] == ["J != 0"]
+
+
+def test_all_equilibria_appear_with_a_frequency(tmp_path: Path) -> None:
+    """A page with "the possible values are" must not leave out that the pendulum may also stand upright."""
+    page = rendered(
+        course_with(tmp_path, edited(PENDULUM, *CART[:-1], ("equations_of_motion", "frequency"))),
+        "trial/one",
+        only={"text"},
+    )
+    assert "θ_1 = 0,   θ_2 = π" in page.texts["text"]

@@ -10,6 +10,7 @@ from sympy import Add, Expr, Integer, Mul, Pow, Rational, Symbol, diff
 
 from derive.algebra.collect import by_accelerations, by_rates, by_terms, spread
 from derive.algebra.expressions import TIME, Factors, Group, Partial, Relation, Terms, TimeRate, explicit, rate, scalar
+from derive.algebra.length import length
 from derive.algebra.tidy import common_factor, tidied
 from derive.errors import Complaint, Rejected
 from derive.mechanics.kinematics.coordinates import Coordinate, OfCoordinate, by_functions_of_time, required
@@ -402,13 +403,17 @@ def _sides(found: Relation, moving: Sequence[Symbol], constraints: Sequence[Cons
 
 
 def _times_forces(coefficients: Mapping[Symbol, Expr]) -> Expr:
-    """Write a common factor of the constraint forces in front of them: R (S_1 - S_2), not R S_1 - R S_2."""
+    """Write a common factor of the constraint forces in front of them, if this is shorter: R (S_1 - S_2), not R S_1 -
+    R S_2; but S_1/sqrt(A) - S_2/sqrt(B)."""
     acting = {letter: each for letter, each in coefficients.items() if each != 0}
     common = common_factor(list(acting.values())) if len(acting) > 1 else Integer(1)
     common = -common if common.could_extract_minus_sign() else common
     apart = {letter: tidied(each / common) if common.free_symbols else each for letter, each in acting.items()}
     inside = Add(*(each * letter for letter, each in apart.items()))
-    return Mul(common, inside, evaluate=False) if common.free_symbols else inside
+    if not common.free_symbols:
+        return inside
+    each_alone = Add(*(each * letter for letter, each in acting.items()))
+    return min(Mul(common, inside, evaluate=False), each_alone, key=length)
 
 
 def _drives(term: Expr, moving: Sequence[Symbol], letters: Sequence[Symbol]) -> bool:

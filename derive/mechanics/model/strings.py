@@ -72,6 +72,7 @@ class Line(Connection):
     rope: Any = None
     drawn: Symbol | None = None
     pieces: tuple[Piece, ...] = ()
+    lengths: tuple[Expr, ...] = ()
 
     @property
     def places(self) -> tuple[Location, ...]:
@@ -82,13 +83,15 @@ class Line(Connection):
         """Return the weight of a rope, unless its potential energy contains no coordinate."""
         if self.rope is None:
             return ()
-        found = _weight_of_rope(self.places, self.rope, gravity)
+        found = _weight_of_rope(self.places, self.lengths, self.rope, gravity)
         return (found,) if coordinates_in(found.energy) else ()
 
     def moved(self, known: Mapping[Symbol, Expr]) -> Self:
         through = (e.moved(known) if isinstance(e, Pulley) else e.with_values(known) for e in self.through)
         pieces = tuple(piece.moved(known) for piece in self.pieces)
-        return replace(super().moved(known), through=tuple(through), rope=moved(self.rope, known), pieces=pieces)
+        lengths = tuple(length.subs(known) for length in self.lengths)
+        line = replace(super().moved(known), through=tuple(through), rope=moved(self.rope, known))
+        return replace(line, pieces=pieces, lengths=lengths)
 
     def drawn_on(self, of: Any) -> list[tuple[Location, Location]]:
         """Return the pieces that pull a part of the system, for the force diagram of this part: for each piece, the end
@@ -128,10 +131,8 @@ class WeightOfRope(StoredEnergy):
         return [Load(self.force, self.at)]
 
 
-def _weight_of_rope(places: Sequence[Location], particle: Any, gravity: Expr) -> WeightOfRope:
+def _weight_of_rope(places: Sequence[Location], lengths: Sequence[Expr], particle: Any, gravity: Expr) -> WeightOfRope:
     pieces = list(pairwise(places))
-    lengths = _kept_lengths(pieces)
-    assert lengths is not None, "a string without a symbol for its tension has a constant length"
     per_length = particle.mass * gravity / tidied(Add(*lengths))
     middles = [(one.height + other.height) / 2 for one, other in pieces]
     energy = per_length * Add(*(size * y for size, y in zip(lengths, middles, strict=True)))
@@ -247,6 +248,12 @@ def string(
     return (replace(line, rope=mass_of),)
 
 
+BESIDE_THE_ROPE = (
+    "gravity acts on each piece of the rope, so the particle may be at any place of constant height that has the speed "
+    "of the rope: `at: [x, 0]` if one end is at `[0, x - l]`"
+)
+
+
 def _check_rope(line: Any, particle: Any, tension: str) -> None:
     """Require each piece of a rope to move along itself, with the speed of the particle that has the mass of the
     rope."""
@@ -262,11 +269,10 @@ def _check_rope(line: Any, particle: Any, tension: str) -> None:
     first, last, own = (velocity_at(each, line.places[0]) for each in (line.places[0], line.places[-1], particle))
     if any(not is_zero(tidied(dot(v, v) - dot(own, own))) for v in (first, last)):
         message = "the speed of the rope differs from the speed of the particle that has its mass"
-        raise Rejected(Complaint("which-body", message, help="put the particle at an end of the rope"))
+        raise Rejected(Complaint("which-body", message, help=BESIDE_THE_ROPE))
     if not is_zero(own.components[-1]):
         message = "the particle that has the mass of the rope must stay at a constant height, but it moves up or down"
-        help_line = "put the particle at an end of constant height; gravity acts on each piece of the rope"
-        raise Rejected(Complaint("which-body", message, help=help_line))
+        raise Rejected(Complaint("which-body", message, help=BESIDE_THE_ROPE))
 
 
 def _rotates(way: Location) -> bool:
@@ -309,10 +315,11 @@ def _of_length(verb: str, ends: Sequence[Any], length: Any, letter: str) -> tupl
     is_rod = verb == "massless_rod"
     pieces = _pieces(ends)
     through = tuple(each if isinstance(each, Pulley) else end_of(each)[0] for each in ends)
-    kept = _kept_length(pieces, whole)
+    lengths = _kept_lengths([(piece.start, piece.end) for piece in pieces], whole)
+    kept = tidied(Add(*lengths)) if lengths is not None else None
     if not letter:
         _require_kept(verb, kept, whole)
-        return (Line((), through, is_rod),)
+        return (Line((), through, is_rod, lengths=tuple(lengths or ())),)
     if whole is None:
         message = f"`{verb}` with a force also needs its length"
         raise Rejected(Complaint("missing-key", message, help="give its `length`"))
@@ -395,24 +402,22 @@ def _touched(each: Any, k: int) -> list[Location]:
     return found
 
 
-def _kept_length(pieces: Sequence[Piece], whole: Expr | None = None) -> Expr | None:
-    lengths = _kept_lengths([(piece.start, piece.end) for piece in pieces], whole)
-    return tidied(Add(*lengths)) if lengths is not None else None
-
-
 def _kept_lengths(pieces: Sequence[tuple[Location, Location]], whole: Expr | None = None) -> list[Expr] | None:
     """Return the lengths of the pieces if their sum contains no coordinates; otherwise None.
 
     The length of a piece on a fixed line is u or -u. If the sign of u is unknown, it is chosen so that the coordinates
-    cancel; among several choices, a sum equal to the given length is preferred, then a sum without a leading minus
-    sign.
+    cancel; among several choices, a sum equal to the given length is preferred, then lengths that are not negative
+    where the coordinates are zero, then a sum without a leading minus sign.
     """
     kept = []
     for lengths in product(*(_possible_lengths(*piece) for piece in pieces)):
         found = tidied(Add(*lengths))
         if found != 0 and not coordinates_in(ImmutableDenseMatrix([found])):
-            kept.append((whole is None or not is_zero(found - whole), found.could_extract_minus_sign(), list(lengths)))
-    return min(kept, key=lambda each: each[:2])[2] if kept else None
+            at_zero = [each.xreplace(dict.fromkeys(coordinates_in(each), ZERO)) for each in lengths]
+            negative = any(sign_for_all(tidied(each)) == -1 for each in at_zero)
+            others = whole is None or not is_zero(found - whole)
+            kept.append((others, negative, found.could_extract_minus_sign(), list(lengths)))
+    return min(kept, key=lambda each: each[:3])[3] if kept else None
 
 
 def _possible_lengths(start: Location, end: Location) -> tuple[Expr, ...]:

@@ -214,8 +214,13 @@ ZERO_OF = Rule(
 
 
 def zero_of(view: View) -> Observed:
-    """Value of a symbol or an angle for which an acceleration, a force or a torque vanishes."""
-    for of in view.values("acceleration", "force", "torque"):
+    """Value of a symbol or an angle for which an acceleration, a force or a torque vanishes.
+
+    The force of a surface or a string cannot change its sign: contact is lost, or the string goes slack.
+    """
+    for of in (
+        each for each in view.values("acceleration", "force", "torque") if not _is_force_of(each, "surface", "string")
+    ):
         for base, power in _factors(explicit(of.value)):
             place = _zero_in(view, base)
             if place is not None and not _is_told(view, place):
@@ -443,16 +448,16 @@ def one_sign(view: View) -> Observed:
     for of in view.values("force"):
         value = tidied(of.value)
         moving = [q for q in of.coordinates if q in value.free_symbols]
-        if len(moving) == 1 and sign_for_all(value) is None and _is_normal_force(of):
+        if len(moving) == 1 and sign_for_all(value) is None and _is_force_of(of, "surface"):
             factors = [f for f in Mul.make_args(value) if moving[0] in f.free_symbols]
             if all(sign_for_all(f) == 1 for f in factors):
                 yield _one_sign(of, moving[0], value, Mul(*factors))
 
 
-def _is_normal_force(of: Quantity) -> bool:
-    """Whether the answer is the force of a surface, or such a force with other results substituted."""
+def _is_force_of(of: Quantity, *enforcers: str) -> bool:
+    """Whether the answer is the constraint force of such a part, or this force with other results substituted."""
     facts = [q.fact(ForceOf) for q in of.ancestors() if q.symbol == of.symbol]
-    return any(fact is not None and fact.constraint.enforcer == "surface" for fact in facts)
+    return any(fact is not None and fact.constraint.enforcer in enforcers for fact in facts)
 
 
 def _one_sign(of: Quantity, q: Symbol, value: Expr, positive: Expr) -> Quantity:

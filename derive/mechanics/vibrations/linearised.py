@@ -48,6 +48,7 @@ def linearised(
     motion: Quantity | Sequence[Quantity],
     at: Quantity | Mapping[Any, Expr] | Expr | None = None,
     key: str = "linearised",
+    others: Sequence[Quantity] = (),
 ) -> Quantity | tuple[Quantity, ...]:
     """Equations of motion to first order in the displacements from equilibrium, M eta_ddot + G eta_dot + K eta = f(t).
 
@@ -56,6 +57,7 @@ def linearised(
              a single equation, `at` may also be the value of its coordinate
     key      the beginning of the keys; with the default the key for theta is linearised_theta. A single equation has
              the key `key` itself if `at` is a value or is omitted
+    others   the other equilibria, which the page states together with `at`
 
     Forces linear in the rates, such as drag, give G. Terms that depend only on the time give the driving forces f. If a
     coordinate is not 0 at equilibrium, its displacement is called eta, or eta_1, eta_2, ... if there are several such
@@ -71,10 +73,13 @@ def linearised(
         q = motion.needed(OfCoordinate).coordinate
         return _together((motion,), {q: ZERO if at is None else at}, [key])[0]
     equations = (motion,) if isinstance(motion, Quantity) else tuple(motion)
-    return _together(equations, at, [f"{key}_{each.needed(OfCoordinate).coordinate.symbol.name}" for each in equations])
+    keys = [f"{key}_{each.needed(OfCoordinate).coordinate.symbol.name}" for each in equations]
+    return _together(equations, at, keys, others)
 
 
-def _together(equations: Sequence[Quantity], at: Any, keys: Sequence[str]) -> tuple[Quantity, ...]:
+def _together(
+    equations: Sequence[Quantity], at: Any, keys: Sequence[str], others: Sequence[Quantity] = ()
+) -> tuple[Quantity, ...]:
     moving = [equation.needed(OfCoordinate).coordinate for equation in equations]
     _check_whole(equations, moving)
     place = _place_of(equations, moving, at)
@@ -87,7 +92,7 @@ def _together(equations: Sequence[Quantity], at: Any, keys: Sequence[str]) -> tu
     driven = tuple(-_at_rest(explicit(equation.value).residual, moving, place) for equation in equations)
     rest = tuple((q, place[q.symbol]) for q in moving)
     linear = Linear(mass, turning, stiffness, exists, eta, driven, rest, _exact(equations, moving, place, eta))
-    rests = [at] if isinstance(at, Quantity) else []
+    rests = [at, *others] if isinstance(at, Quantity) else []
     return tuple(_one(equations, i, moving, place, linear, rests, key) for i, key in enumerate(keys))
 
 
@@ -151,7 +156,7 @@ def _one(
     left = Add(*(term for term in terms if term != 0), evaluate=False)
     displaced = {s.symbol: q.symbol for q, s in zip(moving, eta, strict=True)}
     away = [(q, s) for s, q in displaced.items() if q != s]
-    named = _letters_of(rests)
+    named = _letters_of(rests[:1])
     counted = {
         f"counted_{n}": (
             Relation(q, "=", Terms(*Add.make_args(named.get(q, place[q])), s)),
