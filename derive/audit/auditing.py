@@ -21,7 +21,7 @@ from derive.audit.expected import Compared, Expected, compared
 from derive.audit.knowledge import ASSUMED, Known
 from derive.audit.nearest_change import Nearness, letters_in, terms_in
 from derive.audit.slips import WHY, Edit, nearest_edit
-from derive.audit.systems import expanded, root_equation
+from derive.audit.systems import equations_of, expanded, root_equation
 from derive.audit.time_limit import FAULTS, LimitReached, time_limited
 from derive.documents.choices import Choice, readings
 from derive.documents.facts import Facts, Identity, facts_of, shape_of
@@ -37,6 +37,7 @@ USUAL_SECONDS = 0.3  # the usual processor time of a claim
 MOST_LATE = 40.0  # the limit falls linearly with the seconds beyond the usual time, and would be zero at MOST_LATE
 SECONDS_OF_SEARCH = 2.0  # seconds of processor time for the search for a change that makes a claim right
 MOST_INDICES = 12
+MOST_LOST = 6  # number of letters of earlier rows that a row may lack
 MOST_ROWS = 10  # number of the last claims in displays whose terms may be missing in a row
 MOST_FIXED = 5  # number of earlier rows that are searched for a slip
 SPECIAL = frozenset({Cue.GIVEN, Cue.PUT_IN, Cue.ZERO, Cue.APPROXIMATE})  # cues that explain why a row has fewer terms
@@ -48,6 +49,8 @@ _BRACKETS = re.compile(
 )
 _CONSTANT = re.compile(r"[ck]onst|c(?:st|te)\b", re.IGNORECASE)
 _NEW_SCOPE = re.compile(PROBLEM_WORDS, re.IGNORECASE)
+_EXPLAINS = re.compile(r"[\s,;}~]*(?:where|with|in which|here)\b", re.IGNORECASE)
+_ENDS_SENTENCE = re.compile(r"[.!?](?:\s|$)|\n[ \t]*\n")
 
 
 @dataclass
@@ -118,6 +121,22 @@ def scope_of(document: Document, row: Row) -> int:
     return -1
 
 
+def explanations(document: Document, claims: Sequence[Claim]) -> dict[int, list[Claim]]:
+    """Return for each display the claims that explain its letters in the same sentence: `..., where rho = M/V`."""
+    by_block: dict[int, list[Claim]] = {}
+    for claim in claims:
+        by_block.setdefault(id(claim.row.block), []).append(claim)
+    found: dict[int, list[Claim]] = {}
+    for display, first in pairwise(document.blocks):
+        if not display.display or first.display or not _EXPLAINS.match(first.before):
+            continue
+        for block in document.blocks[document.blocks.index(first) :]:
+            if block.display or (block is not first and _ENDS_SENTENCE.search(block.before)):
+                break
+            found.setdefault(id(display), []).extend(by_block.get(id(block), []))
+    return found
+
+
 def _head(statement: Statement) -> Statement:
     while statement.follows is not None:
         statement = statement.follows
@@ -140,6 +159,7 @@ def audited(
     claims, facts, unread = claims_of(document)
     facts.declare(declared or {})
     auditor = _Auditor(document, facts, assumed)
+    auditor.explanations = explanations(document, claims)
     for done, claim in enumerate(claims):
         if progress is not None:
             progress(claim.row.line, len(claims) - done)
@@ -170,6 +190,8 @@ class _Auditor:
         self.late = 0.0  # seconds used beyond the usual time
         self.fixes: list[Fix] = []
         self.claims: list[Claim] = []
+        self.explanations: dict[int, list[Claim]] = {}  # by the id of the block of a display
+        self.explained: set[int] = set()  # the numbers of claims that explain letters of the display before them
 
     def begin(self, scope: int) -> None:
         """Begin a problem or section, and forget what the rows of earlier problems and sections gave."""
@@ -209,6 +231,7 @@ class _Auditor:
         scope = scope_of(self.document, claim.row)
         if scope != self.scope:
             self.begin(scope)
+        self.explain(claim)
         if claim.right is None or (claim.left is None and claim.before is None):
             claim.verdict = Verdict(Outcome.UNREADABLE, claim.fault or "this is not read")
             return
@@ -243,6 +266,20 @@ class _Auditor:
             self.remark(claim, claim.verdict)
             self.remember(claim)
         self.late += max(0.0, process_time() - begun - USUAL_SECONDS)
+
+    def explain(self, claim: Claim) -> None:
+        """Remember the values of letters that the sentence after this display gives."""
+        if claim.number in self.explained:
+            self.known.forget(claim.number)
+        for each in self.explanations.pop(id(claim.row.block), []):
+            if each.is_step or each.relation not in ("=", ":=") or each.right is None:
+                continue
+            with suppress(Meaningless, LimitReached, RecursionError, *FAULTS), time_limited(LEAST_SECONDS):
+                letter, value = self.sides(each.left, readings(each.right, self.facts)[0][0], self.meaning)
+                plain = isinstance(value, MatrixBase) or value.as_coeff_Mul()[1].is_Symbol or not value.free_symbols
+                if isinstance(letter, Symbol) and not plain and self.known.latest(letter) is None:
+                    self.explained.add(each.number)
+                    self.known.define(letter, value, each.number, part=each.row.block.part, chain=each.number)
 
     def of_constant(self, claim: Claim) -> Verdict:
         """Return the verdict on `v = const`; the row is wrong if only the length of a vector is constant."""
@@ -428,6 +465,18 @@ class _Auditor:
         more = [each for each in self.meaning.symbols.values() if (each.base, each.dots) in bases]
         return letters + [each for each in more if (each.identity, each.dots) not in known][:MOST_INDICES]
 
+    def lost_letters(self, claim: Claim, written: list[Letter]) -> list[Letter]:
+        """Return letters that a row lacks, but that the earlier rows contain from which it should follow."""
+        assert claim.values is not None
+        left = claim.values[0]
+        behind = set(left.free_symbols | self.expanded(left).free_symbols) if claim.is_step else set()
+        if isinstance(left, Symbol) and not claim.is_step:
+            equations = equations_of(self.known, self.meaning, left, sure=True)
+            behind = set().union(*(each.value.free_symbols for each in equations if left in each.value.free_symbols))
+        known = {(each.identity, each.dots) for each in written}
+        found = [self.meaning.symbols[each] for each in sorted(behind, key=str) if each in self.meaning.symbols]
+        return [each for each in found if (each.identity, each.dots) not in known][:MOST_LOST]
+
     def accuse_if_letters_agree(self, claim: Claim, verdict: Verdict) -> None:
         rows = claim.row.block.rows
         at = rows.index(claim.row)
@@ -504,6 +553,7 @@ class _Auditor:
         right_node, left_node = readings(claim.right, self.facts)[0][0], readings(left_side, self.facts)[0][0]
         letter = claim.values[0] if isinstance(claim.values[0], Symbol) and not claim.is_step else None
         letters = self.with_other_indices(letters_in(left_node, right_node))
+        letters += self.lost_letters(claim, letters) if known is self.known else []
         terms = self.terms_before(claim) if known is self.known and not self.may_be_special(claim) else None
         near = Nearness(
             self.meaning, known, [each for each in letters if letter is None or self.meaning.symbol(each) != letter],
@@ -753,7 +803,7 @@ class _Auditor:
         """Whether a formula in a sentence may hold in one case or at one instant only."""
         if verdict.outcome in (Outcome.HOLDS, Outcome.APPROXIMATES):
             return bool(self.known.conditions & set(verdict.given))
-        if claim.row.block.display:
+        if claim.row.block.display or claim.number in self.explained:
             return False
         if verdict.outcome is not Outcome.DEFINES or claim.values is None:
             return True

@@ -202,8 +202,9 @@ def root_equation(letter: Symbol, meaning: Meaning, known: Known) -> tuple[Symbo
     if named.sub in VARIABLES:
         return None  # a component, such as v_r or v_theta
     plain = meaning.symbol(replace(named, sub=""))
+    of_others = {each.claim for symbol, found in known.definitions.items() if symbol != plain for each in found}
     for value, number in reversed(known.equations[-MOST_EQUATIONS:]):
-        if plain not in value.free_symbols or number in known.conditions or value.has(Integral):
+        if plain not in value.free_symbols or number in known.conditions | of_others or value.has(Integral):
             continue
         found, _ = expanded(known, value, plain, sure=True)
         if any(map(known.is_rate, found.free_symbols)):
