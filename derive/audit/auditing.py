@@ -21,7 +21,13 @@ from derive.audit.expected import Compared, Expected, compared
 from derive.audit.knowledge import ASSUMED, Known
 from derive.audit.nearest_change import Nearness, letters_in, terms_in
 from derive.audit.slips import WHY, Edit, nearest_edit
-from derive.audit.systems import equations_of, expanded, root_equation
+from derive.audit.systems import (
+    equations_of,
+    equations_of_motion,
+    expanded,
+    frequency_equations,
+    root_equation,
+)
 from derive.audit.time_limit import FAULTS, LimitReached, time_limited
 from derive.documents.choices import Choice, readings
 from derive.documents.facts import Facts, Identity, facts_of, shape_of
@@ -29,7 +35,7 @@ from derive.documents.layout import PROBLEM_WORDS, Cue, Document, Row, Statement
 from derive.documents.meaning import Meaning, Meaningless, Value
 from derive.documents.parser import Unreadable, parsed
 from derive.documents.source import Span
-from derive.documents.syntax import Add, Cases, Int, Letter, Mat, Mul, Node, Open, Sum, Text
+from derive.documents.syntax import Add, Cases, Diff, Int, Letter, Mat, Mul, Node, Open, Sign, Sum, Text
 
 SECONDS = 3.0  # seconds of processor time for one claim
 LEAST_SECONDS = 0.4  # the limit for a claim once a document has used much time
@@ -90,6 +96,7 @@ def claims_of(document: Document) -> tuple[list[Claim], Facts, list[tuple[Row, s
             unread.append((row, faults[0]))
     facts = facts_of(sides, equations)
     facts.has_brackets = bool(_BRACKETS.search(document.source.text))
+    facts.has_lagrange = "Lagrang" in document.source.text
     claims: list[Claim] = []
     last_of: dict[int, Claim] = {}
     for row in document.rows:
@@ -160,6 +167,9 @@ def audited(
     facts.declare(declared or {})
     auditor = _Auditor(document, facts, assumed)
     auditor.explanations = explanations(document, claims)
+    for claim in claims:
+        both = (claim.left if claim.before is None else None, claim.right)
+        auditor.written.update({letter.identity for letter in letters_in(*both)})
     for done, claim in enumerate(claims):
         if progress is not None:
             progress(claim.row.line, len(claims) - done)
@@ -191,6 +201,7 @@ class _Auditor:
         self.fixes: list[Fix] = []
         self.claims: list[Claim] = []
         self.explanations: dict[int, list[Claim]] = {}  # by the id of the block of a display
+        self.written: Counter[Identity] = Counter()  # how many claims contain a letter
         self.explained: set[int] = set()  # the numbers of claims that explain letters of the display before them
 
     def begin(self, scope: int) -> None:
@@ -272,7 +283,7 @@ class _Auditor:
         if claim.number in self.explained:
             self.known.forget(claim.number)
         for each in self.explanations.pop(id(claim.row.block), []):
-            if each.is_step or each.relation not in ("=", ":=") or each.right is None:
+            if each.is_step or each.relation not in ("=", ":=") or each.left is None or each.right is None:
                 continue
             with suppress(Meaningless, LimitReached, RecursionError, *FAULTS), time_limited(LEAST_SECONDS):
                 letter, value = self.sides(each.left, readings(each.right, self.facts)[0][0], self.meaning)
@@ -423,7 +434,7 @@ class _Auditor:
         """Report a row that does not follow, but would follow after one small change."""
         if claim.values is None or claim.relation not in ("=", ":="):
             return
-        if claim.row.block.cues & {Cue.APPROXIMATE, Cue.INCORRECT}:
+        if Cue.INCORRECT in claim.row.block.cues or (Cue.APPROXIMATE in claim.row.block.cues and claim.is_step):
             return
         if claim.values[0] in self.meaning.evaluations:
             return  # the value at one place says nothing about another place
@@ -436,9 +447,12 @@ class _Auditor:
             return
         if any(isinstance(each, Int) for side in sides for each in side.walk()):
             return  # a letter of an integrand may depend on the variable of integration
-        if not claim.is_step and not claim.row.block.display:
+        strange = self.strange_letters(claim)
+        if not claim.is_step and not claim.row.block.display and not strange:
             return  # an equation in a sentence may hold only in the case that the sentence describes
         edit = self.near_edit(claim, self.known)
+        if edit is not None and not claim.is_step and not claim.row.block.display and edit.was not in strange:
+            return
         if edit is not None and edit.kind == "index" and not ("_" in edit.was and "_" in edit.meant):
             return  # r and r_0 are names of one quantity, in general and in a special case
         if edit is None and not claim.is_step and claim.row.block.display and not self.may_be_special(claim):
@@ -464,6 +478,11 @@ class _Auditor:
         known = {(each.identity, each.dots) for each in letters}
         more = [each for each in self.meaning.symbols.values() if (each.base, each.dots) in bases]
         return letters + [each for each in more if (each.identity, each.dots) not in known][:MOST_INDICES]
+
+    def strange_letters(self, claim: Claim) -> set[str]:
+        """Return the letters of a claim, as they are written, that the document contains nowhere else."""
+        letters = letters_in(claim.left if claim.before is None else None, claim.right)
+        return {self.shown(each.span) for each in letters if self.written[each.identity] == 1}
 
     def lost_letters(self, claim: Claim, written: list[Letter]) -> list[Letter]:
         """Return letters that a row lacks, but that the earlier rows contain from which it should follow."""
@@ -548,21 +567,41 @@ class _Auditor:
         left_side = self.last_good_side(claim)
         if claim.right is None or left_side is None or claim.values is None:
             return None
-        if all(isinstance(each, Symbol) for each in claim.values):  # such as "at theta = theta_1", which names a place
-            return None
         right_node, left_node = readings(claim.right, self.facts)[0][0], readings(left_side, self.facts)[0][0]
+        if isinstance(left_node, Letter) and isinstance(right_node, Letter):  # "at theta = theta_1" names a place
+            return None
         letter = claim.values[0] if isinstance(claim.values[0], Symbol) and not claim.is_step else None
         letters = self.with_other_indices(letters_in(left_node, right_node))
         letters += self.lost_letters(claim, letters) if known is self.known else []
         terms = self.terms_before(claim) if known is self.known and not self.may_be_special(claim) else None
         near = Nearness(
             self.meaning, known, [each for each in letters if letter is None or self.meaning.symbol(each) != letter],
-            self.shown, known is not self.known, terms,
+            self.shown, known is not self.known, terms=terms,
         )  # fmt: skip
         if letter is not None and (at_root := root_equation(letter, self.meaning, known)) is not None:
             return near.of_root(right_node, at_root[0], at_root[1])
+        if letter is not None and known is self.known and (edit := self.near_motion(claim, near, right_node, letter)):
+            return edit
+        near.linear = Cue.APPROXIMATE in claim.row.block.cues
         edit = near.of_claim(left_node, right_node, letter, claim.is_step)
         return None if edit is not None and claim.is_step and self.repeats_a_side(claim, edit.node) else edit
+
+    def near_motion(self, claim: Claim, near: Nearness, right_node: Node, letter: Symbol) -> Edit | None:
+        """Return one change after which a frequency, a period or a motion would follow from an earlier equation of
+        motion of the same part."""
+        assert claim.values is not None
+        if self.may_be_special(claim) and Cue.APPROXIMATE not in claim.row.block.cues:
+            return None
+        for equation, number in reversed(frequency_equations(letter, self.meaning, self.known)):
+            if self.claims[number].row.block.part == claim.row.block.part:
+                if (edit := near.of_root(right_node, letter, equation)) is not None:
+                    return edit
+        for equation, number in reversed(
+            equations_of_motion(claim.values[0], claim.values[1], self.meaning, self.known)
+        ):
+            if self.claims[number].row.block.part == claim.row.block.part:
+                return near.of_motion(right_node, letter, equation)
+        return None
 
     def blame_earlier_rows(self) -> None:
         for earlier in {fix.earlier.number: fix.earlier for fix in self.fixes}.values():
@@ -715,9 +754,12 @@ class _Auditor:
             if "no differential" not in error.reason:
                 return None
             verdict = Verdict(Outcome.DIFFERS, error.reason, span=error.span)
-            left = self.meaning.of(readings(left_side, self.facts)[0][0])
-            claim.values = None
-            return verdict if self.find_edit(claim, left, right_node, left_side, verdict) else None
+            with suppress(Meaningless):
+                left = self.meaning.of(readings(left_side, self.facts)[0][0])
+                claim.values = None
+                if self.find_edit(claim, left, right_node, left_side, verdict):
+                    return verdict
+            return verdict if lacks_differential(right_node) else None
         return None
 
     def of_values(
@@ -854,6 +896,18 @@ class _Auditor:
         if claim.verdict.outcome is Outcome.HOLDS and not claim.verdict.given and not isinstance(left, Symbol):
             return  # an identity gives nothing new
         self.known.state(sympy.expand(left - right) if sympy.count_ops(left - right) < 600 else left - right, number)
+
+
+def lacks_differential(side: Node) -> bool:
+    """Whether a multiple integral with limits has the differentials of single variables, but too few of them."""
+    for each in side.walk():
+        if isinstance(each, Int):
+            signs = [item for item in each.items if isinstance(item, Sign)]
+            of = [item.of for item in each.items if isinstance(item, Diff)]
+            single = all(isinstance(one, Letter) and one.base not in ("A", "S", "V", "Omega", "tau", "a") for one in of)
+            if 0 < len(of) < len(signs) and single and all(sign.lower is not None for sign in signs):
+                return True
+    return False
 
 
 def has_implied_sum(*sides: Node) -> bool:
