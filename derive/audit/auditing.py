@@ -527,7 +527,7 @@ class _Auditor:
         for earlier in reversed(self.claims[: claim.number]):
             if scope_of(self.document, earlier.row) != self.scope or tried == MOST_FIXED:
                 break
-            if not self.may_be_changed(earlier) or earlier.row.number == claim.row.number:
+            if not self.may_be_changed(earlier) or earlier.statement is claim.statement:
                 continue
             if not self.letters_behind(earlier) & wanted:
                 continue
@@ -580,7 +580,7 @@ class _Auditor:
         )  # fmt: skip
         if letter is not None and (at_root := root_equation(letter, self.meaning, known)) is not None:
             return near.of_root(right_node, at_root[0], at_root[1])
-        if letter is not None and known is self.known and (edit := self.near_motion(claim, near, right_node, letter)):
+        if letter is not None and (edit := self.near_motion(claim, near, right_node, letter)):
             return edit
         near.linear = Cue.APPROXIMATE in claim.row.block.cues
         edit = near.of_claim(left_node, right_node, letter, claim.is_step)
@@ -590,16 +590,14 @@ class _Auditor:
         """Return one change after which a frequency, a period or a motion would follow from an earlier equation of
         motion of the same part."""
         assert claim.values is not None
-        if self.may_be_special(claim) and Cue.APPROXIMATE not in claim.row.block.cues:
-            return None
-        for equation, number in reversed(frequency_equations(letter, self.meaning, self.known)):
-            if self.claims[number].row.block.part == claim.row.block.part:
-                if (edit := near.of_root(right_node, letter, equation)) is not None:
+        part = claim.row.block.part
+        for equation, number in reversed(frequency_equations(letter, self.meaning, near.known)):
+            if self.claims[number].row.block.part == part:
+                edit = near.of_root(right_node, letter, equation)
+                if edit is not None and edit.meant != "1":  # 2k instead of k may belong to two springs
                     return edit
-        for equation, number in reversed(
-            equations_of_motion(claim.values[0], claim.values[1], self.meaning, self.known)
-        ):
-            if self.claims[number].row.block.part == claim.row.block.part:
+        for equation, number in reversed(equations_of_motion(*claim.values, self.meaning, near.known)):
+            if self.claims[number].row.block.part == part:
                 return near.of_motion(right_node, letter, equation)
         return None
 
@@ -895,6 +893,8 @@ class _Auditor:
             return
         if claim.verdict.outcome is Outcome.HOLDS and not claim.verdict.given and not isinstance(left, Symbol):
             return  # an identity gives nothing new
+        if not claim.row.block.display and isinstance(left, Symbol) and right.is_number and right != 0:
+            return  # a number, for example that of a drawing, is only substituted
         self.known.state(sympy.expand(left - right) if sympy.count_ops(left - right) < 600 else left - right, number)
 
 
