@@ -21,7 +21,13 @@ from derive.audit.expected import Compared, Expected, compared
 from derive.audit.knowledge import ASSUMED, Known
 from derive.audit.nearest_change import Nearness, letters_in, terms_in
 from derive.audit.slips import WHY, Edit, nearest_edit
-from derive.audit.systems import expanded, root_equation
+from derive.audit.systems import (
+    equations_of,
+    equations_of_motion,
+    expanded,
+    frequency_equations,
+    root_equation,
+)
 from derive.audit.time_limit import FAULTS, LimitReached, time_limited
 from derive.documents.choices import Choice, readings
 from derive.documents.facts import Facts, Identity, facts_of, shape_of
@@ -29,7 +35,7 @@ from derive.documents.layout import PROBLEM_WORDS, Cue, Document, Row, Statement
 from derive.documents.meaning import Meaning, Meaningless, Value
 from derive.documents.parser import Unreadable, parsed
 from derive.documents.source import Span
-from derive.documents.syntax import Add, Cases, Int, Letter, Mat, Mul, Node, Open, Sum, Text
+from derive.documents.syntax import Add, Cases, Diff, Int, Letter, Mat, Mul, Node, Open, Sign, Sum, Text
 
 SECONDS = 3.0  # seconds of processor time for one claim
 LEAST_SECONDS = 0.4  # the limit for a claim once a document has used much time
@@ -37,6 +43,7 @@ USUAL_SECONDS = 0.3  # the usual processor time of a claim
 MOST_LATE = 40.0  # the limit falls linearly with the seconds beyond the usual time, and would be zero at MOST_LATE
 SECONDS_OF_SEARCH = 2.0  # seconds of processor time for the search for a change that makes a claim right
 MOST_INDICES = 12
+MOST_LOST = 6  # number of letters of earlier rows that a row may lack
 MOST_ROWS = 10  # number of the last claims in displays whose terms may be missing in a row
 MOST_FIXED = 5  # number of earlier rows that are searched for a slip
 SPECIAL = frozenset({Cue.GIVEN, Cue.PUT_IN, Cue.ZERO, Cue.APPROXIMATE})  # cues that explain why a row has fewer terms
@@ -48,6 +55,8 @@ _BRACKETS = re.compile(
 )
 _CONSTANT = re.compile(r"[ck]onst|c(?:st|te)\b", re.IGNORECASE)
 _NEW_SCOPE = re.compile(PROBLEM_WORDS, re.IGNORECASE)
+_EXPLAINS = re.compile(r"[\s,;}~]*(?:where|with|in which|here)\b", re.IGNORECASE)
+_ENDS_SENTENCE = re.compile(r"[.!?](?:\s|$)|\n[ \t]*\n")
 
 
 @dataclass
@@ -87,6 +96,7 @@ def claims_of(document: Document) -> tuple[list[Claim], Facts, list[tuple[Row, s
             unread.append((row, faults[0]))
     facts = facts_of(sides, equations)
     facts.has_brackets = bool(_BRACKETS.search(document.source.text))
+    facts.has_lagrange = "Lagrang" in document.source.text
     claims: list[Claim] = []
     last_of: dict[int, Claim] = {}
     for row in document.rows:
@@ -118,6 +128,22 @@ def scope_of(document: Document, row: Row) -> int:
     return -1
 
 
+def explanations(document: Document, claims: Sequence[Claim]) -> dict[int, list[Claim]]:
+    """Return for each display the claims that explain its letters in the same sentence: `..., where rho = M/V`."""
+    by_block: dict[int, list[Claim]] = {}
+    for claim in claims:
+        by_block.setdefault(id(claim.row.block), []).append(claim)
+    found: dict[int, list[Claim]] = {}
+    for display, first in pairwise(document.blocks):
+        if not display.display or first.display or not _EXPLAINS.match(first.before):
+            continue
+        for block in document.blocks[document.blocks.index(first) :]:
+            if block.display or (block is not first and _ENDS_SENTENCE.search(block.before)):
+                break
+            found.setdefault(id(display), []).extend(by_block.get(id(block), []))
+    return found
+
+
 def _head(statement: Statement) -> Statement:
     while statement.follows is not None:
         statement = statement.follows
@@ -140,6 +166,10 @@ def audited(
     claims, facts, unread = claims_of(document)
     facts.declare(declared or {})
     auditor = _Auditor(document, facts, assumed)
+    auditor.explanations = explanations(document, claims)
+    for claim in claims:
+        both = (claim.left if claim.before is None else None, claim.right)
+        auditor.written.update({letter.identity for letter in letters_in(*both)})
     for done, claim in enumerate(claims):
         if progress is not None:
             progress(claim.row.line, len(claims) - done)
@@ -170,6 +200,9 @@ class _Auditor:
         self.late = 0.0  # seconds used beyond the usual time
         self.fixes: list[Fix] = []
         self.claims: list[Claim] = []
+        self.explanations: dict[int, list[Claim]] = {}  # by the id of the block of a display
+        self.written: Counter[Identity] = Counter()  # how many claims contain a letter
+        self.explained: set[int] = set()  # the numbers of claims that explain letters of the display before them
 
     def begin(self, scope: int) -> None:
         """Begin a problem or section, and forget what the rows of earlier problems and sections gave."""
@@ -209,6 +242,7 @@ class _Auditor:
         scope = scope_of(self.document, claim.row)
         if scope != self.scope:
             self.begin(scope)
+        self.explain(claim)
         if claim.right is None or (claim.left is None and claim.before is None):
             claim.verdict = Verdict(Outcome.UNREADABLE, claim.fault or "this is not read")
             return
@@ -243,6 +277,20 @@ class _Auditor:
             self.remark(claim, claim.verdict)
             self.remember(claim)
         self.late += max(0.0, process_time() - begun - USUAL_SECONDS)
+
+    def explain(self, claim: Claim) -> None:
+        """Remember the values of letters that the sentence after this display gives."""
+        if claim.number in self.explained:
+            self.known.forget(claim.number)
+        for each in self.explanations.pop(id(claim.row.block), []):
+            if each.is_step or each.relation not in ("=", ":=") or each.left is None or each.right is None:
+                continue
+            with suppress(Meaningless, LimitReached, RecursionError, *FAULTS), time_limited(LEAST_SECONDS):
+                letter, value = self.sides(each.left, readings(each.right, self.facts)[0][0], self.meaning)
+                plain = isinstance(value, MatrixBase) or value.as_coeff_Mul()[1].is_Symbol or not value.free_symbols
+                if isinstance(letter, Symbol) and not plain and self.known.latest(letter) is None:
+                    self.explained.add(each.number)
+                    self.known.define(letter, value, each.number, part=each.row.block.part, chain=each.number)
 
     def of_constant(self, claim: Claim) -> Verdict:
         """Return the verdict on `v = const`; the row is wrong if only the length of a vector is constant."""
@@ -386,7 +434,7 @@ class _Auditor:
         """Report a row that does not follow, but would follow after one small change."""
         if claim.values is None or claim.relation not in ("=", ":="):
             return
-        if claim.row.block.cues & {Cue.APPROXIMATE, Cue.INCORRECT}:
+        if Cue.INCORRECT in claim.row.block.cues or (Cue.APPROXIMATE in claim.row.block.cues and claim.is_step):
             return
         if claim.values[0] in self.meaning.evaluations:
             return  # the value at one place says nothing about another place
@@ -399,9 +447,12 @@ class _Auditor:
             return
         if any(isinstance(each, Int) for side in sides for each in side.walk()):
             return  # a letter of an integrand may depend on the variable of integration
-        if not claim.is_step and not claim.row.block.display:
+        strange = self.strange_letters(claim)
+        if not claim.is_step and not claim.row.block.display and not strange:
             return  # an equation in a sentence may hold only in the case that the sentence describes
         edit = self.near_edit(claim, self.known)
+        if edit is not None and not claim.is_step and not claim.row.block.display and edit.was not in strange:
+            return
         if edit is not None and edit.kind == "index" and not ("_" in edit.was and "_" in edit.meant):
             return  # r and r_0 are names of one quantity, in general and in a special case
         if edit is None and not claim.is_step and claim.row.block.display and not self.may_be_special(claim):
@@ -427,6 +478,23 @@ class _Auditor:
         known = {(each.identity, each.dots) for each in letters}
         more = [each for each in self.meaning.symbols.values() if (each.base, each.dots) in bases]
         return letters + [each for each in more if (each.identity, each.dots) not in known][:MOST_INDICES]
+
+    def strange_letters(self, claim: Claim) -> set[str]:
+        """Return the letters of a claim, as they are written, that the document contains nowhere else."""
+        letters = letters_in(claim.left if claim.before is None else None, claim.right)
+        return {self.shown(each.span) for each in letters if self.written[each.identity] == 1}
+
+    def lost_letters(self, claim: Claim, written: list[Letter]) -> list[Letter]:
+        """Return letters that a row lacks, but that the earlier rows contain from which it should follow."""
+        assert claim.values is not None
+        left = claim.values[0]
+        behind = set(left.free_symbols | self.expanded(left).free_symbols) if claim.is_step else set()
+        if isinstance(left, Symbol) and not claim.is_step:
+            equations = equations_of(self.known, self.meaning, left, sure=True)
+            behind = set().union(*(each.value.free_symbols for each in equations if left in each.value.free_symbols))
+        known = {(each.identity, each.dots) for each in written}
+        found = [self.meaning.symbols[each] for each in sorted(behind, key=str) if each in self.meaning.symbols]
+        return [each for each in found if (each.identity, each.dots) not in known][:MOST_LOST]
 
     def accuse_if_letters_agree(self, claim: Claim, verdict: Verdict) -> None:
         rows = claim.row.block.rows
@@ -459,7 +527,7 @@ class _Auditor:
         for earlier in reversed(self.claims[: claim.number]):
             if scope_of(self.document, earlier.row) != self.scope or tried == MOST_FIXED:
                 break
-            if not self.may_be_changed(earlier) or earlier.row.number == claim.row.number:
+            if not self.may_be_changed(earlier) or earlier.statement is claim.statement:
                 continue
             if not self.letters_behind(earlier) & wanted:
                 continue
@@ -499,20 +567,39 @@ class _Auditor:
         left_side = self.last_good_side(claim)
         if claim.right is None or left_side is None or claim.values is None:
             return None
-        if all(isinstance(each, Symbol) for each in claim.values):  # such as "at theta = theta_1", which names a place
-            return None
         right_node, left_node = readings(claim.right, self.facts)[0][0], readings(left_side, self.facts)[0][0]
+        if isinstance(left_node, Letter) and isinstance(right_node, Letter):  # "at theta = theta_1" names a place
+            return None
         letter = claim.values[0] if isinstance(claim.values[0], Symbol) and not claim.is_step else None
         letters = self.with_other_indices(letters_in(left_node, right_node))
+        letters += self.lost_letters(claim, letters) if known is self.known else []
         terms = self.terms_before(claim) if known is self.known and not self.may_be_special(claim) else None
         near = Nearness(
             self.meaning, known, [each for each in letters if letter is None or self.meaning.symbol(each) != letter],
-            self.shown, known is not self.known, terms,
+            self.shown, known is not self.known, terms=terms,
         )  # fmt: skip
         if letter is not None and (at_root := root_equation(letter, self.meaning, known)) is not None:
             return near.of_root(right_node, at_root[0], at_root[1])
+        if letter is not None and (edit := self.near_motion(claim, near, right_node, letter)):
+            return edit
+        near.linear = Cue.APPROXIMATE in claim.row.block.cues
         edit = near.of_claim(left_node, right_node, letter, claim.is_step)
         return None if edit is not None and claim.is_step and self.repeats_a_side(claim, edit.node) else edit
+
+    def near_motion(self, claim: Claim, near: Nearness, right_node: Node, letter: Symbol) -> Edit | None:
+        """Return one change after which a frequency, a period or a motion would follow from an earlier equation of
+        motion of the same part."""
+        assert claim.values is not None
+        part = claim.row.block.part
+        for equation, number in reversed(frequency_equations(letter, self.meaning, near.known)):
+            if self.claims[number].row.block.part == part:
+                edit = near.of_root(right_node, letter, equation)
+                if edit is not None and edit.meant != "1":  # 2k instead of k may belong to two springs
+                    return edit
+        for equation, number in reversed(equations_of_motion(*claim.values, self.meaning, near.known)):
+            if self.claims[number].row.block.part == part:
+                return near.of_motion(right_node, letter, equation)
+        return None
 
     def blame_earlier_rows(self) -> None:
         for earlier in {fix.earlier.number: fix.earlier for fix in self.fixes}.values():
@@ -665,9 +752,12 @@ class _Auditor:
             if "no differential" not in error.reason:
                 return None
             verdict = Verdict(Outcome.DIFFERS, error.reason, span=error.span)
-            left = self.meaning.of(readings(left_side, self.facts)[0][0])
-            claim.values = None
-            return verdict if self.find_edit(claim, left, right_node, left_side, verdict) else None
+            with suppress(Meaningless):
+                left = self.meaning.of(readings(left_side, self.facts)[0][0])
+                claim.values = None
+                if self.find_edit(claim, left, right_node, left_side, verdict):
+                    return verdict
+            return verdict if lacks_differential(right_node) else None
         return None
 
     def of_values(
@@ -753,7 +843,7 @@ class _Auditor:
         """Whether a formula in a sentence may hold in one case or at one instant only."""
         if verdict.outcome in (Outcome.HOLDS, Outcome.APPROXIMATES):
             return bool(self.known.conditions & set(verdict.given))
-        if claim.row.block.display:
+        if claim.row.block.display or claim.number in self.explained:
             return False
         if verdict.outcome is not Outcome.DEFINES or claim.values is None:
             return True
@@ -803,7 +893,21 @@ class _Auditor:
             return
         if claim.verdict.outcome is Outcome.HOLDS and not claim.verdict.given and not isinstance(left, Symbol):
             return  # an identity gives nothing new
+        if not claim.row.block.display and isinstance(left, Symbol) and right.is_number and right != 0:
+            return  # a number, for example that of a drawing, is only substituted
         self.known.state(sympy.expand(left - right) if sympy.count_ops(left - right) < 600 else left - right, number)
+
+
+def lacks_differential(side: Node) -> bool:
+    """Whether a multiple integral with limits has the differentials of single variables, but too few of them."""
+    for each in side.walk():
+        if isinstance(each, Int):
+            signs = [item for item in each.items if isinstance(item, Sign)]
+            of = [item.of for item in each.items if isinstance(item, Diff)]
+            single = all(isinstance(one, Letter) and one.base not in ("A", "S", "V", "Omega", "tau", "a") for one in of)
+            if 0 < len(of) < len(signs) and single and all(sign.lower is not None for sign in signs):
+                return True
+    return False
 
 
 def has_implied_sum(*sides: Node) -> bool:

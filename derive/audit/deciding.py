@@ -6,8 +6,9 @@ equations. A claim differs, for example, if numbers show that its sides are not 
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import combinations, product
 from random import Random
@@ -19,8 +20,17 @@ from derive.algebra.equality import Grade, equal
 from derive.audit.claims import Claim, Outcome, Verdict
 from derive.audit.fingerprint import differ, fingerprint
 from derive.audit.knowledge import Known
-from derive.audit.systems import System, equations_of, expanded, lagrange_equations, root_equation, vanishes
-from derive.documents.facts import ANGLES
+from derive.audit.systems import (
+    System,
+    changing_letters,
+    equations_of,
+    expanded,
+    frequency_equations,
+    lagrange_equations,
+    motion_of,
+    root_equation,
+    vanishes,
+)
 from derive.documents.layout import Cue
 from derive.documents.meaning import Meaning, Meaningless, Value
 
@@ -196,13 +206,16 @@ class Decision:
         equation."""
         if not self.claim.row.block.display or not self.thorough:
             return None
-        found = root_equation(letter, self.meaning, self.known)
-        if found is None:
-            return None
-        plain, equation, number = found
         put_in, used = expanded(self.known, value, sure=True)
         if any(map(self.known.is_rate, put_in.free_symbols)):
             put_in, used = value, ()
+        found = root_equation(letter, self.meaning, self.known)
+        if found is None:
+            for equation, number in frequency_equations(letter, self.meaning, self.known):
+                if vanishes(equation, letter, put_in, self.meaning, self.known):
+                    return Verdict(Outcome.HOLDS, "it follows from an earlier equation of motion", (*used, number))
+            return None
+        plain, equation, number = found
         holds = vanishes(equation, plain, put_in, self.meaning, self.known)
         if holds is None:
             return None
@@ -360,7 +373,10 @@ class Decision:
         for (left, right), used in [((self.left, self.right), ()), *self.expansions]:
             if isinstance(left, MatrixBase) or isinstance(right, MatrixBase):
                 continue
-            order = order_of_error(left, right, self.meaning)
+            among = small_letters(left.free_symbols | right.free_symbols, self.meaning)
+            if self.claim.relation == "=":
+                among = [each for each in among if len(each) > 1 or self.may_be_small(each[0])]
+            order = order_of_error(left, right, self.meaning, among)
             if order is not None:
                 letters, power = order
                 words = " and ".join(_word(each) for each in letters)
@@ -373,6 +389,17 @@ class Decision:
                 Outcome.UNDECIDED, "the document says that this is an approximation, but not in which letter"
             )
         return None
+
+    def may_be_small(self, symbol: Symbol) -> bool:
+        """Whether a letter changes with time, or is written in the text before the formula, which may call it small."""
+        return bool(changing_letters({symbol}, self.meaning)) or self.is_mentioned(symbol)
+
+    def is_mentioned(self, symbol: Symbol) -> bool:
+        """Whether a formula in the text just before this one contains a letter."""
+        letter = self.meaning.symbols.get(symbol)
+        names = {letter.base, symbol.name} if letter is not None else {symbol.name}
+        near = self.claim.row.block.before[-400:] if self.claim.row.block.display else self.claim.row.block.before
+        return any(re.search(rf"(?<![A-Za-z]){re.escape(each)}(?![A-Za-z])", near) for each in names)
 
     # Conditions and equations
 
@@ -464,16 +491,11 @@ class Decision:
 
     def solution(self, recent: list[tuple[Expr, int]]) -> Verdict | None:
         """Judge a motion x(t): it holds if it satisfies an earlier equation of motion."""
-        if self.claim.is_step or not isinstance(self.left, Symbol) or isinstance(self.right, MatrixBase):
+        if self.claim.is_step:
             return None
-        letter = self.meaning.symbols.get(self.left)
-        time = next((each for each in self.right.free_symbols if each.name == "t"), None)
-        if letter is None or letter.dots or time is None:
-            return None
-        rates = [self.meaning.symbol(replace(letter, dots=dots)) for dots in range(3)]
-        motion = {rate: sympy.diff(self.right, time, dots) if dots else self.right for dots, rate in enumerate(rates)}
+        motion = motion_of(self.left, self.right, self.meaning)
         for equation, number in reversed(recent):
-            if not equation.free_symbols & set(rates[1:]):
+            if not equation.free_symbols & set(list(motion)[1:]):
                 continue
             at_motion = equation.xreplace(motion)
             for value, used in [(at_motion, ()), *((each[0], used) for each, used in self.known.expanded(at_motion))]:
@@ -612,12 +634,36 @@ class Decision:
                 return Verdict(Outcome.DEFINES, f"a value for {_word(self.left)} in another case")
             return Verdict(Outcome.UNDECIDED, f"another value of {_word(self.left)} than before")
         if new := self.known.new_letters(symbols):
+            if (number := self.has_negative_square(new)) is not None:
+                because = f"with an earlier equation of motion, the square of {_word(new[0])} is negative"
+                return Verdict(Outcome.DIFFERS, because, (number,), why_plausible="a sign was reversed")
             return Verdict(Outcome.DEFINES, f"an equation with the new letter {_word(new[0])}")
         if self.is_lagrange_form(symbols):
             return Verdict(Outcome.DEFINES, "Lagrange's equation")
         if self.cues & {Cue.LAW, Cue.GIVEN, Cue.DEFINED, Cue.CONSTANT} and Cue.APPROXIMATE not in self.cues:
             return Verdict(Outcome.DEFINES, "stated as a law or a condition")
         return Verdict(Outcome.UNDECIDED, "an equation that does not follow from the rows before it")
+
+    def has_negative_square(self, new: list[Symbol]) -> int | None:
+        """Return the number of an earlier equation of motion with which the only new letter, such as the frequency in
+        `x'' + w^2 x = 0`, would have a negative square; otherwise None."""
+        if len(new) != 1 or isinstance(self.difference, MatrixBase) or not new[0].is_positive:
+            return None
+        here = sympy.expand(self.difference)
+        accelerations = [s for s in here.free_symbols if (a := self.meaning.symbols.get(s)) is not None and a.dots == 2]
+        if len(accelerations) != 1 or not here.coeff(new[0], 2) or here.has(Integral):
+            return None
+        if sympy.expand(here - here.coeff(new[0], 2) * new[0] ** 2).has(new[0]):
+            return None
+        for equation, number in reversed(self.known.recent()):
+            slope = sympy.diff(equation, accelerations[0])
+            if slope == 0 or slope.free_symbols & set(accelerations):
+                continue
+            value = accelerations[0] - equation / slope
+            squared = sympy.cancel((-here.coeff(new[0], 0) / here.coeff(new[0], 2)).subs(accelerations[0], value))
+            if not any(map(self.known.is_rate, squared.free_symbols)):
+                return number if squared.is_negative else None
+        return None
 
     def is_lagrange_form(self, symbols: set[Symbol]) -> bool:
         """Whether an equation looks like Lagrange's equation: its derivatives are of one letter only, by a coordinate
@@ -647,7 +693,9 @@ class Decision:
                for each in left.free_symbols - right.free_symbols):  # fmt: skip
             return True  # the right side may be the value at rest
         lost = (left.free_symbols - right.free_symbols) & (self.left.free_symbols - self.right.free_symbols)
-        return bool(lost) and bool(self.cues & {Cue.GIVEN, Cue.PUT_IN, Cue.USING, Cue.SINCE})
+        if not lost or not self.cues & {Cue.GIVEN, Cue.PUT_IN, Cue.USING, Cue.SINCE}:
+            return False
+        return bool(self.cues & {Cue.GIVEN, Cue.PUT_IN}) or any(map(self.is_mentioned, lost))
 
     def opaque(self, value: Value) -> set[Symbol]:
         found = {each for each in value.free_symbols if each in self.meaning.derivatives or "(" in each.name}
@@ -740,21 +788,6 @@ def _relative_error(left: Expr, right: Expr) -> float | None:
         if not symbols:
             break
     return worst
-
-
-def changing_letters(symbols: set[Symbol], meaning: Meaning) -> tuple[Symbol, ...]:
-    """Return the symbols of a set that change with time, are rates, or have names that are usual for angles."""
-    return tuple(
-        sorted(
-            (
-                each
-                for each in symbols
-                if (letter := meaning.symbols.get(each)) is not None
-                and (letter.dots or meaning.facts.changes(letter) or letter.base in ANGLES)
-            ),
-            key=str,
-        )
-    )
 
 
 def small_letters(symbols: set[Symbol], meaning: Meaning) -> list[tuple[Symbol, ...]]:

@@ -58,6 +58,13 @@ class Known:
             self.forget_derivatives(symbol)
         where.setdefault(symbol, []).append(Definition(symbol, value, claim, implied, part, chain))
 
+    def forget(self, claim: int) -> None:
+        """Forget the value that a claim gives to a letter; used before this claim itself is judged."""
+        for symbol, found in list(self.definitions.items()):
+            self.definitions[symbol] = [each for each in found if each.claim != claim]
+            if not self.definitions[symbol]:
+                del self.definitions[symbol]
+
     def forget_derivatives(self, symbol: Symbol) -> None:
         """Forget what earlier parts state about the derivatives of a letter that gets another value."""
         letter = self.meaning.symbols.get(symbol)

@@ -7,18 +7,20 @@ right at all points.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from contextlib import suppress
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import islice
 
 from sympy import Add as Add_
-from sympy import Expr, Integral, Symbol, expand
+from sympy import Expr, Integer, Integral, Symbol, diff, expand, nan, oo, zoo
 
+from derive.audit.fingerprint import is_zero
 from derive.audit.knowledge import Known
 from derive.audit.numeric import NoNumber, Numbers, at, close
 from derive.audit.points import Surface
 from derive.audit.slips import Edit, edits_of_side, with_term
-from derive.audit.systems import OF_RATES, equations_of, expanded
+from derive.audit.systems import OF_RATES, changing_letters, equations_of, expanded, motion_of
 from derive.audit.time_limit import FAULTS
 from derive.documents.meaning import Meaning, Meaningless
 from derive.documents.syntax import Add, Der, Fun, Letter, Node, Num, Root
@@ -42,11 +44,14 @@ class Nearness:
     letters: Sequence[Letter]
     shown: Shown
     written: bool = False  # whether only the equations that the document writes are used
+    linear: bool = False  # whether the claim may hold to the first order in small letters
     terms: Sequence[Node] | None = None  # terms that may be lost; None if the row may hold in a special case only
 
     def points(self, letter: Symbol | None = None) -> list[Numbers]:
         """Return points where the earlier equations hold; `letter` is a letter whose own value is not used."""
         equations = equations_of(self.known, self.meaning, letter, sure=True, written=self.written)
+        if self.linear:
+            equations = [replace(each, value=linearised(each.value, self.meaning)) for each in equations]
         state = ("points", tuple(each.value for each in equations))
         if state not in self.known.kept:
             surface = Surface(equations, self.meaning).find(POINTS)
@@ -149,13 +154,18 @@ class Nearness:
     def of_root(self, side: Node, letter: Symbol, equation: Expr) -> Edit | None:
         """Return the cheapest change after which a side would be a root of an equation for `letter`; None if no change
         is found."""
-        points = [Numbers(self.meaning, self.defined(None), point) for point in range(POINTS)]
+        value = self.defined(None)
+
+        def fixed(symbol: Symbol) -> Expr:  # a momentum counts as a number, because its definition contains rates
+            return symbol if any(map(self.known.is_rate, value(symbol).free_symbols)) else value(symbol)
+
+        points = [Numbers(self.meaning, fixed, point) for point in range(POINTS)]
         for edit in self.edits(side):
             try:
                 for point in points:
-                    value = point.of_node(edit.node)
+                    root = point.of_node(edit.node)
                     found, elsewhere = (
-                        at(equation, _at_root(point, letter, each)) for each in (value, 1.37 * value + 0.11)
+                        at(equation, _at_root(point, letter, each)) for each in (root, 1.37 * root + 0.11)
                     )
                     if abs(found) > SMALL * abs(elsewhere):
                         break
@@ -163,6 +173,21 @@ class Nearness:
                     return edit
             except (*FAULTS, NoNumber, Meaningless):
                 continue
+        return None
+
+    def of_motion(self, side: Node, letter: Symbol, equation: Expr) -> Edit | None:
+        """Return the cheapest change after which a motion x(t) would satisfy an equation; None if it satisfies the
+        equation already, or if no change is found."""
+
+        def satisfies(node: Node) -> bool:
+            motion = motion_of(letter, self.meaning.of(node), self.meaning)
+            at_motion = equation.xreplace(motion)
+            return bool(motion) and is_zero(expanded(self.known, at_motion, sure=True)[0])
+
+        for edit in (None, *self.edits(side)):
+            with suppress(*FAULTS, Meaningless):
+                if satisfies(edit.node if edit is not None else side):
+                    return edit
         return None
 
     def edits_of_both(self, left: Node, right: Node, complete: bool) -> Iterator[tuple[Edit, bool]]:
@@ -174,6 +199,15 @@ class Nearness:
 
 def _at_root(point: Numbers, letter: Symbol, value: complex) -> Callable[[Symbol], complex]:
     return lambda symbol: value if symbol == letter else point.basic(symbol)
+
+
+def linearised(value: Expr, meaning: Meaning) -> Expr:
+    """Return an expression to the first order in the letters that change with time; unchanged if it has no value where
+    they vanish."""
+    small = changing_letters(value.free_symbols, meaning)
+    at_zero = {each: Integer(0) for each in small}
+    terms = [value.subs(at_zero), *(each * diff(value, each).subs(at_zero) for each in small)]
+    return value if any(each.has(zoo, nan, oo) for each in terms) else expand(Add_(*terms))
 
 
 def letters_in(*sides: Node | None) -> list[Letter]:

@@ -11,14 +11,15 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import sympy
-from sympy import Expr, Integral, Poly, Symbol
+from sympy import Expr, Integral, MatrixBase, Poly, Symbol
 
+from derive.audit.claims import Definition
 from derive.audit.fingerprint import CLOSE, is_zero
 from derive.audit.knowledge import LAST_EQUATIONS, Known
 from derive.audit.numeric import Numbers, at, determined, spanned
 from derive.audit.time_limit import FAULTS
-from derive.documents.facts import VARIABLES
-from derive.documents.meaning import Meaning
+from derive.documents.facts import ANGLES, VARIABLES
+from derive.documents.meaning import Meaning, Value
 from derive.documents.source import Span
 from derive.documents.syntax import Letter
 
@@ -28,6 +29,7 @@ LARGEST = 300  # an equation with at least this number of operations is left out
 LARGEST_LAGRANGIAN = 500
 LARGEST_CONSTRAINT = 60
 HIGHEST_POWER = 6
+PERIODS = ("tau", "T", "P")
 
 
 OF_RATES = "the time derivative of an earlier equation"
@@ -126,6 +128,21 @@ def _is_solution(symbol: Symbol, value: Expr, known: Known) -> bool:
     return changes(symbol) and not any(map(changes, value.free_symbols))
 
 
+def changing_letters(symbols: set[Symbol], meaning: Meaning) -> tuple[Symbol, ...]:
+    """Return those of the symbols that change with time, are rates, or have names that are usual for angles."""
+    return tuple(
+        sorted(
+            (
+                each
+                for each in symbols
+                if (letter := meaning.symbols.get(each)) is not None
+                and (letter.dots or meaning.facts.changes(letter) or letter.base in ANGLES)
+            ),
+            key=str,
+        )
+    )
+
+
 def rates(value: Expr, meaning: Meaning, known: Known) -> Iterator[Expr]:
     """Yield time derivatives of an equation."""
     letters = [meaning.symbols[each] for each in value.free_symbols if each in meaning.symbols]
@@ -145,16 +162,30 @@ def lagrange_equations(known: Known, last: int = 1) -> list[tuple[Symbol, Expr, 
     """Return Lagrange's equations of the last values that rows give to each letter L. Each equation is a tuple of its
     coordinate, its left side and the number of the claim."""
     found = []
+    for unexpanded, claim in _lagrangians(known, last):
+        value, _ = expanded(known, unexpanded, sure=True)
+        if ("L", value) not in known.kept:
+            known.kept["L", value] = list(_lagrange_equations(value, known.meaning))
+        found += [(place, equation, claim) for place, equation in known.kept["L", value]]
+    return found
+
+
+def _lagrangians(known: Known, last: int) -> list[tuple[Expr, int]]:
+    """Return the last values of each letter L, or T - U if the document speaks of Lagrange and states no L."""
+    energies: dict[str, Definition] = {}
+    found = []
     for symbol, definitions in list(known.definitions.items()):
         letter = known.meaning.symbols.get(symbol)
-        if letter is None or letter.base != "L" or letter.dots or letter.primes:
+        if letter is None or letter.dots or letter.primes:
             continue
-        for definition in reversed(definitions[-last:]):
-            value, _ = expanded(known, definition.value, sure=True)
-            if ("L", value) not in known.kept:
-                known.kept["L", value] = list(_lagrange_equations(value, known.meaning))
-            found += [(place, equation, definition.claim) for place, equation in known.kept["L", value]]
-    return found
+        if letter.base == "L":
+            found += [(each.value, each.claim) for each in reversed(definitions[-last:])]
+        elif letter.base in ("T", "K", "U", "V") and not letter.sub and definitions[-1].claim not in known.conditions:
+            energies["kinetic" if letter.base in "TK" else "potential"] = definitions[-1]
+    if found or len(energies) < 2 or not known.meaning.facts.has_lagrange:
+        return found
+    kinetic, potential = energies["kinetic"], energies["potential"]
+    return [(kinetic.value - potential.value, max(kinetic.claim, potential.claim))]
 
 
 def _lagrange_equations(value: Expr, meaning: Meaning) -> Iterator[tuple[Symbol, Expr]]:
@@ -193,6 +224,28 @@ def motion(known: Known, meaning: Meaning) -> Iterator[tuple[Expr, tuple[int, ..
             yield rate_of_p + meaning.differentiated(value, place, True), claims, "Hamilton's equations"
 
 
+def motion_of(place: Value, value: Value, meaning: Meaning) -> dict[Symbol, Expr]:
+    """Return a coordinate and its first two rates with their values for a motion x(t); nothing for other values."""
+    letter = meaning.symbols.get(place) if isinstance(place, Symbol) else None
+    time = next((each for each in value.free_symbols if each.name == "t"), None)
+    if letter is None or letter.dots or time is None or isinstance(value, MatrixBase):
+        return {}
+    rates = [meaning.symbol(replace(letter, dots=dots)) for dots in range(3)]
+    return {rate: sympy.diff(value, time, dots) if dots else value for dots, rate in enumerate(rates)}
+
+
+def equations_of_motion(place: Value, value: Value, meaning: Meaning, known: Known) -> list[tuple[Expr, int]]:
+    """Return earlier equations for the rates of the coordinate of a motion, without the rates of other coordinates."""
+    rates = set(list(motion_of(place, value, meaning))[1:])
+    return [
+        (each, number)
+        for each, number in known.equations[-LAST_EQUATIONS:]
+        if number not in known.conditions
+        and each.free_symbols & rates
+        and not any(map(known.is_rate, each.free_symbols - rates))
+    ]
+
+
 def root_equation(letter: Symbol, meaning: Meaning, known: Known) -> tuple[Symbol, Expr, int] | None:
     """A letter such as w_1 or x_0 may name a root of an earlier equation in w or x: return the letter without its
     index, the last such equation and the number of its claim; otherwise None."""
@@ -202,8 +255,9 @@ def root_equation(letter: Symbol, meaning: Meaning, known: Known) -> tuple[Symbo
     if named.sub in VARIABLES:
         return None  # a component, such as v_r or v_theta
     plain = meaning.symbol(replace(named, sub=""))
+    of_others = {each.claim for symbol, found in known.definitions.items() if symbol != plain for each in found}
     for value, number in reversed(known.equations[-MOST_EQUATIONS:]):
-        if plain not in value.free_symbols or number in known.conditions or value.has(Integral):
+        if plain not in value.free_symbols or number in known.conditions | of_others or value.has(Integral):
             continue
         found, _ = expanded(known, value, plain, sure=True)
         if any(map(known.is_rate, found.free_symbols)):
@@ -215,6 +269,55 @@ def root_equation(letter: Symbol, meaning: Meaning, known: Known) -> tuple[Symbo
         if sympy.count_ops(found) < LARGEST and not _defines(found, plain):
             return plain, found, number
     return None
+
+
+def frequency_equations(letter: Symbol, meaning: Meaning, known: Known) -> list[tuple[Expr, int]]:
+    """Return equations whose roots are the angular frequencies, or the periods, of earlier linear equations of motion,
+    and the numbers of their claims; `letter` is the unknown."""
+    named = meaning.symbols.get(letter)
+    if named is None or named.base not in ("omega", *PERIODS) or named.dots or named.marks:
+        return []
+    linear = [each for value, number in known.equations[-LAST_EQUATIONS:] for each in _linear(value, number, known)]
+    found = []
+    for count in (1, 2, 3):
+        rows = linear[-count:]
+        places = sorted(set().union(*(each.rigidity for each in rows)), key=str)
+        if len(rows) == count and len(places) == count:
+            squared = 4 * sympy.pi**2 / letter**2 if named.base in PERIODS else letter**2
+            matrix = sympy.Matrix(
+                [[each.rigidity.get(q, 0) - squared * each.inertia.get(q, 0) for q in places] for each in rows]
+            )
+            found.append((matrix.det(), rows[-1].claim))
+    return [(equation, claim) for equation, claim in found if letter in equation.free_symbols]
+
+
+@dataclass(frozen=True)
+class _Oscillation:
+    """The coefficients of the coordinates and of their second rates in a linear equation of motion."""
+
+    rigidity: dict[Symbol, Expr]
+    inertia: dict[Symbol, Expr]
+    claim: int
+
+
+def _linear(value: Expr, claim: int, known: Known) -> Iterator[_Oscillation]:
+    meaning = known.meaning
+    letters = {each: meaning.symbols[each] for each in value.free_symbols if each in meaning.symbols}
+    rates = {each: letter for each, letter in letters.items() if letter.dots}
+    if not rates or any(letter.dots != 2 for letter in rates.values()) or value.has(Integral):
+        return
+    if any(letter.base == "t" for letter in letters.values()):
+        return
+    value, _ = expanded(known, value, sure=True)
+    places = {each: meaning.symbol(replace(letter, dots=0)) for each, letter in rates.items()}
+    inertia = {place: sympy.diff(value, rate) for rate, place in places.items()}
+    rigidity = {place: sympy.diff(value, place) for place in places.values()}
+    changing = {*places, *places.values()}
+    if any(each.free_symbols & changing for each in (*inertia.values(), *rigidity.values())):
+        return
+    rest = value - sum(inertia[place] * rate + rigidity[place] * place for rate, place in places.items())
+    if is_zero(sympy.expand(rest)) or sympy.expand(rest) == 0:
+        yield _Oscillation(rigidity, inertia, claim)
 
 
 def vanishes(equation: Expr, letter: Symbol, value: Expr, meaning: Meaning, known: Known) -> bool | None:

@@ -51,6 +51,7 @@ class Facts:
     differentiated_by: set[Identity] = field(default_factory=set)  # variables of derivatives, without dots and primes
     subscripts: Counter[str] = field(default_factory=Counter)
     has_brackets: bool = False  # whether {f, g} or <f, g> can be a Poisson bracket or an inner product
+    has_lagrange: bool = False  # whether the text speaks of Lagrange's equations
     indices: set[str] = field(default_factory=set)  # indices of sums
     declared: dict[Identity, str] = field(default_factory=dict)  # the kinds that the reader of the document declares
 

@@ -216,6 +216,7 @@ _PART = re.compile(
 )
 _LEVELS = {"part": 0, "chapter": 0, "section": 1, "subsection": 2, "subsubsection": 3, "paragraph": 4}
 _LINE_BREAK = re.compile(r"\n[ \t]*\n")
+_CARRIED_ON = re.compile(r"\$[ ~]*=[ ~]*\$[^$\n]+\$")  # a relation between two formulas of a sentence: `$a$~=~$b$`
 
 
 def read_document(source: Source) -> Document:
@@ -343,12 +344,16 @@ class _Reading:
                 continue
             if not display and _LINE_BREAK.search(self.text, position, close_at.start()):
                 continue  # a dollar sign that opens no formula
-            yield Span(opening.start(), close_at.end()), Span(position, close_at.start()), display, ""
-            position = close_at.end()
+            end, after = close_at.span()
+            while opening["dollar"] and (more := _CARRIED_ON.match(self.text, end)):
+                end, after = more.end() - 1, more.end()
+            yield Span(opening.start(), after), Span(position, end), display, ""
+            position = after
 
     def read_rows(self, block: Block, inner: Span) -> None:
         try:
             written = _without_definitions(tokens_of(self.text, inner.start, inner.end))
+            written = [each for each in written if block.display or not each.is_mark("$")]
             tokens = _simplified(expanded(written, self.macros))
         except TooLarge as error:
             row = self.row(block, inner)
