@@ -242,6 +242,9 @@ class _Build:
                 if self.whole_failed and not self.result.failed:  # otherwise another error is already reported
                     self._took(self.whole_failed)
                 if not self.result.failed:
+                    from derive.building.document_list import update_list
+
+                    update_list(self.root, self.set_id, self.manifest)
                     self.manifest.engine = engine_digest(*PACKAGES)
                     self.manifest.complete = len(self.derived) == len(self.names)
             finally:
