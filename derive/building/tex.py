@@ -296,7 +296,7 @@ def _first_error(report: str, output: str, name: str) -> tuple[str, int | None, 
     found = _ERROR.search(text)
     if not found:
         return (output.strip().splitlines() or ["no PDF, and no message"])[-1], None, ""
-    message = found["message"].strip().removeprefix("LaTeX Error: ").rstrip(".")
+    message = found["message"].strip().removeprefix("LaTeX Error: ").rstrip(". ")
     lines = [int(m["line"]) for m in _ERROR.finditer(text, found.start()) if (m["file"] or "").endswith(name)]
     context = _CONTEXT.search(text, found.end())
     number = lines[0] if lines else int(context["line"]) if context else None
