@@ -30,6 +30,7 @@ from derive.building.preload import preload
 from derive.building.recipe import recipe_digest, recipe_of, stated_by
 from derive.building.set_names import set_folder
 from derive.building.staleness import MOST, Asked, staleness
+from derive.building.template_line import own_templates
 from derive.building.tex import Engine, chosen_engine, typeset
 from derive.building.workers import Bug, Crew, Job, done
 from derive.course.names import CLASS, INDEX, KEY, LOGO, NAME, SHEET, SOLUTIONS, STUDENTS
@@ -360,6 +361,7 @@ def _documents_of_one(shared: ClassDocuments, student: Student) -> Made:
             typeset(
                 tex, shared.file(student, kind), shared.engine, timeout=shared.limit,
                 log=shared.outputs / "log", included=[*drawings, *logo], formats=replace(cache, fresh=False),
+                templates=own_templates(shared.root),
             )  # fmt: skip
         write(shared.file(student, SHEET).with_suffix(".html"), document_page(shared.root, own, pages, SHEET))
     except DeriveError as error:

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Collection, Sequence
+from dataclasses import dataclass, replace
+from functools import cache
 from pathlib import Path
 
+from derive.building.cache import file_digest
 from derive.building.files import write
 from derive.building.lock import locked
 from derive.building.manifest import EXPORT_SUFFIX, Documents, Manifest
+from derive.building.recipe import recipe_of
 from derive.building.set_names import set_folder
 from derive.course.names import CLASS, INDEX, ON_A_PAGE, STUDENTS
 from derive.course.problem_set import language_of
@@ -23,10 +26,12 @@ _EXPORTED = re.compile(rf"[\w-]+-(?:{'|'.join(EXPORT_SUFFIX)})\.(?:{'|'.join({*E
 
 @dataclass(frozen=True)
 class Paper:
-    """A document: its name, and for each of its files the address and the name of the format."""
+    """A document: its name, for each of its files the address and the name of the format, and whether it is older than
+    its problems."""
 
     name: str
     files: tuple[tuple[str, str], ...]
+    is_older: bool = False
 
 
 def papers_of(root: Path, set_id: str, documents: Documents) -> list[Paper]:
@@ -41,23 +46,28 @@ def there_of(outputs: Path, documents: Documents, made: Documents = ()) -> Docum
     return [pair for pair in documents if pair in made or (outputs / f"{pair[1]}.pdf").is_file()]
 
 
-def papers(root: Path, set_id: str, documents: Documents) -> list[Paper]:
-    """Return these documents, followed by the page for students, the page of the class and the exports."""
+def papers(root: Path, set_id: str, documents: Documents, older: Collection[str] = ()) -> list[Paper]:
+    """Return these documents, followed by the page for students, the page of the class and the exports.
+
+    older   the names of the documents and exports that are older than their problems
+    """
     outputs = set_folder(root, set_id)
     words = phrases(templates_of(root), language_of(root, set_id)).labels["web"]
     of_class = (outputs / CLASS / f"{INDEX}.html").is_file()
     folders = [(STUDENTS, words["for_students"]), *([(CLASS, words["class"])] if of_class else [])]
     exported = sorted(each.name for each in outputs.glob("*") if _EXPORTED.fullmatch(each.name))
+    of_set = zip(documents, papers_of(root, set_id, documents), strict=True)
     return [
-        *papers_of(root, set_id, documents),
+        *(replace(paper, is_older=file in older) for (_, file), paper in of_set),
         *(Paper(name, ((f"{folder}/{INDEX}.html", "HTML"),)) for folder, name in folders),
-        *(Paper(name, ((name, name.rpartition(".")[2].upper()),)) for name in exported),
+        *(Paper(name, ((name, name.rpartition(".")[2].upper()),), name in older) for name in exported),
     ]
 
 
-def listed(root: Path, found: Sequence[Paper]) -> str:
+def listed(root: Path, set_id: str, found: Sequence[Paper]) -> str:
     """Return the list of documents in HTML."""
-    return filled_html(templates_of(root), "papers.html.j2", {"papers": found}).strip()
+    words = phrases(templates_of(root), language_of(root, set_id)).labels
+    return filled_html(templates_of(root), "papers.html.j2", {"papers": found, "labels": words}).strip()
 
 
 def list_again(root: Path, set_id: str, record: Callable[[Manifest], None] | None = None) -> None:
@@ -73,8 +83,19 @@ def list_again(root: Path, set_id: str, record: Callable[[Manifest], None] | Non
         manifest = Manifest.read(outputs)
         if record is not None:
             record(manifest)
-        if manifest.holds(page.name):
-            there = listed(root, papers(root, set_id, there_of(outputs, manifest.documents)))
-            write(page, _LIST.sub(lambda _: there, page.read_text(encoding="utf-8"), count=1))
-            manifest.wrote(page.name)
+        update_list(root, set_id, manifest)
         manifest.save()
+
+
+def update_list(root: Path, set_id: str, manifest: Manifest) -> None:
+    """Update the list of documents on the page of a set, with a mark at each document that is older than its problems,
+    unless a user has edited this page."""
+    page = manifest.folder / f"{INDEX}.html"
+    if not manifest.holds(page.name):
+        return
+    recipe, read = recipe_of(root, of_set=manifest.of_set), cache(lambda path: file_digest(root / path))
+    named = [*(file for _, file in manifest.documents), *manifest.exports]
+    older = [name for name in named if manifest.is_older(name, recipe, read)]
+    there = listed(root, set_id, papers(root, set_id, there_of(manifest.folder, manifest.documents), older))
+    write(page, _LIST.sub(lambda _: there, page.read_text(encoding="utf-8"), count=1))
+    manifest.wrote(page.name)

@@ -40,6 +40,7 @@ from derive.building.scratch import sweep
 from derive.building.set_names import check_asked, set_folder
 from derive.building.signatures import regular_content
 from derive.building.staleness import left_older
+from derive.building.template_line import own_templates
 from derive.building.tex import (
     Engine,
     by_the_clock,
@@ -242,6 +243,9 @@ class _Build:
                 if self.whole_failed and not self.result.failed:  # otherwise another error is already reported
                     self._took(self.whole_failed)
                 if not self.result.failed:
+                    from derive.building.document_list import update_list
+
+                    update_list(self.root, self.set_id, self.manifest)
                     self.manifest.engine = engine_digest(*PACKAGES)
                     self.manifest.complete = len(self.derived) == len(self.names)
             finally:
@@ -442,6 +446,7 @@ class _Build:
         work = partial(
             typeset, tex, self.outputs / pdf, self.engine,
             timeout=limit, numbers=numbers, included=included, formats=replace(self.cache, fresh=False),
+            templates=own_templates(self.root),
         )  # fmt: skip
         job = Job(f"the pages of `{self.set_id}/{name}`", work, by_the_clock(limit), rank=rank)
         self._put(job, partial(self._was_typeset, pdf, source, texts))

@@ -28,6 +28,7 @@ from derive.building.cache import NO_CACHE, Cache, Kept
 from derive.building.files import cannot_write, folder, shown_path, write
 from derive.building.preamble import without_preamble
 from derive.building.scratch import Scratch
+from derive.building.template_line import line_of_template
 from derive.errors import BuildFailed, Complaint, Misused, Place
 
 WHEEL = "tinytex"
@@ -124,6 +125,7 @@ def typeset(
     numbers: Kept | None = None,
     included: Sequence[tuple[str, bytes]] = (),
     formats: Cache = NO_CACHE,
+    templates: tuple[Path, ...] = (),
 ) -> bool:
     """Write the PDF of `tex` to `target`; return whether its content changed. On failure `target` is unchanged.
 
@@ -132,7 +134,9 @@ def typeset(
     numbers    the store of the page numbers, for the next run
     included   the files that the source includes, such as its drawings
     formats    the cache that stores formats
+    templates  the course's own templates; an error is reported at the line of the template that printed the TeX
     """
+    failure = partial(_failure, tex, engine=engine, templates=templates)
     kept = (log or target.parent / "log") / target.stem
     with Scratch() as name:
         source = Path(name) / f"{target.stem}.tex"
@@ -152,10 +156,10 @@ def typeset(
             output = _passes(engine, source, timeout)
         pdf = source.with_suffix(".pdf")
         if output is not None or not pdf.is_file():
-            raise _failure(tex, source, output or "", engine, kept)
+            raise failure(source, output or "", kept=kept)
         content = pdf.read_bytes()
         if not _is_whole(content, source.with_suffix(".log")):
-            raise _failure(tex, source, f"`{engine.name}` reports success, but its output is not a PDF", engine, kept)
+            raise failure(source, f"`{engine.name}` reports success, but its output is not a PDF", kept=kept)
         changed = write(target, content)
         if numbers and noted.is_file():
             numbers.keep(noted.read_bytes())
@@ -254,7 +258,9 @@ def _environment(engine: Engine) -> dict[str, str]:
     }
 
 
-def _failure(tex: str, source: Path, output: str, engine: Engine, kept: Path) -> BuildFailed:
+def _failure(
+    tex: str, source: Path, output: str, engine: Engine, templates: tuple[Path, ...], kept: Path
+) -> BuildFailed:
     log = source.with_suffix(".log")
     report = log.read_text(errors="replace") if log.is_file() else output
     if any(sign in output + report for sign in ("No space left on device", "fwrite() failed")):
@@ -266,11 +272,23 @@ def _failure(tex: str, source: Path, output: str, engine: Engine, kept: Path) ->
     message, number, before = _first_error(report, output, source.name)
     mark = _mark(tex, number)
     where = f" in {mark}" if mark else ""
-    notes = (f"`{shown_path(kept_tex)}` and its `.log` are kept",)
     missing = re.search(r"File `([\w-]+\.(?:sty|cls|def))' not found", message)
     fix = f"`{engine.name}` lacks {missing[1]}: install it, or choose another `--engine`" if missing else None
     place = _place(tex, shown_path(kept_tex), number, before) if number else None
-    return BuildFailed(Complaint("tex", f"TeX failed{where}: {message}", place, notes, fix))
+    own = _place_in_template(tex, number, place, templates)
+    notes = [f"`{shown_path(kept_tex)}` and its `.log` are kept"]
+    if templates and not own:
+        named = ", ".join(f"`{shown_path(file)}`" for file in templates)
+        notes.append(f"the document uses templates of the course, which may be the cause: {named}")
+    place = own or place
+    return BuildFailed(Complaint("tex", f"TeX failed{where}: {message}", place, tuple(notes), fix))
+
+
+def _place_in_template(tex: str, number: int | None, place: Place | None, templates: tuple[Path, ...]) -> Place | None:
+    if not number or not place:
+        return None
+    word = place.text[place.column - 1 : place.column - 1 + place.width]
+    return line_of_template(templates, tex.splitlines()[number - 1], word)
 
 
 def _first_error(report: str, output: str, name: str) -> tuple[str, int | None, str]:
@@ -278,7 +296,7 @@ def _first_error(report: str, output: str, name: str) -> tuple[str, int | None, 
     found = _ERROR.search(text)
     if not found:
         return (output.strip().splitlines() or ["no PDF, and no message"])[-1], None, ""
-    message = found["message"].strip().removeprefix("LaTeX Error: ").rstrip(".")
+    message = found["message"].strip().removeprefix("LaTeX Error: ").rstrip(". ")
     lines = [int(m["line"]) for m in _ERROR.finditer(text, found.start()) if (m["file"] or "").endswith(name)]
     context = _CONTEXT.search(text, found.end())
     number = lines[0] if lines else int(context["line"]) if context else None

@@ -74,6 +74,10 @@ def number_with_unit(scalar: Scalar, wanted: Wanted, symbols: Mapping[str, Decla
     """Read a number with its unit, such as `1.5 kg`; return None if the text is an expression or has no unit."""
     if re.fullmatch(r"\s*[+-]?\d+,\d+(\s.*)?", scalar.text):
         raise Rejected(decimal_comma(scalar.text, scalar.place))
+    if re.match(r"\s*[+-]?\d{1,9}(?:[_'\u2009\u202f\xa0 ]\d{3})+(?![\w.])", scalar.text):
+        joined = re.sub(r"(?<=\d)[_'\u2009\u202f\xa0 ](?=\d)", "", scalar.text.strip())
+        message = f"`{scalar.text.strip()}` has a character between its digits"
+        rejected("digits", message, scalar.place, f"write `{joined}`")
     match = _NUMBER_UNIT.fullmatch(scalar.text)
     if not match or not match["unit"].strip() or len(scalar.text) > 80:
         return None

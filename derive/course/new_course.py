@@ -28,7 +28,7 @@ FILES = {
 def begun_course(folder: Path, title: str, template: Callable[[str], Path]) -> dict[str, str]:
     """Return the texts of the files of a new course, by their paths in its folder.
 
-    Raise `Misused` if the folder is a course already, or has one of these files.
+    Raise `Misused` if the folder is a course already, is within a course, or has one of these files.
 
     title     the name of the course
     template  a function that returns the file of a template
@@ -36,6 +36,11 @@ def begun_course(folder: Path, title: str, template: Callable[[str], Path]) -> d
     if (folder / "problems").is_dir():
         message = f"`{folder}` is a course already: it has a folder `problems`"
         raise Misused(Complaint("exists", message, help="`derive new SET/PROBLEM` begins a problem in it"))
+    above = (each for each in folder.resolve().parents if (each / COURSE).is_file() and (each / "problems").is_dir())
+    if outer := next(above, None):
+        message = f"`{folder}` would be within the course `{outer}`"
+        help_line = "choose another folder, or begin a set: `derive new SET/PROBLEM`"
+        raise Misused(Complaint("exists", message, help=help_line))
     if taken := [path for path in FILES if (folder / path).exists()]:
         message = f"the file `{taken[0]}` already exists in `{folder}`"
         raise Misused(Complaint("exists", message, help="choose an empty folder"))

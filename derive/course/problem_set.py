@@ -22,7 +22,7 @@ from derive.course.names import (
     Paper,
 )
 from derive.course.parts import FORM_OF_SET, AnswerForm
-from derive.course.schema import TEXT, Reader, Record, key, keys_of, list_of, one_of, read_record, wrong_type
+from derive.course.schema import LINE, TEXT, Reader, Record, key, keys_of, list_of, one_of, read_record, wrong_type
 from derive.course.yaml_tree import Mapping, Scalar, Sequence, Tree, Word, read_yaml, shape_of
 from derive.errors import Complaint, DeriveError, Faults, Misused, Rejected, did_you_mean, nearest
 from derive.steps.level import Level
@@ -118,10 +118,10 @@ def _documents(node: Tree, name: str, faults: Faults) -> dict[Word, Word] | None
 class CourseKeys(Record):
     """The keys of `course.yaml`, which all sets of the course share."""
 
-    course: Word | None = key("the name of the course", TEXT)
-    institution: Word | None = key("the university, the department or the school", TEXT)
-    instructor: Word | None = key("the instructor of the course", TEXT)
-    term: Word | None = key("the term as it is to be printed", TEXT)
+    course: Word | None = key("the name of the course", LINE)
+    institution: Word | None = key("the university, the department or the school", LINE)
+    instructor: Word | None = key("the instructor of the course", LINE)
+    term: Word | None = key("the term as it is to be printed", LINE)
     logo: Word | None = key("a PNG file in the folder of the course, for the title of each document of a set", TEXT)
     evidence: str | None = key("how much solutions show about their verification", one_of(tuple(EvidenceShown)))
     paper: str | None = key("the size of the pages, by default `letter`", one_of(tuple(Paper)))
@@ -142,8 +142,8 @@ class CourseKeys(Record):
 class SetKeys(CourseKeys):
     """The keys of a set's file."""
 
-    title: Word | None = key("the heading of the set", TEXT, required=True)
-    date: Word | None = key("the date as it is to be printed", TEXT)
+    title: Word | None = key("the heading of the set", LINE, required=True)
+    date: Word | None = key("the date as it is to be printed", LINE)
     documents: dict[Word, Word] = key(
         "the documents to build, or a mapping from each document to the name of its files",
         Reader(DOCUMENTS_SCHEMA, _documents, dict),
@@ -357,12 +357,13 @@ def _listed(written: tuple[Word, ...], set_id: str, known: List[str], faults: Fa
     names = [full.partition("/")[2] for full in known if full.startswith(f"{set_id}/")]
     found: list[str] = []
     for item in written:
-        if item in (*DOCUMENTS, INDEX):
-            message = f"a problem cannot be called `{item}`, because a document of the set has that name"
+        if item in (*DOCUMENTS, INDEX, *_NOT_PROBLEMS):
+            of_set = "file" if item in _NOT_PROBLEMS else "document"
+            message = f"a problem cannot be called `{item}`, because a {of_set} of the set has that name"
             faults.error("reserved-name", message, item.place, help="rename its files")
         elif item not in names:
             begun = f"`derive new {set_id}/{item}` begins this problem" if NAME.fullmatch(item) else None
-            help_line = did_you_mean(item, names) or begun
+            help_line = did_you_mean(item.rpartition("/")[2].removesuffix(".yaml"), names) or begun
             message = f"no problem of this set is called `{item}`"
             if item in known and not item.startswith(f"{set_id}/"):
                 message = f"`{item}` is a problem of another set"

@@ -20,7 +20,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
 
-from derive.course.schema import LEFT_EMPTY, TEXT, Reader, wrong_type
+from derive.course.schema import LEFT_EMPTY, TEXT, Reader, quotes_needed, refuse_comment, wrong_type
 from derive.course.yaml_tree import Scalar, Tree, abridged, shape_of
 from derive.errors import Complaint, Faults, Place
 
@@ -144,7 +144,8 @@ class Prose:
 def read_prose(node: Tree, what: str, faults: Faults) -> Prose | None:
     """Return the prose of a node, or None if the node is not text."""
     if not isinstance(node, Scalar):
-        faults.error("wrong-type", f"`{what}` must be text, but it is {shape_of(node)}", node.place)
+        message = f"`{what}` must be text, but it is {shape_of(node)}"
+        faults.error("wrong-type", message, node.place, help=quotes_needed(node))
         return None
     for match in _PIECE.finditer(node.text):
         if odd := match["odd"]:
@@ -154,11 +155,7 @@ def read_prose(node: Tree, what: str, faults: Faults) -> Prose | None:
     for formula in prose.formulas:
         _check_formula(formula, node.style, faults)
     _check_dollars(node, faults)
-    comment = re.match(r"[ \t]+#", node.source.text[node.end :])
-    if comment and node.style == "":
-        place = node.source.place(node.end + comment.end() - 1)
-        help_line = "put the whole text in quotes"
-        faults.error("comment-in-text", "`#` begins a comment, so the text ends before it", place, help=help_line)
+    refuse_comment(node, faults)
     return prose
 
 

@@ -116,8 +116,29 @@ def wrong_type(faults: Faults, what: str, wanted: str, node: Tree, help: str | N
 def _text(node: Tree, name: str, faults: Faults) -> Word | None:
     if isinstance(node, Scalar) and not node.empty:
         return Word.at(node.text.strip(), node.place)
-    wrong_type(faults, f"`{name}`", "text", node)
+    wrong_type(faults, f"`{name}`", "text", node, quotes_needed(node))
     return None
+
+
+def quotes_needed(node: Tree) -> str | None:
+    """Return the advice to quote a text that YAML reads as a mapping or a list because of its first character."""
+    opening = node.place.text[node.place.column - 1 :][:1]
+    return f"quote text that begins with `{opening}`" if opening in ("{", "[") else None
+
+
+def _line(node: Tree, name: str, faults: Faults) -> Word | None:
+    if isinstance(node, Scalar):
+        refuse_comment(node, faults)
+    return _text(node, name, faults)
+
+
+def refuse_comment(node: Scalar, faults: Faults) -> None:
+    """Report a comment after a text that is to be printed: `#` may be a part of the text."""
+    comment = re.match(r"[ \t]+#", node.source.text[node.end :])
+    if comment and node.style == "" and not node.empty:
+        place = node.source.place(node.end + comment.end() - 1)
+        help_line = "put the whole text in quotes"
+        faults.error("comment-in-text", "`#` begins a comment, so the text ends before it", place, help=help_line)
 
 
 def _figures(node: Tree, name: str, faults: Faults) -> int | None:
@@ -127,9 +148,12 @@ def _figures(node: Tree, name: str, faults: Faults) -> int | None:
     return None
 
 
+_YES, _NO = ("true", "True", "TRUE"), ("false", "False", "FALSE")  # the words that editors read as a boolean
+
+
 def _yes_or_no(node: Tree, name: str, faults: Faults) -> bool | None:
-    if isinstance(node, Scalar) and node.text in ("true", "false"):
-        return node.text == "true"
+    if isinstance(node, Scalar) and node.text in (*_YES, *_NO):
+        return node.text in _YES
     wrong_type(faults, f"`{name}`", "true or false", node)
     return None
 
@@ -143,6 +167,7 @@ def _formula(node: Tree, name: str, faults: Faults) -> Formula | None:
 
 # A text that YAML would read as a number needs no quotes: `title: 2015`.
 TEXT = Reader({"type": ["string", "number", "boolean"], "pattern": r"\S"}, _text)
+LINE = Reader({"type": ["string", "number", "boolean"], "pattern": r"\S"}, _line)  # printed as the author wrote it
 LEFT_EMPTY = "null"  # in JSON schemas, the type of a key with nothing after its `:`
 FORMULA = Reader({"type": ["string", "number"], "pattern": r"\S"}, _formula)
 YES_OR_NO = Reader({"type": "boolean"}, _yes_or_no, bool)

@@ -36,6 +36,10 @@ _LINE_END = re.compile(r"\r\n|\r|\n")
 _RANGE = re.compile(r"(\w+:[ ]+)([^][(){},:'\"\n]* in [\[(][^,\n]{1,40},[^])}\n]{1,40}[])])")
 _SPACE = re.compile(r"\s*")
 _JOINED_LINES = re.compile(r"(?:\s|\\[\r\n])*")
+# characters that look like a space or like nothing, as in text that was copied from a page for a browser
+_BLANK = "[\u00a0\u2000-\u200d\u202f\u205f\u2060\u3000\ufeff]"
+_BLANK_IN_KEY = re.compile(_BLANK)
+_BLANK_IN_LINE = re.compile(rf"(?:^ *|[-:,{{\[] *)({_BLANK})", re.MULTILINE)
 _TAB_INDENT = re.compile(r"^[ ]*\t[ \t]*(?=\S)", re.MULTILINE)
 
 
@@ -379,6 +383,11 @@ class _Reader:
             elif opening.flow_style and before and (cut := _cut_at_comma(before[1], key, value)):
                 last = before[0], cut  # more pieces of the same value may follow
                 pairs[before[0].text] = last
+            elif not key.quoted and (blank := _BLANK_IN_KEY.search(key.text)):
+                self.faults.add(_not_a_space(key.source, key.start + blank.start()))
+            elif opening.flow_style and _lacks_space(key, value):
+                colon = key.source.place(key.start + key.text.index(":"))
+                self.faults.error("yaml", "a key needs `: ` after it", colon, help="put a space after the `:`")
             elif key.text == "<<" and not key.quoted:
                 self.refuse("merge-key", "merge keys are not used here", event, 2, "write the keys out")
             elif key.text in pairs:
@@ -396,7 +405,7 @@ class _Reader:
             self.refuse("alias", f"`*{event.anchor}` is a YAML alias", event, len(str(event.anchor)) + 1, help_line)
             return
         if event.anchor is not None:
-            help_line = "quote text that begins with `&`"
+            help_line = "write the value where it is needed, or quote text that begins with `&`"
             self.refuse("anchor", f"`&{event.anchor}` is a YAML anchor", event, len(event.anchor) + 1, help_line)
         if event.tag is not None:
             self.refuse("tag", "tags are not used here", event, 1, "quote text that begins with `!`")
@@ -405,6 +414,12 @@ class _Reader:
 def _nothing_is_empty(node: Tree) -> Tree:
     """Return an empty scalar in place of an unquoted `null` or `~`."""
     return replace(node, text="") if isinstance(node, Scalar) and not node.style and node.text in NOTHING else node
+
+
+def _lacks_space(key: Scalar, value: Tree) -> bool:
+    """Return whether a space is missing after a colon within braces, as in `{x:length}`."""
+    is_alone = isinstance(value, Scalar) and value.left_empty
+    return is_alone and not key.quoted and re.match(r"\w+:\w", key.text) is not None
 
 
 def _cut_off(before: Tree, key: Scalar, value: Tree) -> Scalar | None:
@@ -431,6 +446,11 @@ def decimal_comma(text: str, place: Place) -> Complaint:
     return Complaint("decimal-comma", f"`{text.strip()}` has a comma in it", place, help=help_line)
 
 
+def _not_a_space(source: Source, index: int) -> Complaint:
+    message = f"the character U+{ord(source.text[index]):04X} is not a space in YAML"
+    return Complaint("yaml", message, source.place(index), help="replace it with a space, or delete it")
+
+
 def _needs_quotes(name: str, value: Scalar) -> Complaint:
     message, whole = "within braces a value with a comma or a bracket needs quotes", " ".join(value.text.split())
     return Complaint("yaml", message, value.place, help=f"write `{name}'{whole}'`")
@@ -447,6 +467,11 @@ def _syntax_complaint(error: yaml.MarkedYAMLError, source: Source) -> Complaint:
         return Complaint("yaml", message, source.place(at), notes, help)
 
     found = source.text[index : index + 1]
+    if found == "\t":
+        return Complaint("tab", "a tab is not a space in YAML", source.place(index), help="replace it with a space")
+    above = source.text.rfind("\n", 0, max(0, source.text.rfind("\n", 0, opening)))
+    if blank := _BLANK_IN_LINE.search(source.text[: index + 1], above + 1):
+        return _not_a_space(source, blank.start(1))
     if "cannot start any token" in problem:
         return syntax(f"a value cannot begin with `{found}`", "put the value in quotes")
     if "mapping values are not allowed" in problem:

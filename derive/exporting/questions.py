@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from derive.render.printing.tex_in_html import IMAGE
@@ -18,7 +18,7 @@ _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 
 @dataclass(frozen=True)
 class Answer:
-    """One answer of a part.
+    """One answer of a part, or one component of an answer that is a vector.
 
     sympy    the formula in plain SymPy text
     latex    the formula in TeX
@@ -33,6 +33,7 @@ class Answer:
     unit: str
     figures: int | None
     is_of_positive_letters: bool = False
+    components: str = ""  # the formulas of all components of the vector in plain SymPy text
 
     @property
     def tolerance(self) -> float:
@@ -44,12 +45,14 @@ class Answer:
 
     @property
     def letters(self) -> set[str] | None:
-        """The letters of a formula that learning platforms can compare; None for other formulas."""
-        names = set(_NAME.findall(self.sympy))
-        if not re.fullmatch(r"[A-Za-z0-9_+\-*/(). ]+", self.sympy) or names & {"t", "Eq"}:
+        """The letters of a formula, or of all components of a vector, that learning platforms can compare; None for
+        other formulas."""
+        text = self.components or self.sympy
+        names = set(_NAME.findall(text))
+        if not re.fullmatch(r"[A-Za-z0-9_+\-*/(). ]+", text) or names & {"t", "Eq"}:
             return None
         letters = names - FUNCTIONS - {"pi"}
-        called = {name for name in letters if re.search(rf"\b{name}\(", self.sympy)}
+        called = {name for name in letters if re.search(rf"\b{name}\(", text)}
         return None if called or not letters else letters
 
 
@@ -110,26 +113,35 @@ def _question(number: int, problem: Rendered) -> Question:
             part["question"],
             part["cited"],
             part["solution"],
-            tuple(_answer(each) for each in part["answers"]),
+            tuple(answer for each in part["answers"] for answer in _answers(each)),
         )
         for part in told["parts"]
     )
     return Question(problem.id, number, problem.title, told["statement"], told["remarks"], parts, files)
 
 
-def _answer(told: dict[str, Any]) -> Answer:
-    number = told["number"] or {}
-    value = number.get("value")
-    return Answer(
+def _answers(told: dict[str, Any]) -> list[Answer]:
+    """Return an answer, or the components of an answer that is a vector."""
+    number, symbols = told["number"] or {}, told["components"]
+    unit, value = number.get("unit", told["unit"]) or "", number.get("value")
+    alone = Answer(
         told["key"],
         told["symbol"],
         told["sympy"],
         told["latex"],
         float(value) if isinstance(value, int | float) else None,
-        number.get("unit", told["unit"]) or "",
+        unit,
         number.get("figures"),
         told["positive"],
     )
+    entries = re.findall(r"\[([^\[\]]+)\]", told["sympy"])
+    values = [float(each) for each in value] if isinstance(value, list) else [None] * len(entries)
+    if not symbols or not len(symbols) == len(entries) == len(values):
+        return [alone]
+    return [
+        replace(alone, key=f"{alone.key}_{n}", symbol=symbol, sympy=entry, value=each, components=" ".join(entries))
+        for n, (symbol, entry, each) in enumerate(zip(symbols, entries, values, strict=True), 1)
+    ]
 
 
 def with_files(html: str, address: Callable[[str], str], files: dict[str, bytes]) -> tuple[str, list[str]]:

@@ -17,6 +17,7 @@ from derive.algebra.rounding import rounded
 from derive.errors import DeriveError
 from derive.grading.key import Number, Target
 from derive.grading.outcomes import Outcome, Verdict
+from derive.grading.typed_text import with_points
 from derive.units import Unit, read_unit
 
 FEWEST = 2  # the least number of significant figures with which a rounded decimal is judged
@@ -73,12 +74,15 @@ def with_units(text: str) -> Iterator[tuple[str, Unit]]:
                 return
 
 
-def components_of(text: str) -> list[str]:
-    r"""Return the decimals of a typed vector, such as `(1.5, 0, -2)` or `\begin{pmatrix} 1.5 \\ 0 \end{pmatrix}`; an
-    empty list for any other text."""
+def components_of(text: str, count: int) -> list[str]:
+    r"""Return the decimals of a typed vector, such as `(1.5, 0, -2)`, `(1,5; 0; -2)`, `(1,5, 0, -2)` or
+    `\begin{pmatrix} 1.5 \\ 0 \end{pmatrix}`; an empty list if the text does not have this number of decimals."""
     plain = re.sub(r"\\(?:begin|end)\s*\{[a-z]*matrix\}|\\(?:left|right)\b|[()\[\]$]", " ", text).replace("\u2212", "-")
-    found = [re.sub(r"\s", "", each) for each in re.split(r",|\\\\", plain)]
-    return found if all(re.fullmatch(r"[-+]?\d+(\.\d+)?([eE][-+]?\d+)?", each) for each in found) else []
+    for separator in (r";|\\\\", ",", r",\s"):
+        entries = [re.sub(r"\s", "", with_points(each)) for each in re.split(separator, plain.strip())]
+        if len(entries) == count and all(re.fullmatch(r"[-+]?\d+(\.\d+)?([eE][-+]?\d+)?", each) for each in entries):
+            return entries
+    return []
 
 
 @dataclass(frozen=True)

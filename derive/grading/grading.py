@@ -588,8 +588,8 @@ class _Grading:
         """Judge a vector of decimals, with or without a unit; None if none is typed."""
         text = statement.texts[-1]
         number, unit = next(with_units(text), (text, None))
-        components = components_of(number)
-        if len(components) != len(target.numbers) or (unit is None and not any(map(Rational, components))):
+        components = components_of(number, len(target.numbers))
+        if not components or (unit is None and not any(map(Rational, components))):
             return None  # zero needs no unit and is compared exactly
         verdicts = [
             verdict_on_number(value, True, figures_of(each), unit, target, right, _places(value, each))

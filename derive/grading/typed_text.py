@@ -193,6 +193,12 @@ def _read_commas(source: Source, notes: list[str]) -> None:
         return new
 
     source.replace(r"(?<![\d.,])(\d{1,9}),(\d{1,9})(?![\d.,])", without_comma)
+    source.replace(r"[(\[][^()\[\];]*;[^()\[\]]*[)\]]", lambda found: with_points(found[0]).replace(";", ","))
+
+
+def with_points(entries: str) -> str:
+    """Return entries that are separated by other signs than a comma, such as `1,5; 0; 2`, with decimal points."""
+    return re.sub(r"(?<=\d),(?=\d)", ".", entries)
 
 
 def _numbered(word: str, digits: str, names: Names) -> str:

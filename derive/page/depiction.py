@@ -21,7 +21,7 @@ from derive.algebra.tidy import tidied
 from derive.course.given import Measured
 from derive.course.placement import HIDDEN, STATEMENT, Placement, case_label
 from derive.course.problem import Problem
-from derive.errors import Complaint, Place, Rejected, did_you_mean
+from derive.errors import Complaint, Place, Rejected, did_you_mean, nearest
 from derive.figures import marks as m
 from derive.figures.annotations import PositiveDirection, PositiveRotation
 from derive.figures.branches import BranchLine
@@ -375,6 +375,23 @@ def not_drawn(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Complain
             help_line = "leave the drawing out, or change the moments"
             found.append(Complaint("drawing", message, placement.place, help=help_line, severity="warning"))
     return found
+
+
+def misspelt(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Complaint]:
+    """Return a warning for each plane drawing of marks whose name is similar to that of a drawing of the engine."""
+    own = {placement.key: placement for placement in problem.drawings}
+    others = [drawing.key for drawing in drawings if drawing.key not in own]
+    return [
+        Complaint(
+            "drawing",
+            f"`{key}` is a further drawing, which shows only these marks",
+            placement.place,
+            help=f"to add the marks to the drawing of the engine, write `{meant}`",
+            severity="warning",
+        )
+        for key, placement in own.items()
+        if placement.is_sketch and (meant := nearest(key, others))
+    ]
 
 
 def _has_equal_moments(problem: Problem, drawing: m.Recorded, placement: Placement | None) -> bool:

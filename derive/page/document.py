@@ -38,6 +38,7 @@ from derive.page.depiction import (
     keys_without_effect,
     leads_to,
     letters_not_drawn,
+    misspelt,
     not_drawn,
     placed_after,
 )
@@ -216,6 +217,7 @@ class _Writer:
                 *laws_without_steps(problem, self.derivation, self.words),
                 *letters_not_drawn(problem, self.drawings),
                 *keys_without_effect(problem, self.drawings),
+                *misspelt(problem, self.drawings),
                 *not_drawn(problem, self.drawings),
                 *limits_left_out(problem, self.derivation),
             ),

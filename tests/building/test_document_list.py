@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import re
+from functools import partial
 from pathlib import Path
 
 import pytest
 
+from derive.building.cache import file_digest
 from derive.building.document_list import list_again, papers, there_of
 from derive.building.files import write
 from derive.building.manifest import Manifest
+from derive.building.recipe import recipe_of
 from derive.building.set_document import document_page, index_page
 from derive.building.sets import Options, built_set
 from derive.building.solution import rendered
@@ -79,6 +82,33 @@ def test_the_page_of_a_set_lists_the_documents_that_any_command_wrote(
     (course.outputs / "hw1-qti.zip").unlink()
     list_again(tmp_path, "hw1")
     assert page.read_text() == text + "edited", "an edited page stays"
+
+
+def test_the_page_of_a_set_marks_what_is_older_than_its_problems(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    course = stand_in_course(tmp_path, monkeypatch)
+    built_set(tmp_path, "hw1", Options(documents=("key", "solutions")), lambda _: None)
+    (course.outputs / "hw1-qti.zip").write_bytes(b"")
+    inputs = {"problems/hw1/one.yaml": file_digest(course.folder / "one.yaml")}
+    of_set = Manifest.read(course.outputs).of_set
+    recipe = recipe_of(tmp_path, of_set=of_set)
+    record = partial(Manifest.was_exported, file="hw1-qti.zip", recipe=recipe, inputs=inputs, of_set=of_set)
+    list_again(tmp_path, "hw1", record)
+
+    def marked() -> list[str]:
+        page = (course.outputs / "index.html").read_text()
+        return re.findall(r'<a href="([^"]*)">[^<]*</a> [^\n]*older than the problems', page)
+
+    assert marked() == []
+    course.problem("one", "another text")
+    built_set(tmp_path, "hw1", Options(documents=("solutions",)), lambda _: None)
+    assert marked() == ["key.pdf", "hw1-qti.zip"]
+    built_set(tmp_path, "hw1", Options(), lambda _: None)
+    assert marked() == ["hw1-qti.zip"]
+    course.problem("one", "first")
+    built_set(tmp_path, "hw1", Options(), lambda _: None)
+    assert marked() == []
 
 
 def test_the_documents_have_names_in_the_language_of_the_set(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -209,6 +209,27 @@ def test_the_words_of_other_engines_are_understood(programs: Path, target: Path)
     assert (found.place.line, found.place.column) == (2, 2)
 
 
+def test_an_error_in_a_template_of_the_course_is_reported_at_its_line(programs: Path, target: Path) -> None:
+    own = target.parent / "templates" / "latex" / "heading.tex.j2"
+    own.parent.mkdir(parents=True)
+    own.write_text("<% if heading.term %>\n\\centerline{\\bold <<heading.title>>}\n<% endif %>\n<< heading.course >>\n")
+    script = "#!/bin/sh\nprintf '! Undefined control sequence.\\nl.2 \\\\centerline{\\\\bold\\n' > block.log\nexit 1\n"
+    engine = program(programs, "lualatex", script)
+    (found,) = _errors("text\n\\centerline{\\bold Week 1}\n", target, engine, (own,))
+    assert found.message == "TeX failed: Undefined control sequence \\bold"
+    assert found.place and (found.place.path, found.place.line) == ("templates/latex/heading.tex.j2", 2)
+    assert found.place.text[found.place.column - 1 :].startswith("\\bold") and found.place.width == 5
+    (found,) = _errors("text\nof derive\n", target, engine, (own,))
+    assert found.place and found.place.path.endswith("block.tex")
+    assert "`templates/latex/heading.tex.j2`" in found.notes[-1], "the error may follow from an earlier line"
+
+
+def _errors(tex: str, target: Path, engine: Engine, templates: tuple[Path, ...]) -> tuple[Complaint, ...]:
+    with pytest.raises(BuildFailed) as caught:
+        typeset(tex, target, engine, templates=templates)
+    return caught.value.complaints
+
+
 def test_an_engine_that_fails_without_a_word_is_still_a_complaint(programs: Path, target: Path) -> None:
     found = complaint("x", target, program(programs, "pdflatex", "#!/bin/sh\nexit 1\n"))
     assert found.message == "TeX failed: no PDF, and no message"

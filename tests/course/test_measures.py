@@ -55,3 +55,11 @@ def test_a_number_beyond_the_range_of_its_letter_is_refused_with_both(degrees: i
     (complaint,) = caught.value.complaints
     assert complaint.message == f"`alpha` is declared to lie in (0, 90 deg], but `{degrees} deg` does not"
     assert complaint.place == written.place
+
+
+@pytest.mark.parametrize("text", ["1_000 kg", "1 000 kg", "1'000 kg", "1\u202f000 kg"])
+def test_a_number_with_a_character_between_its_digits_is_refused(text: str) -> None:
+    with pytest.raises(Rejected) as caught:
+        number_with_unit(scalar(text), Wanted("m", "mass"), {})
+    (complaint,) = caught.value.complaints
+    assert (complaint.code, complaint.help) == ("digits", "write `1000 kg`")

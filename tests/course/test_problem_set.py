@@ -60,6 +60,25 @@ def test_a_set_lists_its_problems_in_order(tmp_path: Path) -> None:
     )
 
 
+@pytest.mark.parametrize(
+    ("written", "code", "help_line"),
+    [
+        ("title: A # B\nproblems: [block]\n", "comment-in-text", "put the whole text in quotes"),
+        ("title: {A}\nproblems: [block]\n", "wrong-type", "quote text that begins with `{`"),
+        ("title: A\nproblems: [hw9/block]\n", "no-such-problem", "did you mean `block`?"),
+        ("title: A\nproblems: [problems/hw9/block.yaml]\n", "no-such-problem", "did you mean `block`?"),
+        ("title: A\nproblems: [set]\n", "reserved-name", "rename its files"),
+    ],
+)
+def test_an_error_in_the_file_of_a_set_says_what_to_write(
+    tmp_path: Path, written: str, code: str, help_line: str
+) -> None:
+    at(tmp_path, heading=f"course: P\n{written}")
+    with pytest.raises(Rejected) as caught:
+        problem_set(tmp_path, "hw9")
+    assert [(c.code, c.help) for c in caught.value.complaints] == [(code, help_line)]
+
+
 def test_every_fault_of_a_set_is_told_at_once(tmp_path: Path) -> None:
     at(tmp_path, heading="corse: P\ntitle:\nproblems: [blok, block, block, [x]]\nday: x\n")
     with pytest.raises(Rejected) as caught:

@@ -50,6 +50,27 @@ def test_scalars_are_text_and_never_numbers_or_booleans() -> None:
     ]
 
 
+@pytest.mark.parametrize(
+    ("text", "code", "marked", "help_line"),
+    [
+        ("a:\tb\n", "tab", "\t", "replace it with a space"),
+        ("a: b\t\nc: d\n", "tab", "\t", "replace it with a space"),
+        ("a:\n  b: 1\n\u00a0\u00a0c: 2\n", "yaml", "\u00a0", "replace it with a space, or delete it"),
+        ("a:\u00a0b\nc: d\n", "yaml", "\u00a0", "replace it with a space, or delete it"),
+        ("\u200ba: b\n", "yaml", "\u200b", "replace it with a space, or delete it"),
+        ("a: {x:length}\n", "yaml", ":", "put a space after the `:`"),
+    ],
+)
+def test_what_looks_like_a_space_is_named(text: str, code: str, marked: str, help_line: str) -> None:
+    (found,) = complaints(text)
+    assert (found.code, underlined(found.place), found.help) == (code, marked, help_line)
+
+
+def test_spaces_of_other_kinds_may_be_in_a_text() -> None:
+    assert scalar("a: 5\u00a0cm wide\n").text == "5\u00a0cm wide"
+    assert [key.text for key, _ in tree('a: {"x:y": }\n').pairs] == ["a"]
+
+
 @pytest.mark.parametrize("text", ["", "null", "~", "# a comment\n", "---\n"])
 def test_a_file_that_says_nothing_is_empty(text: str) -> None:
     assert codes(text) == ["empty"]

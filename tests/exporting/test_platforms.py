@@ -327,6 +327,42 @@ def test_a_formula_in_letters_is_a_question_of_stack(questions: list[Question]) 
     assert stack.findtext("assumepositive") == "0", "sqrt(x^2) is not x for a coordinate x"
 
 
+PLATE = """\
+title: A plate
+solve: rotation
+symbols: {m: mass, a: length, omega: angular speed}
+given:
+  body: {shape: plate, sides: [a, 2*a], mass: m}
+  rate: omega
+  along: [1, 2, 0]
+statement: A plate <<a>>, <<m>>, <<omega>>.
+parts: [{ask: Find the angular momentum., answer: angular_momentum, points: 3}]
+"""
+
+
+@pytest.mark.parametrize("values", ["", "values: {a: 20 cm, m: 2 kg, omega: 30 rad/s}\n"])
+def test_a_vector_has_a_field_for_each_component(tmp_path: Path, values: str) -> None:
+    folder = with_week1(tmp_path)
+    (folder / "bead.yaml").write_text(PLATE + values)
+    asked = questions_of([rendered(tmp_path, "week1/bead", only=("questions",))])
+    (part,) = asked[0].parts
+    fields = [(each.key, each.symbol) for each in part.answers]
+    assert fields == [(f"angular_momentum_{n}", rf"(\bm{{L}})_{{{n}}}") for n in (1, 2, 3)]
+    quiz = ElementTree.fromstring(moodle_xml("A", "B", asked, stack=True).encode())
+    package = zipfile.ZipFile(io.BytesIO(prairielearn_package("week1", "A", asked)))
+    page, server = (package.read(f"questions/week1/bead-a/{file}").decode() for file in ("question.html", "server.py"))
+    if values:
+        assert [each.value for each in part.answers] == [0.3578, 0.1789, 0.0], "2 a^2 m omega/(6 sqrt(5)) by hand"
+        assert [each.get("type") for each in quiz][1:] == ["cloze"]
+        assert "{1:NUMERICAL:=0.3578:5e-05} kg m^2/s" in (quiz[1].findtext("questiontext/text") or "")
+        assert page.count("<pl-number-input") == 3 and '["answer3"] = 0.0' in server
+    else:
+        assert [each.get("type") for each in quiz][1:] == ["stack"]
+        told = quiz[1].findtext("questionvariables/text") or ""
+        assert told.splitlines()[::2] == ["ta1: sqrt(5)*a^2*m*omega/15;", "ta3: 0;"]
+        assert page.count("<pl-symbolic-input") == page.count('variables="a, m, omega"') == 3
+
+
 def test_an_answer_with_a_coordinate_is_not_of_positive_letters(questions: list[Question]) -> None:
     positive = {each.key: each.is_of_positive_letters for part in questions[0].parts for each in part.answers}
     assert positive == {"motion_x": False, "frequency": True, "period": True}

@@ -192,6 +192,11 @@ def test_the_components_of_a_vector_are_judged_as_numbers_with_its_unit(tmp_path
 
     assert outcome("(0.3578, 0.1789, 0) kg m^2/s") is Outcome.EQUAL
     assert outcome(r"\begin{pmatrix} 0.358 \\ 0.179 \\ 0 \end{pmatrix} \mathrm{kg\,m^2/s}") is Outcome.EQUAL
+    assert outcome("(0,3578; 0,1789; 0) kg m^2/s") is Outcome.EQUAL
+    assert outcome("(0,358, 0,179, 0) kg m^2/s") is Outcome.EQUAL
+    assert outcome(r"\begin{pmatrix} 0,358 \\ 0,179 \\ 0 \end{pmatrix} kg m^2/s") is Outcome.EQUAL
+    assert outcome("(0,3578; 0,1788; 0) kg m^2/s") is Outcome.DIFFERENT
+    assert outcome("m a^2 omega/(6 sqrt(5)) (2; 1,0; 0)") is Outcome.EQUAL
     assert outcome("m a^2 omega/(6 sqrt(5)) (2, 1, 0)") is Outcome.EQUAL
     assert outcome("(0.3578, 0.1788, 0) kg m^2/s") is Outcome.DIFFERENT
     assert outcome("(-0.3578, -0.1789, 0) kg m^2/s") is Outcome.SIGN

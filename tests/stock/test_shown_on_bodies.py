@@ -13,6 +13,7 @@ from derive.course.problem import run_solve
 from derive.figures.annotations import AngleMark, Arrow, Axis, CentreMark, Line, PointMark, Projection
 from derive.figures.marks import Drawing, Mark
 from derive.figures.surfaces import SliceMark
+from derive.page.depiction import misspelt
 from derive.steps.record import Run
 from tests.stock.described import complaints, edited, loaded
 
@@ -69,6 +70,12 @@ def test_marks_in_a_plane_make_a_drawing_without_the_body(tmp_path: Path) -> Non
     (drawn,) = marks_of(tmp_path, sketch, "axes")
     assert isinstance(drawn, Line)
     assert list(drawn.end) == [a, a]
+    problem = loaded(tmp_path, sketch)
+    run = Run()
+    run_solve(problem, run)
+    assert not misspelt(problem, run.drawings)
+    (warning,) = misspelt(loaded(tmp_path, edited(sketch, ("  axes: {marks", "  bdy: {marks"))), run.drawings)
+    assert "`bdy` is a further drawing" in warning.message and "`body`" in str(warning.help)
     in_space = edited(sketch, ("[0, 0], to: [a, a]", "[0, 0, 0], to: [a, a, 0]"))
     assert "draws nothing called `axes`" in str(complaints(tmp_path, in_space))
 

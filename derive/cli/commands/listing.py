@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
 from derive.cli.problem_ids import new_id_of, problem_id_of, root_of, root_with, warn_of_names
 from derive.cli.running import waiting
-from derive.cli.terminal import table
+from derive.cli.terminal import complain, table
 from derive.errors import Complaint, DeriveError, Misused, did_you_mean
 
 
@@ -33,7 +34,22 @@ def list_problems(arguments: argparse.Namespace) -> int:
     rows = [("problem", "topic", "points", "title"), *found]
     without = [(row[0], *row[2:]) for row in rows]
     print(table(rows if any(topics.values()) else without))
+    _warn_of_sets(root, dict.fromkeys(problem.partition("/")[0] for problem in paths))
     return 0
+
+
+def _warn_of_sets(root: Path, names: Iterable[str]) -> None:
+    """Report the errors in the files of the sets, which the list itself does not need, as warnings."""
+    from derive.course.problem_set import problem_set, set_ids
+
+    found = list[Complaint]()
+    known = set_ids(root)
+    for name in names:
+        try:
+            problem_set(root, name) if name in known else None
+        except DeriveError as error:
+            found += error.complaints
+    complain(dict.fromkeys(replace(each, severity="warning") for each in found))
 
 
 def _list_answers(arguments: argparse.Namespace, root: Path) -> int:

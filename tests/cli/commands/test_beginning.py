@@ -73,6 +73,16 @@ def test_a_new_course_can_be_checked_at_once(outside: Path, capfd: pytest.Captur
     assert main(["init", "."]) == 2
 
 
+def test_a_new_course_is_not_made_within_a_course(outside: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    assert main(["init", "physics"]) == 0
+    assert main(["init", "physics/problems/week2"]) == 2
+    shown = capfd.readouterr().err
+    assert "would be within the course" in shown and "derive new SET/PROBLEM" in shown
+    assert not (outside / "physics" / "problems" / "week2").exists()
+    (outside / "physics" / "course.yaml").unlink()
+    assert main(["init", "physics/other"]) == 0, "a folder `problems` alone may belong to another program"
+
+
 def test_a_problem_begins_like_one_of_the_library_of_derive(outside: Path, capfd: pytest.CaptureFixture[str]) -> None:
     main(["init", "."])
     assert main(["new", "week1/rod", "--like", "library/rod_pendulum"]) == 0

@@ -25,6 +25,17 @@ def test_list_shows_problems_even_if_one_does_not_read(course: Course, capfd: py
     assert second.split(maxsplit=1) == ["hw1/two", "(cannot be read: `mass` must be a mass)"]
 
 
+def test_the_list_warns_of_errors_in_the_files_of_sets(course: Course, capfd: pytest.CaptureFixture[str]) -> None:
+    file = course.folder / "set.yaml"
+    file.write_text(file.read_text() + "leters: x\n")
+    (course.root / "course.yaml").write_text("titel: Physics\n")
+    assert main(["list"]) == 0
+    shown = capfd.readouterr()
+    assert "hw1/one" in shown.out
+    assert "problems/hw1/set.yaml:6:1: warning[unknown-key]: a set has no key `leters`" in shown.err
+    assert "course.yaml:1:1: warning[unknown-key]: a course has no key `titel`" in shown.err
+
+
 @pytest.mark.usefixtures("workers")
 def test_a_problem_that_ends_its_reader_costs_the_list_nothing_else(
     course: Course, capfd: pytest.CaptureFixture[str]
