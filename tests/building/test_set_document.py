@@ -462,6 +462,28 @@ def test_the_caption_of_a_statement_is_under_its_drawing_also_if_the_drawing_is_
     assert places["Figure 1"][1] < places["One line"][1]
 
 
+def test_a_drawing_beside_a_long_strategy_is_larger(tmp_path: Path) -> None:
+    root = course_in(tmp_path, {"drawings:\n": "drawings:\n  axes: {at: statement, caption: The axes.}\n"})
+    solution = rendered_once(root, "hw9/block", draws=True)
+    drawings = [each for each in solution.files if each[0].endswith(".pdf")]
+    drawn = rf"\beside{{One line.}}{{{Path(drawings[0][0]).name}}}{{words}}{{Figure 1.}}{{The axes.}}"
+    statement = rf"\newpage\begin{{statement}}{drawn}\end{{statement}}"
+    long = rf"\strategyfollows{{\strategytext{{Plan.}}{{{'Go on. ' * 150}}}}}"
+    tex = problem_document(
+        root, replace(solution, latex=Tex(rf"\mbox{{}}{statement}{long}{statement}")), problem_set(root, "hw9")
+    )
+    typeset(tex, tmp_path / "statement.pdf", chosen_engine(None), included=drawings)
+    heights = []
+
+    def note(text: str, _: Any, at: Any, *more: Any) -> None:
+        heights.extend([at[5]] if "Figure 1" in text else [])
+
+    for page in PdfReader(tmp_path / "statement.pdf").pages[1:]:
+        page.extract_text(visitor_text=note)
+    usual, with_room = heights
+    assert with_room < usual - 10
+
+
 def test_words_before_a_display_appear_once_beside_a_drawing(tmp_path: Path) -> None:
     """A passage that is too high begins beside the drawing; TeX sets it without displays to measure its first lines."""
     solution = rendered_once(course_in(tmp_path), "hw9/block", draws=True)

@@ -35,7 +35,7 @@ FOUND = [  # problem, part, rule, outcome
     ("library/rod_pendulum", 2, "pendulum", "length"),
     ("library/spring_pendulum", 3, "pendulum", "named"),
     ("library/elevator", 3, "pendulum", "field"),
-    ("library/turning_hoop", 2, "branches", "generic"),
+    ("library/turning_hoop", 3, "branches", "generic"),
     ("library/turning_parabola", 1, "anywhere", "generic"),
     ("library/parabolic_hill", 2, "one_sign", "generic"),
     ("library/leaning_rod", 1, "balanced", "generic"),
