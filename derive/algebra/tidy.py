@@ -172,13 +172,16 @@ def _as_one_fraction(value: Expr) -> Expr:
 
 
 def _with_term_in_common(value: Expr) -> Expr:
-    """Write 2 g (2 u + v)/(4 u + w) as g (u + v/2)/(u + w/4), so that both sums contain the same term."""
+    """Write 2 (2 u + a v)/(4 u + b w) as (u + a v/2)/(u + b w/4), so that both sums contain the same term. Sums of
+    plain letters keep whole numbers, because the fraction would contain fractions such as v/2."""
     above, below = fraction(value) if value.is_Mul else (value, Integer(1))
     number, factors = above.as_coeff_Mul()
     sums = [part for part in Mul.make_args(factors) if part.is_Add]
     if not (number.is_Integer and number > 1 and len(sums) == 1 and below.is_Add):
         return value
     coefficients = {term: each for each, term in (part.as_coeff_Mul() for part in below.args)}
+    if all(term.is_Symbol for term in coefficients):
+        return value
     for each, term in (part.as_coeff_Mul() for part in sums[0].args):
         if each > 1 and coefficients.get(term) == number * each:
             upper, lower = (

@@ -98,7 +98,7 @@ class ChainWriter:
         lines = [self._line(step, form, because) for form, because in zip(forms, before, strict=False)]
         last = lines[result]
         is_matrix = isinstance(last.right, MatrixBase)
-        if last.left is None or is_matrix and (last.right.shape[1] > 1 or _share_a_sum_or_root(last.right)):
+        if not is_matrix or last.left is None or last.right.shape[1] > 1 or _share_a_sum_or_root(last.right):
             lines[result] = replace(last, presented=True)  # a common factor is in front, and tan a replaces sin a/cos a
         return tuple(lines)
 

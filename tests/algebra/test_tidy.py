@@ -154,6 +154,7 @@ FORMS = [
     (M / (x**2 - a - b), -M / (a + b - x**2)),
     # a number in front that is only the ratio of the coefficients of a common term
     (2 * x * (2 * a + M * b) / (4 * a + b**2), x * (a + M * b / 2) / (a + b**2 / 4)),
+    (x * (a - b / 2) / (a + b / 4), 2 * x * (2 * a - b) / (4 * a + b)),  # plain letters keep whole numbers
     (2 * (M + a) * b / (M + 2 * a), 2 * b * (M + a) / (M + 2 * a)),
 ]
 

@@ -29,6 +29,14 @@ def test_only_the_first_line_has_the_left_side(tmp_path: Path) -> None:
     assert (alone.left, alone.right) == (step.symbol, step.result)
 
 
+def test_the_only_line_of_a_scalar_has_tangents_as_a_result_has(tmp_path: Path) -> None:
+    _, solved = solved_once(course_in(tmp_path), "hw9/block")
+    writer = ChainWriter(solved.derivation, solved.values, WORDS, {}, {})
+    step = next(step for step in solved.derivation.steps if isinstance(step.symbol, Symbol))
+    alone = replace(step, chain=(replace(step.chain[-1], because="law"),))
+    assert [line.presented for line in writer.of(alone)] == [True]
+
+
 def test_a_reason_names_each_number_once(tmp_path: Path) -> None:
     """Two steps that share a row have one number."""
     _, solved = solved_once(course_in(tmp_path), "hw9/block")
