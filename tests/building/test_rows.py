@@ -112,3 +112,18 @@ def test_the_words_of_a_row_beside_a_drawing_are_printed_once(tmp_path: Path) ->
     beside = rf"\drawingbeside{{none.pdf}}{{A drawing.}}{{Figure 1.}}{{A caption.}}{{{before}}}{{{after}}}"
     _, pdf = typeset_with_log(tmp_path, tex.replace(r"\end{document}", rf"{beside}\end{{document}}"))
     assert PdfReader(pdf).pages[0].extract_text().count("thus") == 2
+
+
+def test_the_lines_of_a_caption_are_balanced_and_break_no_formula(tmp_path: Path) -> None:
+    tex = set_document(course_in(tmp_path), problem_set(tmp_path, "hw9"), [])
+    caption = r"The length of the spring after the release, drawn for $m = 1$, $k = 98$, $l = 3$ and $g = 9$."
+    widths = range(50, 90, 4)
+    drawings = [
+        rf"\renewcommand{{\captionwidth}}{{{width}mm}}\drawing{{none.pdf}}{{A.}}{{Figure 1.}}{{{caption}}}\par"
+        for width in widths
+    ]
+    _, pdf = typeset_with_log(tmp_path, tex.replace(r"\end{document}", rf"{''.join(drawings)}\end{{document}}"))
+    lines = [line.strip() for page in PdfReader(pdf).pages for line in page.extract_text().splitlines()]
+    assert sum(line.endswith("9.") for line in lines) == len(widths)
+    assert not [line for line in lines if line.startswith("=") or line.endswith("=")]
+    assert not [line for line in lines if line.endswith("9.") and len(line) < 12]
