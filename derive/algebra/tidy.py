@@ -172,8 +172,8 @@ def _as_one_fraction(value: Expr) -> Expr:
 
 
 def _with_term_in_common(value: Expr) -> Expr:
-    """Write 2 (2 u + a v)/(4 u + b w) as (u + a v/2)/(u + b w/4), so that both sums contain the same term. Sums of
-    plain letters keep whole numbers, because the fraction would contain fractions such as v/2."""
+    """Write 2 g (2 u + a v)/(4 u + b w) as g (u + a v/2)/(u + b w/4), so that both sums contain the same term. If the
+    terms of the denominator are single letters, the whole numbers stay."""
     above, below = fraction(value) if value.is_Mul else (value, Integer(1))
     number, factors = above.as_coeff_Mul()
     sums = [part for part in Mul.make_args(factors) if part.is_Add]
