@@ -1,4 +1,5 @@
-"""A course at a revision of git: the files of one set, the templates and the file of the course, in a temporary folder.
+"""A course at a revision of git, in a temporary folder: the files of one set, the scripts of all sets, the templates,
+the file of the course and the logo.
 
 Files are read as git stores them and not checked out, because a repository may name programs that run at checkout.
 """
@@ -36,15 +37,15 @@ def course_at(root: Path, revision: str, set_id: str) -> Iterator[Path]:
         )
     with Scratch() as name, writing(Path(name)):
         folder = Path(name)
-        _copy(root, revision, commit, there, folder)
+        scripts = [each for each in _files(root, revision, commit, ["problems"]) if each[1].endswith(b".py")]
+        _copy(root, revision, [*_files(root, revision, commit, there), *scripts], folder)
         if (logo := logo_of_set(folder, set_id)) and ".." not in Path(logo).parts:
-            _copy(root, revision, commit, [logo], folder)
+            _copy(root, revision, _files(root, revision, commit, [logo]), folder)
         yield folder
 
 
-def _copy(root: Path, revision: str, commit: str, paths: Sequence[str], folder: Path) -> None:
-    """Write the plain files of a commit at and below these paths into a folder."""
-    files = _files(root, revision, commit, paths)
+def _copy(root: Path, revision: str, files: Sequence[tuple[bytes, bytes]], folder: Path) -> None:
+    """Write files, given by the names of their objects and their paths, into a folder."""
     contents = _contents(root, revision, [name for name, _ in files])
     for (_, path), content in zip(files, contents, strict=True):
         target = folder / os.fsdecode(path)
@@ -54,7 +55,7 @@ def _copy(root: Path, revision: str, commit: str, paths: Sequence[str], folder: 
 
 
 def _files(root: Path, revision: str, commit: str, paths: Sequence[str]) -> list[tuple[bytes, bytes]]:
-    """Return the object name and the path of each plain file; symbolic links are left out."""
+    """Return the object name and the path of each plain file at and below these paths; symbolic links are left out."""
     found = _git(root, "ls-tree", "-r", "-z", commit, "--", *paths)
     if found.returncode:
         raise Misused(_unreadable(revision, found.stderr))

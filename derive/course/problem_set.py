@@ -126,7 +126,7 @@ class CourseKeys(Record):
     evidence: str | None = key("how much solutions show about their verification", one_of(tuple(EvidenceShown)))
     paper: str | None = key("the size of the pages, by default `letter`", one_of(tuple(Paper)))
     language: Word | None = key("the language of the pages: a folder of `templates/phrases`, by default `en`", TEXT)
-    decimal: str | None = key("the decimal sign, by default that of the language", one_of(tuple(DecimalSign)))
+    decimal: str | None = key("the decimal sign, by default the sign of the language", one_of(tuple(DecimalSign)))
     font_size: str | None = key(
         "the size of the text in PDFs, by default `11 pt`, and `10 pt` at the detail `brief`", one_of(tuple(FontSize))
     )

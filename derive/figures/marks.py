@@ -415,7 +415,7 @@ def components_in(thing: Any) -> set[int]:
 
 
 def letters_in(thing: Any) -> set[Symbol]:
-    """Return all symbols in the positions and directions of marks, at any depth, except those in labels."""
+    """Return all symbols in the positions and directions of marks, at any depth, but not the symbols in labels."""
     if isinstance(thing, tuple | list):
         return {letter for each in thing for letter in letters_in(each)}
     if isinstance(thing, Mark):

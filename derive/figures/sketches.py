@@ -70,7 +70,7 @@ def sketch(
 
     key       the name of the drawing, for `drawings:` in the problem
     system    particles, bodies, springs, connections, forces and weights
-    more      marks that are drawn in addition to those of the description
+    more      marks that are drawn in addition to the marks of the description
     values    numbers or proportions for symbols in the drawing
     named     positions of further parts, such as a pivot
     weights   whether the weight of each particle and body is drawn, instead of one arrow for gravity; a number is the

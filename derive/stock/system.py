@@ -222,7 +222,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         return [each.key for each in laws if forces & explicit(each.value).free_symbols]
 
     def asks(self) -> dict[str, Any]:
-        """Return the functions that derive the answers, including those about an impact."""
+        """Return the functions that derive the answers, including answers about an impact."""
         return super().asks() | (self.of_impact.asks() if self.of_impact is not None else {})
 
     @cached_property

@@ -108,3 +108,12 @@ def test_the_file_of_the_course_and_its_logo_are_there_too(tmp_path: Path) -> No
     with course_at(committed(root), "HEAD", "hw1") as then:
         assert problem_set(then, "hw1").facts == ["C"]
         assert problem_set(then, "hw1").logo == PNG
+
+
+def test_a_script_of_another_set_is_there_too(tmp_path: Path) -> None:
+    root = course(tmp_path)
+    (root / "problems" / "hw2").mkdir()
+    (root / "problems" / "hw2" / "slab.py").write_text("def solve(): pass\n")
+    (root / "problems" / "hw2" / "set.yaml").write_text("course: C\ntitle: T\n")
+    with course_at(committed(root), "HEAD", "hw1") as then:
+        assert sorted(file.name for file in (then / "problems" / "hw2").iterdir()) == ["slab.py"]

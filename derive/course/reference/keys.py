@@ -51,7 +51,7 @@ class EntryKeys(Record):
     side: tuple[int, ...] = key(
         "the numbers of the sides of this formula that are compared; the first side is 1", SIDES
     )
-    document: Word | None = key("the document of this entry, if it is not the one that the file names first", TEXT)
+    document: Word | None = key("the document of this entry, if it is not the first document in the file", TEXT)
     answer: Word | None = key("the key of the step that has this value", TEXT)
     states: Tree | None = key("the value: an expression, a list of 3, or 3 rows of 3", _ANY_VALUE)
     latex: Tree | None = key(

@@ -34,7 +34,7 @@ from derive.render.notation.layout import (
 
 
 class Binding(IntEnum):
-    """Kinds of layout, from those that never need brackets to those that need brackets next to anything.
+    """Kinds of layout, from kinds that never need brackets to kinds that need brackets next to anything.
 
     PRODUCT    factors side by side: 2 M a
     DOTTED     numbers and letters with a dot between them: M·1/2 a

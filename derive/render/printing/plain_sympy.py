@@ -86,7 +86,7 @@ def coordinate_of(symbol: Symbol) -> tuple[str, int]:
 
 
 class _PlainSymPy(StrPrinter):
-    """SymPy's printer, changed to write unambiguous names and to convert the engine's nodes to those of SymPy."""
+    """SymPy's printer, changed to write unambiguous names and to convert the engine's nodes to SymPy's nodes."""
 
     def __init__(self, setting: Setting):
         super().__init__({"order": None})

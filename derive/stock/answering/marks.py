@@ -94,7 +94,7 @@ class Marked:
             drawings[drawings.index(shown[name])] = own
 
     def _kept(self, marks: Sequence[Mark]) -> Iterator[Mark]:
-        """Yield the marks of a drawing without those whose labels the problem leaves out; a surface stays, without its
+        """Yield the marks of a drawing, except marks whose labels the problem leaves out; a surface stays, without its
         label."""
         labels = {str(mark.label) for mark in marks if mark.label is not None}
         for word in self.drawing.without:

@@ -93,7 +93,7 @@ class Surroundings:
     surfaces: Mapping[str, Any] = field(default_factory=dict)
 
     def one(self, name: Word) -> Quantity:
-        """Return the one answer of a name."""
+        """Return the answer with a name; reject a name that denotes several answers or none."""
         found = self.answers(name)
         found = tuple(quantity for quantity in found if quantity.key == name) or found
         if len(found) != 1:
@@ -445,7 +445,7 @@ def read_result(written: Record, name: Word, letters: InLetters, faults: Faults)
 
 
 def read_results(written: Mapping[Word, Record], letters: InLetters, faults: Faults) -> tuple[Result, ...]:
-    """Return all results in symbols, except those with an error."""
+    """Return all results in symbols, except results with an error."""
     found = (read_result(keys, name, letters, faults) for name, keys in written.items())
     return tuple(result for result in found if result is not None)
 
