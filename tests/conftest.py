@@ -51,7 +51,7 @@ SAMPLED = {4: 13, 50: 37}
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
     """Leave out tests of pages in a browser if none is installed, long tests, most cases of tests with many cases, and
-    slow tests that run no line of their own.
+    slow tests that run few lines of their own.
 
     `DERIVE_ALL_TESTS=1 make test` tries all cases; so does a run that names single files or tests.
     """

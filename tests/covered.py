@@ -1,12 +1,12 @@
-"""List slow tests whose lines are all run by other tests. The default run leaves these tests out.
+"""List slow tests that run few lines of their own. The default run leaves these tests out.
 
     python -P -m tests.covered
 
-The tests of a default run are measured line by line, which takes about twice the time of a run. A test is listed if it
-takes more than `SLOW` seconds and if each line of `derive` that it runs is run by at least one test that is not listed.
-The slowest tests are chosen first. Tests in the folders `PROCESSES` are not listed, because lines that other processes
-run are not measured; nor are tests of wrong laws, which each run must refuse. A line that is run is not a line that is
-tested, so run all tests (`DERIVE_ALL_TESTS=1 make test`) before a release.
+The tests of all runs are measured line by line, which takes about twice the time of a run. The default run keeps all
+tests that take less than `SLOW` seconds, all tests of wrong laws, which each run must refuse, and the tests in the
+folders `PROCESSES` that run fewer than `MEASURED` lines, because lines that other processes run are not measured. Then
+it takes the test that adds most lines of `derive` per second, and so on, until no test adds `RATE` lines per second. A
+line that is run is not a line that is tested, so run all tests (`DERIVE_ALL_TESTS=1 make test`) before a release.
 """
 
 from __future__ import annotations
@@ -20,9 +20,10 @@ from pathlib import Path
 import pytest
 
 LIST = Path(__file__).with_name("covered.txt")
-SLOW = 0.1
+SLOW, RATE = 0.1, 4
 PROCESSES = ("tests/building/", "tests/preview/", "tests/cli/", "tests/tools/", "tests/test_i")  # isolated, interrupted
-HEAD = "# Slow tests, all of whose lines are run by other tests: written by `python -P -m tests.covered`.\n"
+MEASURED = 300
+HEAD = "# Slow tests that run few lines of their own: written by `python -P -m tests.covered`.\n"
 
 
 def covered() -> frozenset[str]:
@@ -56,20 +57,23 @@ def lines_by_test(file: Path) -> dict[str, set[tuple[str, int]]]:
 
 
 def superfluous(lines: dict[str, set[tuple[str, int]]], durations: Counter[str]) -> list[str]:
-    """Return slow tests whose lines are all run by tests that are not returned."""
-    runs = Counter(line for each in lines.values() for line in each)
-    chosen = []
-    for test in sorted(lines, key=lambda test: -durations[test]):
-        if durations[test] < SLOW:
-            break
-        if (
-            not test.startswith(PROCESSES)
-            and "wrong" not in test.partition("[")[0]
-            and all(runs[line] > 1 for line in lines[test])
-        ):
-            runs.subtract(lines[test])
-            chosen.append(test)
-    return chosen
+    """Return slow tests that add fewer than `RATE` lines per second to those that the other tests run."""
+    chosen = {test for test in lines if durations[test] >= SLOW and not _is_kept(test, lines[test])}
+    run = set[tuple[str, int]]().union(*(each for test, each in lines.items() if test not in chosen))
+    own = {test: lines[test] - run for test in chosen}
+
+    def rate(test: str) -> float:
+        return len(own[test]) / durations[test]
+
+    while own and rate(best := max(own, key=rate)) >= RATE:
+        added = own.pop(best)
+        for each in own.values():
+            each -= added
+    return sorted(own)
+
+
+def _is_kept(test: str, lines: set[tuple[str, int]]) -> bool:
+    return "wrong" in test.partition("[")[0] or test.startswith(PROCESSES) and len(lines) < MEASURED
 
 
 def main() -> None:
@@ -81,7 +85,7 @@ def main() -> None:
         status = pytest.main(["-n", "2", "--dist", "worksteal", *options], plugins=[durations])
         lines = lines_by_test(Path(folder) / "coverage")
     chosen = superfluous(lines, durations.of)
-    LIST.write_text(HEAD + "".join(f"{test}\n" for test in sorted(chosen)), encoding="utf-8")
+    LIST.write_text(HEAD + "".join(f"{test}\n" for test in chosen), encoding="utf-8")
     saved = sum(durations.of[test] for test in chosen)
     print(f"{len(chosen)} tests are listed, with {saved:.0f} of {durations.of.total():.0f} seconds")
     sys.exit(status)
