@@ -129,8 +129,8 @@ def _difference_of_powers(value: Expr) -> Expr | None:
     roots = [power for power in value.atoms(Pow) if power.exp.is_Rational and not power.exp.is_Integer]
     if len(terms) != 2 or not roots or any(power.base.is_Add for power in roots):
         return None
-    signs = [term.is_positive - term.is_negative if term.is_real and term.is_nonzero else 0 for term in terms]
-    if sum(signs) != 0 or 0 in signs:
+    signs = [1 if term.is_positive else -1 if term.is_negative else 0 for term in terms]
+    if sorted(signs) != [-1, 1]:
         return None
     n = ilcm(*(power.exp.q for power in roots))
     return tidied(Add(*(sign * (sign * term) ** n for sign, term in zip(signs, terms, strict=True))))
