@@ -326,6 +326,15 @@ def test_a_place_that_may_lie_outside_of_the_interval_has_a_condition() -> None:
     assert equal(top.value, M**2 / (4 * m))
 
 
+def test_an_assumed_relation_bounds_the_interval() -> None:
+    """x (a - x)^2 has zero slope at a/3 and at a, but x < a."""
+    x, a = symbols("x a", positive=True)
+    with recorded(Run()) as run:
+        run.assumed.append(Relation(x, "<", a))
+        place, _ = maximum(given(x * (a - x) ** 2), x)
+    assert place.value == a / 3
+
+
 def test_a_place_outside_of_the_interval_is_none() -> None:
     n = symbols("n", real=True)
     with pytest.raises(Rejected, match="is not stationary for any allowed n"):

@@ -55,7 +55,7 @@ from derive.figures.surroundings import (
     WayMark,
 )
 from derive.figures.tops import euler_angles
-from derive.figures.turning import angle_marks, downwards, line_between, moving_end
+from derive.figures.turning import angle_marks, downwards, line_between, moving_end, on_the_axis
 from derive.mechanics.bodies.placed import PlacedBody
 from derive.mechanics.kinematics.places import Axes, Location
 from derive.mechanics.model.connection import Connection
@@ -709,6 +709,12 @@ class Connections:
         below = self.rows == 3 or line.is_rod or turns or self.number((other - place).components[1]) < 0
         if moving := list(moving_end(self.system, place, line.is_rod)):
             yield from moving
+        elif not is_fixed(self.system, place):  # a prescribed motion on a curve
+            yield FixedEnd(column_of(place), column_of(place) * 0, True)
+            centre = on_the_axis(place)
+            radius = distance_of(centre, place)
+            label = radius if radius.is_Symbol else None
+            yield ConnectionMark(column_of(centre), column_of(place), label=label)
         elif below:
             held = column_of(other - place) if self.in_a_plane else None
             yield FixedEnd(column_of(place), downwards(self.rows), line.is_rod, held)

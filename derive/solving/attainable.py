@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from itertools import islice
 
-from sympy import Expr, Rational, Symbol, cos, sin
+from sympy import Expr, Pow, Rational, Symbol, cos, sin
 
 from derive.algebra.expressions import Relation
 from derive.algebra.ranges import Range, ends_within, range_of
@@ -23,11 +23,19 @@ def within_one(value: Expr) -> tuple[Relation | None, bool]:
     """The condition for -1 < v < 1, and whether v is known to violate it. The condition is None if its truth is
     known."""
     sign = sign_for_all(value)
+    value = _without_higher_root(value) if sign == 1 else value
     room = tidied(1 - value) if sign == 1 else tidied(1 + value) if sign == -1 else tidied(1 - value**2)
     known = sign_for_all(room)
     if known is not None:
         return None, known != 1
     return positive(room), False
+
+
+def _without_higher_root(value: Expr) -> Expr:
+    """Return v^n in place of a positive v with nth roots, n > 2: v^n is less than 1 if and only if v is."""
+    roots = [int(power.exp.q) for power in value.atoms(Pow) if power.exp.is_Rational]
+    n = max(roots, default=1)
+    return tidied(value**n) if n > 2 else value
 
 
 def reached(unknown: Expr, value: Expr) -> tuple[Relation | None, bool]:

@@ -16,7 +16,7 @@ from __future__ import annotations
 from math import prod
 from typing import Any
 
-from sympy import Abs, Add, Dummy, Expr, Integer, Mul, Pow, Rational, expand, factor, factor_list, nan, together
+from sympy import Abs, Add, Dummy, Expr, Integer, Mul, Pow, Rational, expand, factor, factor_list, ilcm, nan, together
 from sympy.polys.polyerrors import PolynomialError
 
 from derive.algebra.expressions import TIME, Relation, explicit, rate
@@ -113,11 +113,27 @@ def _sign_of_factor(factor: Expr, by_numbers: bool) -> int | None:
         return -1 if any(form.is_negative for form in forms) else 1
     if (ranged := strict_sign_within(factor)) is not None:
         return ranged
+    if (powers := _difference_of_powers(factor)) is not None:
+        return _sign_of_product(powers, by_numbers)
     if _is_square_that_lasts(base, power) or _is_positive_by_means(forms[-1]):
         return 1
     if not power.is_Integer and power.is_real and _sign_of_product(base, by_numbers) == 1:
         return 1
     return _sign_by_numbers(factor) if by_numbers else None
+
+
+def _difference_of_powers(value: Expr) -> Expr | None:
+    """Return a^n - b^n, which has the sign of a - b, for a difference of positive terms with nth roots, such as l^(2/3)
+    - c^(2/3)."""
+    terms = Add.make_args(value)
+    roots = [power for power in value.atoms(Pow) if power.exp.is_Rational and not power.exp.is_Integer]
+    if len(terms) != 2 or not roots or any(power.base.is_Add for power in roots):
+        return None
+    signs = [1 if term.is_positive else -1 if term.is_negative else 0 for term in terms]
+    if sorted(signs) != [-1, 1]:
+        return None
+    n = ilcm(*(power.exp.q for power in roots))
+    return tidied(Add(*(sign * (sign * term) ** n for sign, term in zip(signs, terms, strict=True))))
 
 
 def _is_square_that_lasts(base: Expr, power: Expr) -> bool:

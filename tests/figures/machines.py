@@ -88,6 +88,8 @@ def _systems() -> dict[str, System]:
     ends = ORIGIN, point(3 * a, 0)
     bob, upper, lower = Particle(m, hung(l, theta)), Particle(m1, top), Particle(m2, top + hung(l2, phi))
     cart, below = Particle(M, point(x, 0)), Particle(m, point(x, 0) + hung(l, theta))
+    crank = point(a * cos(omega * t), a * sin(omega * t))
+    turned = Particle(m, crank + hung(l, theta))
     shaken, moving = point(a * cos(omega * t), 0), Particle(m, point(a * cos(omega * t), 0) + hung(l, theta))
     in_space = Particle(m, point(l * sin(theta) * cos(phi), l * sin(theta) * sin(phi), -l * cos(theta)))
     on_table, hangs = Particle(m1, point(x - l, 0)), Particle(m2, point(0, -x))
@@ -112,6 +114,7 @@ def _systems() -> dict[str, System]:
         "wedge": System(wedge, block, *contact(wedge, floor), *contact(block, face), W),
         "cart": System(cart, below, *contact(cart, rail), *_rods((cart, below)), W),
         "driven": System(moving, *_rods((shaken, moving)), W),
+        "crank": System(turned, *_rods((crank, turned)), W),
         "hoop": System(*_bead(space.turned(Z, omega * t).place(R * sin(theta), 0, -R * cos(theta)))),
         "spherical": System(in_space, *_rods((point(0, 0, 0), in_space)), W),
         "bowl": System(Particle(m, point(r * cos(phi), r * sin(phi), r**2 / a)), W),

@@ -54,6 +54,12 @@ def test_the_supports_of_upright_pendulums_are_below_them() -> None:
         assert len(grounds) == 2 and max(ends) <= max(grounds) + 1e-6
 
 
+def test_a_support_that_moves_on_a_circle_has_no_ground_but_the_radius_of_the_circle() -> None:
+    found = SKETCHES["crank"]
+    assert [at(each.away) for each in of(found, FixedEnd)] == [[0, 0]]
+    assert labels(found, ConnectionMark) == ["a"]
+
+
 def test_a_support_that_is_shaken_shows_how_far_it_has_moved() -> None:
     assert [str(each) for each in labels(SKETCHES["driven"], DistanceMark)] == ["a*cos(omega*t)"]
 

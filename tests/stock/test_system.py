@@ -253,3 +253,27 @@ def test_all_equilibria_appear_with_a_frequency(tmp_path: Path) -> None:
         only={"text"},
     )
     assert "θ_1 = 0,   θ_2 = π" in page.texts["text"]
+
+
+ON_A_PEG = """\
+title: A rod on a peg
+solve: system
+symbols: {M: mass, l: length, a: length, g: acceleration}
+given:
+  coordinates: {theta: 'angle in (0, pi/2)'}
+  bodies: {rod: {shape: rod, length: l, mass: M, from: [0, -a/tan(theta)], along: [sin(theta), cos(theta)]}}
+  gravity: g
+  assume: [2*a < l]
+statement: A rod <<M>> <<l>> rests on a smooth peg at the distance <<a>> from a smooth wall.
+parts:
+  - {ask: Find the equilibrium., answer: [equilibria, stability]}
+"""
+
+
+def test_a_rod_on_a_peg_rests_where_the_cube_of_the_sine_has_a_value(tmp_path: Path) -> None:
+    """U = M g (l cos(theta)/2 - a cot(theta)) is greatest where sin(theta)^3 = 2 a/l."""
+    found = solved(tmp_path, ON_A_PEG)
+    a = symbols("a", positive=True)
+    assert equal(sin(found["rest"].value) ** 3, 2 * a / l)
+    assert dict(found["rest"].step.words)["seen"] == "any", "a range of an angle is not a side of a distance"
+    assert found["stability"].step.outcome == "unstable"

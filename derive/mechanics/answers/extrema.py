@@ -180,10 +180,20 @@ def _not_one(of: Quantity, x: Symbol, verb: str, count: int, elsewhere: bool) ->
 
 
 def _range_as_interval(x: Symbol) -> Within | None:
-    """Return the range of the symbol as an interval; None if the symbol has no bounded range."""
+    """Return the range of the symbol as an interval, by its numerical bounds or by assumed relations such as b < l.
+
+    None if the symbol has no bounded range.
+    """
     known = range_of(x)
-    is_bounded = known is not None and known.least.is_finite and known.greatest.is_finite
-    return (known.least, known.greatest) if known is not None and is_bounded else None
+    if known is not None and known.least.is_finite and known.greatest.is_finite:
+        return known.least, known.greatest
+    bounds = [(each.operator[0], *each.sides) for each in assumed()]
+    above = [high for mark, low, high in bounds if low == x and mark == "<"]
+    above += [high for mark, high, low in bounds if low == x and mark == ">"]
+    below = [low for mark, low, high in bounds if high == x and mark == "<"]
+    below += [low for mark, high, low in bounds if high == x and mark == ">"]
+    below += [Integer(0)] if x.is_positive and not below else []
+    return (below[0], above[0]) if len(below) == len(above) == 1 else None
 
 
 def _conditions(real: Relation | None, room: Sequence[Relation]) -> dict[str, Relation]:

@@ -265,7 +265,11 @@ def effective_potential(
     """
     if depends_on_time(of.value):
         message = f"`effective_potential`: `{of.key}` contains the time t, so it has no effective potential energy"
-        raise Rejected(Complaint("changes", message))
+        help_line = (
+            "if a support has a constant acceleration A along x, describe the positions relative to the support, and "
+            "add `potential: m*A*x`, with the horizontal position x of the mass m"
+        )
+        raise Rejected(Complaint("changes", message, help=help_line))
     constants = constants or _cyclic(of)
     left = _put_aside(of, constants, "effective_potential")
     rates = rates_by_momenta(of, constants) if constants else ()

@@ -392,7 +392,10 @@ def _ways_across(normal: ImmutableMatrix) -> dict[str, ImmutableMatrix]:
     if 1 in flat:
         return {"x": ImmutableDenseMatrix((n[2], ZERO, -n[0])), "y": flat[1]}
     message = "in space, the components of friction are along axes, but no horizontal axis is in this surface"
-    raise Rejected(Complaint("wrong-argument", message, help="let a horizontal axis be along the surface"))
+    help_line = (
+        "use a plane that contains the direction of x or y; on a sphere, friction without slipping is not available"
+    )
+    raise Rejected(Complaint("wrong-argument", message, help=help_line))
 
 
 def _static_limit(touch: Contact, coefficient: Any, normal: str) -> StaticLimit:

@@ -214,7 +214,7 @@ def _check_one_coordinate(energy: Quantity, value: Expr, q: Coordinate) -> None:
             f"`speed_from_energy` needs an energy that contains only {q.symbol.name} and its rate, "
             f"but `{energy.key}` contains {what}"
         )
-        help_line = None
+        help_line = "name an energy, such as `energy_function`"
         if others:
             other = others[0].name
             help_line = f"with `put_in`, substitute the value of {other}, or the value of its rate from its momentum"

@@ -9,6 +9,7 @@ from itertools import product
 from sympy import Abs, Expr, Mul, Symbol
 
 from derive.algebra.expressions import Relation
+from derive.algebra.ranges import range_of
 from derive.algebra.tidy import tidied
 from derive.solving.relations import positive
 from derive.solving.zeros import Unsolved
@@ -83,7 +84,9 @@ def how_sides_are_taken(coordinates: Sequence[Symbol]) -> str:
 
 
 def _sides_taken(coordinates: Sequence[Symbol]) -> list[Relation]:
-    return [each for each in assumed() if each.operator == ">" and each.residual.has(*coordinates)]
+    """Return the assumed signs of distances; the bound of a range is not such a sign."""
+    taken = (each for each in assumed() if each.operator == ">" and each.residual.has(*coordinates))
+    return [each for each in taken if range_of(each.left) is None]
 
 
 def on_known_sides(value: Expr, exists: Relation | None) -> Expr:

@@ -346,9 +346,8 @@ def higher_lasts(facts: Judged) -> bool:
 
 def sides_as_told(facts: Judged) -> bool:
     """Whether the sentence states the signs of u in distances |u| if and only if such signs are assumed."""
-    sides = [
-        each for each in assumed() if each.operator == ">" and explicit(each.residual).has(*facts.inputs["sought"])
-    ]
+    above = (each for each in assumed() if each.operator == ">" and range_of(each.left) is None)
+    sides = [each for each in above if explicit(each.residual).has(*facts.inputs["sought"])]
     in_words = set(assumed_in_words()).issuperset(sides)
     return facts.words["seen"] == ("any" if not sides else "stretched" if in_words else "one_side")
 

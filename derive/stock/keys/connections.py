@@ -379,9 +379,9 @@ class StringKeys(Record):
                 message = f"`{name}` has no effect on a string with `wound_on`"
                 rejected("unused-key", message, self.places[name], "leave one of them out")
         if self.tension is None:
-            rejected(
-                "missing-key", "a string with `wound_on` needs `tension`, the symbol of its tension", self.places[""]
-            )
+            message = "a string with `wound_on` needs `tension`, the symbol of its tension"
+            help_line = "if the coordinates already keep the string on the body, leave the string out"
+            rejected("missing-key", message, self.places[""], help_line)
         if len(self.wound_on) + (self.start is not None) != 2:
             message = "a string with `wound_on` goes from one place to one round body, or between two round bodies"
             help_line = "write `from` and one body, or no `from` and two bodies"
