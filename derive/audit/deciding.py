@@ -391,8 +391,7 @@ class Decision:
         return None
 
     def may_be_small(self, symbol: Symbol) -> bool:
-        """Whether a letter may have both signs, as a coordinate, or is written in the text before the formula, which may
-        call it small."""
+        """Whether a letter may have both signs, as a coordinate may, or is written in the text before the formula."""
         return not symbol.is_positive or self.is_mentioned(symbol)
 
     def is_mentioned(self, symbol: Symbol) -> bool:
