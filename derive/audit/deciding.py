@@ -395,10 +395,10 @@ class Decision:
         return not symbol.is_positive or self.is_mentioned(symbol)
 
     def is_mentioned(self, symbol: Symbol) -> bool:
-        """Whether a formula in the text just before this one contains a letter."""
+        """Whether the text just before this formula contains a letter."""
         letter = self.meaning.symbols.get(symbol)
         names = {letter.base, symbol.name} if letter is not None else {symbol.name}
-        near = self.claim.row.block.before[-400:] if self.claim.row.block.display else self.claim.row.block.before
+        near = self.claim.row.block.near
         return any(re.search(rf"(?<![A-Za-z]){re.escape(each)}(?![A-Za-z])", near) for each in names)
 
     # Conditions and equations

@@ -131,7 +131,8 @@ def test_the_motion_or_its_velocity_is_wrong() -> None:
 
 
 def test_only_letters_that_change_or_are_named_are_small() -> None:
-    text = "For small $x$,\n$$ y = a - \\frac{m g}{k} \\cos b $$\nso $y = a - \\frac{m g}{k} \\sin b$, approximately."
+    text = "$$ y = a - \\frac{m g}{k} \\cos b $$\n" + "The motion is shown below. " * 20
+    text += "So $y = a - \\frac{m g}{k} \\sin b$, approximately."
     assert [str(each.verdict.outcome) for each in audit(text).claims if each.verdict][-1] != "approximates"
 
 
