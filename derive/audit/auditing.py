@@ -22,7 +22,6 @@ from derive.audit.knowledge import ASSUMED, Known
 from derive.audit.nearest_change import Nearness, letters_in, terms_in
 from derive.audit.slips import WHY, Edit, nearest_edit
 from derive.audit.systems import (
-    equations_of,
     equations_of_motion,
     expanded,
     frequency_equations,
@@ -490,8 +489,8 @@ class _Auditor:
         left = claim.values[0]
         behind = set(left.free_symbols | self.expanded(left).free_symbols) if claim.is_step else set()
         if isinstance(left, Symbol) and not claim.is_step:
-            equations = equations_of(self.known, self.meaning, left, sure=True)
-            behind = set().union(*(each.value.free_symbols for each in equations if left in each.value.free_symbols))
+            letters = [each.free_symbols for each, _ in self.known.equations[-MOST_ROWS:] if left in each.free_symbols]
+            behind = set().union(*letters)
         known = {(each.identity, each.dots) for each in written}
         found = [self.meaning.symbols[each] for each in sorted(behind, key=str) if each in self.meaning.symbols]
         return [each for each in found if (each.identity, each.dots) not in known][:MOST_LOST]

@@ -391,14 +391,14 @@ class Decision:
         return None
 
     def may_be_small(self, symbol: Symbol) -> bool:
-        """Whether a letter changes with time, or is written in the text before the formula, which may call it small."""
-        return bool(changing_letters({symbol}, self.meaning)) or self.is_mentioned(symbol)
+        """Whether a letter may have both signs, as a coordinate may, or is written in the text before the formula."""
+        return not symbol.is_positive or self.is_mentioned(symbol)
 
     def is_mentioned(self, symbol: Symbol) -> bool:
-        """Whether a formula in the text just before this one contains a letter."""
+        """Whether the text just before this formula contains a letter."""
         letter = self.meaning.symbols.get(symbol)
         names = {letter.base, symbol.name} if letter is not None else {symbol.name}
-        near = self.claim.row.block.before[-400:] if self.claim.row.block.display else self.claim.row.block.before
+        near = self.claim.row.block.near
         return any(re.search(rf"(?<![A-Za-z]){re.escape(each)}(?![A-Za-z])", near) for each in names)
 
     # Conditions and equations
@@ -803,7 +803,7 @@ def order_of_error(
     """Return small letters in which two sides agree to the leading order, and the order of their difference;
     otherwise None."""
     symbols = left.free_symbols | right.free_symbols
-    for letters in among or small_letters(symbols, meaning):
+    for letters in small_letters(symbols, meaning) if among is None else among:
         slopes = []
         for point in _points(symbols, 5):
             sizes = []

@@ -128,7 +128,8 @@ def _here(node: Node, letters: Sequence[Letter], shown: Callable[[Span], str]) -
     elif isinstance(node, Pow) and isinstance(node.exponent, Num):
         yield Edit(node.base, node.span, was, shown(node.base.span), "exponent", 0.95)
     elif isinstance(node, Frac):
-        yield Edit(replace(node, top=node.bottom, bottom=node.top), node.span, was, "", "fraction", 2.2)
+        turned = f"\\frac{{{shown(node.bottom.span)}}}{{{shown(node.top.span)}}}"
+        yield Edit(replace(node, top=node.bottom, bottom=node.top), node.span, was, turned, "fraction", 2.2)
     elif isinstance(node, Fun) and node.name in OTHER_FUNCTION:
         name = OTHER_FUNCTION[node.name]
         yield Edit(replace(node, name=name), node.span, was, f"\\{name}", "function", 1.3)

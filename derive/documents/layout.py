@@ -67,6 +67,7 @@ WORDS = {"text", "textrm", "mbox", "textnormal", "intertext", "shortintertext", 
 
 SIGNS_OF_NOTES = ("dagger", "ddagger", "star", "ast", "square", "checkmark", "blacksquare")
 MOST_FORMULAS = 20_000
+NEAR = 400  # characters of the text before a formula that may explain it
 LONGEST_INLINE = 2_000  # the greatest number of characters of a formula in a sentence
 
 
@@ -155,6 +156,7 @@ class Block:
     heading: int
     rows: list[Row] = field(default_factory=list)
     part: int = 0  # how many headings, items and marks such as (a) come before it
+    near: str = ""  # the last characters of the text before it, with formulas
 
     @cached_property
     def cues(self) -> frozenset[Cue]:
@@ -296,6 +298,7 @@ class _Reading:
                 before = self.text[max(self.headings[heading].span.end, outer.start - 2000) : outer.start]
             block = Block(display, environment, outer, before, self.sentence(outer, display), heading)
             block.part = bisect_right(self.parts, outer.start)
+            block.near = self.text[max(0, outer.start - NEAR) : outer.start]
             self.read_rows(block, inner)
             found.append(block)
             done = outer.end

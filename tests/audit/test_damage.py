@@ -71,16 +71,74 @@ $$ m \ddot x + k x = 0. $$
         ),
         ("A small angle has", r" $\cos\theta \approx 1 - \frac12 \theta^2$", r" $\cos\theta \approx 1 - \theta^2$"),
         ("The tensor has", " $I_{31} = I_{13}$", " $I_{31} = I_{31}$"),
+        (MODES + "The period is\n", r"$$ \tau = 2\pi \sqrt{\frac{m}{k}} $$", r"$$ \tau = 3\pi \sqrt{\frac{m}{k}} $$"),
+        (MODES + "The frequency is\n", r"$$ \omega_0 = \sqrt{\frac{k}{m}} $$", r"$$ \omega_0 = \sqrt{\frac{m}{k}} $$"),
+        (MODES + "This is\n", r"$$ \ddot x + \omega_0^2 x = 0 $$", r"$$ \ddot x - \omega_0^2 x = 0 $$"),
+        ("$$ m \\ddot y = - m g $$\n", r"$$ y = v t - \frac12 g t^2 $$", r"$$ y = v t - \frac22 g t^2 $$"),
+        (
+            "$$ L = \\frac12 m l^2 \\dot\\theta^2 + m g l \\cos\\theta $$\nFor small angles\n",
+            r"$$ l \ddot\theta + g \theta = 0 $$",
+            r"$$ l \ddot\theta - g \theta = 0 $$",
+        ),
+        (
+            LAGRANGIAN[: LAGRANGIAN.index("and the")] + "Lagrange's equation is\n",
+            r"$$ m \ddot x + k x = 0 $$",
+            r"$$ m \ddot x - k x = 0 $$",
+        ),
+        (
+            "$$ N = m g $$\n$$ M \\ddot x = \\mu N $$\n",
+            r"$$ \ddot x = \frac{\mu N}{M} $$",
+            r"$$ \ddot x = \frac{\mu}{M} $$",
+        ),
+        (
+            "The area is\n",
+            r"$$ A = \int_0^a \int_0^b x^2 \, dx \, dy $$",
+            r"$$ A = \int_0^a \int_0^b x^2 \, dx $$",
+        ),
+        (
+            "The momentum is\n$$ m u = (M + m) w. $$\nThe ball sticks, so",
+            r" $w = \frac{m}{M + m} u$",
+            r" $w = \frac{m}{M + v} u$",
+        ),
     ],
     ids=[
         "Lagrange", "Lagrange, solved", "a system", "a force", "a root", "a square", "the row above", "a Lagrangian",
-        "a letter twice", "a lost term", "an approximation", "an index",
+        "a letter twice", "a lost term", "an approximation", "an index", "a period", "a frequency", "an oscillation",
+        "a motion", "a linear equation", "T - U", "a lost letter", "a differential", "a strange letter",
     ],
 )  # fmt: skip
 def test_what_follows_from_earlier_rows_is_compared_with_them(before: str, right: str, slip: str) -> None:
     assert wrong(before + right) == []
     (claim,) = wrong(before + slip)
     assert claim.right_span.end > len(before)
+
+
+EXPLAINED = (
+    "The moment is\n$$ I = \\lambda \\int_0^l x^2 dx = \\frac{1}{3} M l^2, $$\nwhere $\\lambda$ = $M/l$ is the density."
+)
+
+
+def test_the_sentence_after_a_display_explains_its_letters() -> None:
+    assert [str(each.verdict.outcome) for each in audit(EXPLAINED).claims if each.verdict][:2] == ["defines", "holds"]
+    (claim,) = wrong(EXPLAINED.replace("{3}", "{4}"))
+    assert claim.number == 1
+
+
+def test_the_motion_or_its_velocity_is_wrong() -> None:
+    text = r"$$ m \ddot y = - m g $$ $$ y = v t - \frac22 g t^2, \qquad \dot y = v - g t $$"
+    assert [each.verdict.or_lines for each in wrong(text) if each.verdict] in ([(1,)], [()])
+    assert "instead of" in wrong(text)[0].verdict.because + wrong(text)[0].verdict.suggestion  # type: ignore[union-attr]
+
+
+def test_only_letters_that_change_or_are_named_are_small() -> None:
+    text = "$$ y = a - \\frac{m g}{k} \\cos b $$\n" + "The motion is shown below. " * 20
+    text += "So $y = a - \\frac{m g}{k} \\sin b$, approximately."
+    assert [str(each.verdict.outcome) for each in audit(text).claims if each.verdict][-1] != "approximates"
+
+
+def test_a_definition_of_another_letter_has_no_roots() -> None:
+    text = "$$ r = \\frac{R z}{h} $$\n\nThe centre is at\n\n$$ z_C = \\frac{3}{4} h $$"
+    assert [str(each.verdict.outcome) for each in audit(text).claims if each.verdict] == ["defines", "defines"]
 
 
 def test_a_right_system_holds() -> None:
