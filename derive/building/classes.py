@@ -14,6 +14,7 @@ import json
 import os
 import time
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
@@ -250,6 +251,7 @@ def made_class(
         if older:
             report.warnings.append(_older(shared, older))
         report.warnings += _older_set(root, set_id, engine)
+        report.warnings += _same_for_all(shared)
         _write_answers(shared, students)
         _write_page(shared, students, current)
         if len(current) == len(students):
@@ -390,6 +392,17 @@ def _rows(student: Student, problem: str, page: Mapping[str, Any]) -> list[tuple
             of_part = (student.code, student.name, problem, part["label"], key)
             rows.append((*of_part, answer["text"], value, unit, str(number.get("figures") or "")))
     return rows
+
+
+def _same_for_all(shared: ClassDocuments) -> list[Complaint]:
+    """Return a warning if no problem of the set has variants."""
+    from derive.course.problem_file import written_problem
+
+    with suppress(DeriveError):  # the errors of the problems are already reported
+        if not any(written_problem(shared.root, each, Faults()).variants for each in shared.heading.problems):
+            message = f"no problem of `{shared.set_id}` has `variants:`, so all students have the same values"
+            return [Complaint("variants", message, severity="warning")]
+    return []
 
 
 def _remove_others(shared: ClassDocuments, students: Sequence[Student], before: ClassRecord | None) -> None:
