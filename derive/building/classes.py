@@ -388,10 +388,15 @@ def _rows(student: Student, problem: str, page: Mapping[str, Any]) -> list[tuple
         for key in part["answers"]:
             answer = page["answers"][key]
             number = answer["number"] or {}
-            value, unit = str(number.get("value", "")), number.get("unit", answer["unit"])
+            value, unit = _number_told(number.get("value", "")), number.get("unit", answer["unit"])
             of_part = (student.code, student.name, problem, part["label"], key)
             rows.append((*of_part, answer["text"], value, unit, str(number.get("figures") or "")))
     return rows
+
+
+def _number_told(value: float | str | Sequence[float]) -> str:
+    """Return a number, or the components of a vector in the form in which `derive grade` reads them."""
+    return f"({', '.join(map(str, value))})" if isinstance(value, list) else str(value)
 
 
 def _same_for_all(shared: ClassDocuments) -> list[Complaint]:
