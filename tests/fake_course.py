@@ -9,13 +9,14 @@ from __future__ import annotations
 import os
 import signal
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
 from types import ModuleType
 from typing import Any
 
 import derive.building
+from derive.building.document_list import Paper, listed
 from derive.course.problem_set import path_of
 from derive.errors import Complaint, Place, Rejected
 from derive.render.formats import formats
@@ -152,8 +153,8 @@ def problem_page(root: Path, problem: Rendered, heading: object) -> str:
     return f"<!-- {problem.id} -->{problem.html}\n"
 
 
-def index_page(root: Path, heading: object, problems: list[Rendered], *_: object, **__: object) -> str:
-    return "".join(f"<!-- {problem.id} -->\n" for problem in problems) + '<ul class="documents"></ul>\n'
+def index_page(root: Path, heading: Any, problems: list[Rendered], papers: Sequence[Paper] = (), **_: object) -> str:
+    return "".join(f"<!-- {problem.id} -->\n" for problem in problems) + listed(root, heading.id, papers)
 
 
 class Course:

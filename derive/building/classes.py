@@ -14,6 +14,7 @@ import json
 import os
 import time
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
@@ -250,6 +251,7 @@ def made_class(
         if older:
             report.warnings.append(_older(shared, older))
         report.warnings += _older_set(root, set_id, engine)
+        report.warnings += _same_for_all(shared)
         _write_answers(shared, students)
         _write_page(shared, students, current)
         if len(current) == len(students):
@@ -386,10 +388,26 @@ def _rows(student: Student, problem: str, page: Mapping[str, Any]) -> list[tuple
         for key in part["answers"]:
             answer = page["answers"][key]
             number = answer["number"] or {}
-            value, unit = str(number.get("value", "")), number.get("unit", answer["unit"])
+            value, unit = _number_told(number.get("value", "")), number.get("unit", answer["unit"])
             of_part = (student.code, student.name, problem, part["label"], key)
             rows.append((*of_part, answer["text"], value, unit, str(number.get("figures") or "")))
     return rows
+
+
+def _number_told(value: float | str | Sequence[float]) -> str:
+    """Return a number, or the components of a vector in the form in which `derive grade` reads them."""
+    return f"({', '.join(map(str, value))})" if isinstance(value, list) else str(value)
+
+
+def _same_for_all(shared: ClassDocuments) -> list[Complaint]:
+    """Return a warning if no problem of the set has variants."""
+    from derive.course.problem_file import written_problem
+
+    with suppress(DeriveError):  # the errors of the problems are already reported
+        if not any(written_problem(shared.root, each, Faults()).variants for each in shared.heading.problems):
+            message = f"no problem of `{shared.set_id}` has `variants:`, so all students have the same values"
+            return [Complaint("variants", message, severity="warning")]
+    return []
 
 
 def _remove_others(shared: ClassDocuments, students: Sequence[Student], before: ClassRecord | None) -> None:

@@ -87,15 +87,20 @@ def list_again(root: Path, set_id: str, record: Callable[[Manifest], None] | Non
         manifest.save()
 
 
+def older_in(root: Path, manifest: Manifest) -> list[str]:
+    """Return the documents and exports of a set that are older than their problems."""
+    recipe, read = recipe_of(root, of_set=manifest.of_set), cache(lambda path: file_digest(root / path))
+    named = [*(file for _, file in manifest.documents), *manifest.exports]
+    return [name for name in named if manifest.is_older(name, recipe, read)]
+
+
 def update_list(root: Path, set_id: str, manifest: Manifest) -> None:
     """Update the list of documents on the page of a set, with a mark at each document that is older than its problems,
     unless a user has edited this page."""
     page = manifest.folder / f"{INDEX}.html"
     if not manifest.holds(page.name):
         return
-    recipe, read = recipe_of(root, of_set=manifest.of_set), cache(lambda path: file_digest(root / path))
-    named = [*(file for _, file in manifest.documents), *manifest.exports]
-    older = [name for name in named if manifest.is_older(name, recipe, read)]
+    older = older_in(root, manifest)
     there = listed(root, set_id, papers(root, set_id, there_of(manifest.folder, manifest.documents), older))
     write(page, _LIST.sub(lambda _: there, page.read_text(encoding="utf-8"), count=1))
     manifest.wrote(page.name)

@@ -243,9 +243,10 @@ class _Build:
                 if self.whole_failed and not self.result.failed:  # otherwise another error is already reported
                     self._took(self.whole_failed)
                 if not self.result.failed:
-                    from derive.building.document_list import update_list
+                    if len(self.derived) < len(self.names):
+                        from derive.building.document_list import update_list
 
-                    update_list(self.root, self.set_id, self.manifest)
+                        update_list(self.root, self.set_id, self.manifest)
                     self.manifest.engine = engine_digest(*PACKAGES)
                     self.manifest.complete = len(self.derived) == len(self.names)
             finally:
@@ -386,15 +387,16 @@ class _Build:
         """Make the documents of the set, if all its problems are derived and nothing has failed."""
         if len(self.derived) < len(self.names) or self.result.failed:
             return
-        from derive.building.document_list import papers, papers_of, there_of
+        from derive.building.document_list import older_in, papers, papers_of, there_of
         from derive.building.set_document import document_page, index_page, the_document
 
         parts = [self.derived[name] for name in self.names]
         files = tuple(file for part in parts for file in part.files)
         logo = ((LOGO, self.heading.logo),) if self.heading.logo else ()
         there = there_of(self.outputs, self.documents, self._wanted())
+        older = {*older_in(self.root, self.manifest)} - {file for _, file in self._wanted()}
         index = partial(index_page, self.root, self.heading, parts)
-        pages = self._page(INDEX, partial(index, papers(self.root, self.set_id, there)))
+        pages = self._page(INDEX, partial(index, papers(self.root, self.set_id, there, older)))
         sheets = papers_of(self.root, self.set_id, [pair for pair in there if pair[0] == SHEET])
         pages |= self._page(f"{STUDENTS}/{INDEX}", partial(index, sheets, for_students=True))
         if self._record(pages):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import re
 from collections.abc import Callable, Iterable
+from contextlib import suppress
 from typing import Any
 
 from derive.course.names import DOCUMENTS
@@ -292,15 +293,15 @@ def named(action: argparse.Action, names: str) -> None:
 
 
 def _positive(text: str) -> float:
-    seconds = float(text)
-    if not 0 < seconds < 1e6:
-        raise ValueError(text)
-    return seconds
+    with suppress(ValueError):
+        if 0 < (seconds := float(text)) < 1e6:
+            return seconds
+    raise argparse.ArgumentTypeError(f"`{text}` is not a time in seconds, such as 60")
 
 
 def _count(text: str) -> int:
-    if int(text) < 1:
-        raise ValueError(text)
+    if not re.fullmatch("0*[1-9][0-9]{0,8}", text):
+        raise argparse.ArgumentTypeError(f"`{text}` is not a whole number from 1, such as 4")
     return int(text)
 
 
@@ -321,11 +322,6 @@ def _width(text: str) -> float:
 
 
 def _port(text: str) -> int:
-    if not 0 <= int(text) < 65536:
-        raise ValueError(text)
+    if not re.fullmatch("[0-9]{1,5}", text) or int(text) > 65535:
+        raise argparse.ArgumentTypeError(f"`{text}` is not a port, which is a whole number from 0 to 65535")
     return int(text)
-
-
-# argparse shows these names in its messages
-_positive.__name__, _port.__name__ = "time limit", "port"
-_count.__name__ = "count"

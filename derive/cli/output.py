@@ -15,7 +15,7 @@ _WRITTEN_BY_HAND = {".py", ".yaml", ".yml", ".j2", ".toml", ".md"}
 
 
 def check_output(output: str | None, root: Path) -> None:
-    """Before any work, reject a target of `-o` that is a link or a file written by hand."""
+    """Before any work, reject a target of `-o` that is a link, a folder or a file written by hand."""
     if output in (None, "-"):
         return
     path = Path(output or "")
@@ -32,6 +32,8 @@ def _kept_from(path: Path, root: Path) -> str:
     """Return the reason why a path must not be written to; the text is empty if writing is allowed."""
     if os.path.islink(path):
         return f"`{path}` is a link, and its target is not replaced"
+    if os.path.isdir(path):
+        return f"`{path}` is a folder"
     by_hand = path.suffix in _WRITTEN_BY_HAND and not _is_ours(path)
     written = os.path.isfile(path) and (by_hand or _belongs_to(path, root))
     return f"`{path}` is a file written by hand, and is not replaced" if written else ""

@@ -73,11 +73,12 @@ def problem_id_of(text: str) -> str:
 def new_id_of(text: str) -> str:
     """Return the id of a new problem from the id or path that the user wrote.
 
-    The path of a file that exists may begin anywhere; any other path begins with `problems/`.
+    The path of a file or a folder that exists may begin anywhere; any other path begins with `problems/`.
     """
     with suppress(OSError, ValueError, RuntimeError):  # it is not the path of a file in the folder `problems`
         file, root = Path(text).expanduser(), found_root(None)
-        if root is not None and file.suffix == ".yaml" and file.is_file():
+        is_folder = file.is_dir() and (text == "." or "/" in text)
+        if root is not None and (is_folder or (file.suffix == ".yaml" and file.is_file())):
             text = file.resolve().relative_to((root / "problems").resolve()).as_posix()
     return text.removeprefix("./").removeprefix("problems/").removesuffix(".yaml").rstrip("/")
 

@@ -20,7 +20,10 @@ _RUNS = ("=", "+", "-", "@", "\t", "\r", "|", "%")
 
 @dataclass(frozen=True)
 class Row:
-    """One answer, with all cells of its row and its line number in the file."""
+    """One answer, with all cells of its row and its line number in the file.
+
+    is_split   whether the row has more cells than the first line, so that its answer may be cut
+    """
 
     line: int
     cells: tuple[str, ...]
@@ -28,6 +31,7 @@ class Row:
     problem: str
     part: str
     answer: str
+    is_split: bool = False
 
 
 @dataclass
@@ -104,7 +108,8 @@ def _row(line: int, cells: Sequence[str], columns: dict[str, int], width: int, p
         return text[1:] if text.startswith("'") and text[1:].lstrip().startswith(_RUNS) else text
 
     named = cell("problem").strip()
-    return Row(line, tuple(padded), cell("student"), named or problem, cell("part"), cell("answer"))
+    is_split = any(each.strip() for each in cells[width:])
+    return Row(line, tuple(padded), cell("student"), named or problem, cell("part"), cell("answer"), is_split)
 
 
 def written_table(table: Table, verdicts: Iterable[Sequence[str]]) -> str:

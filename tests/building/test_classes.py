@@ -72,6 +72,15 @@ def test_a_roster_that_is_missing_or_not_text_is_an_error(tmp_path: Path) -> Non
             read_roster(tmp_path / name)
 
 
+def test_a_class_without_variants_is_warned_of(tmp_path: Path) -> None:
+    bead(tmp_path, "{b: [10 cm, 20 cm]}")
+    file = tmp_path / "problems" / "week1" / "bead.yaml"
+    assert made_class(tmp_path, "week1", [], jobs=1).warnings == []
+    file.write_text("".join(line for line in file.read_text().splitlines(True) if not line.startswith("variants:")))
+    (warning,) = made_class(tmp_path, "week1", [], jobs=1).warnings
+    assert warning.message == "no problem of `week1` has `variants:`, so all students have the same values"
+
+
 def text_of(pdf: Path) -> str:
     return " ".join(page.extract_text() for page in PdfReader(pdf).pages)
 

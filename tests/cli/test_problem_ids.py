@@ -33,6 +33,7 @@ def test_the_path_of_a_problem_may_begin_anywhere(
     monkeypatch.chdir(course.folder)
     assert {problem_id_of(path) for path in ("one.yaml", str(file), "../hw1/one.yaml", "hw1/one")} == {"hw1/one"}
     assert problem_id_of(str(elsewhere)) != "hw1/one"
+    assert {problem_id_of(path) for path in (".", str(course.folder), "../hw1/", "hw1")} == {"hw1"}
 
 
 def test_the_root_is_found_above_and_by_name(

@@ -159,15 +159,24 @@ def test_one_bad_row_stops_no_other(tmp_path: Path, capfd: pytest.CaptureFixture
     answers = tmp_path / "answers.csv"
     answers.write_text(
         "student,problem,part,answer\nA,block,b,7/24 M a^2 w^2\nB,block,b,9^{9^{9}}\nC,block,q,1\nD,blok,b,1\n"
-        "E,block,(c),21.64°\n",
+        "E,block,(c),21.64°\nF,block,b,(1, 2)\n",
         encoding="utf-8",
     )
     assert main(["grade", "hw9", "--answers", str(answers), "--format", "json"]) == 1
     out, err = capfd.readouterr()
     verdicts = [row["verdict"] for row in json.loads(out)["rows"]]
-    assert verdicts == ["equal", "unreadable", "not graded", "not graded", "equal"]
+    assert verdicts == ["equal", "unreadable", "not graded", "not graded", "equal", "not graded"]
     assert "no problem is called `blok`" in err
     assert "has no part `q`" in err
+    assert f"line 7 of `{answers}`: the row has more cells than the first line" in err
+
+
+def test_the_table_of_the_answers_is_not_replaced(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    answers = tmp_path / "answers.csv"
+    answers.write_text("student,problem,part,answer\nA,block,b,1\n")
+    assert main(["grade", "hw9", "--answers", str(answers), "-o", str(tmp_path / "." / "answers.csv")]) == 2
+    assert "is the table of the answers itself" in capfd.readouterr().err
+    assert answers.read_text().endswith("A,block,b,1\n")
 
 
 PLATE = """\

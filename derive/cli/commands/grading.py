@@ -92,10 +92,13 @@ def _grade_table(arguments: argparse.Namespace) -> int:
 
     root = root_of(arguments)
     check_output(arguments.output, root)
+    if arguments.output not in (None, "-") and Path(arguments.output).resolve() == Path(arguments.answers).resolve():
+        message = f"`{arguments.output}` is the table of the answers itself, and is not replaced"
+        raise Misused(Complaint("output", message, help="name another file"))
     answers, ids = _asked(arguments, root)
     asked: dict[str, list[Asked]] = {}
     for number, (row, problem_id) in enumerate(zip(answers.rows, ids, strict=True)):
-        if problem_id is not None:
+        if problem_id is not None and not row.is_split:
             asked.setdefault(problem_id, []).append((number, row.part, row.answer, row.student.strip()))
     if len(asked) > 1:
         preload(root, derives=True, draws=False)
@@ -107,7 +110,14 @@ def _grade_table(arguments: argparse.Namespace) -> int:
     found = grade_answers(root, asked, arguments.jobs or os.cpu_count() or 1, arguments.time_limit, tick, of_class)
     tell("")
     unknown = NotGraded(Complaint("no-such-problem", "there is no such problem"))
-    results = [found.get(number, unknown) for number in range(len(answers.rows))]
+    split = NotGraded(
+        Complaint(
+            "csv",
+            "the row has more cells than the first line",
+            help=f"put an answer that contains `{answers.delimiter}` in double quotes",
+        )
+    )
+    results = [found.get(number, split if row.is_split else unknown) for number, row in enumerate(answers.rows)]
     deliver(_written(arguments, answers, results).encode(), arguments.output)
     lost = [
         (row, each.complaint) for row, each in zip(answers.rows, results, strict=True) if isinstance(each, NotGraded)

@@ -15,12 +15,15 @@ from derive.errors import Complaint, DeriveError, Misused, did_you_mean
 
 
 def list_problems(arguments: argparse.Namespace) -> int:
-    from derive.course.problem_set import known_set, problem_paths, topic_of
+    from derive.course.problem_set import found_path, known_set, problem_paths, topic_of
 
     root = root_with(arguments, new_id_of(arguments.set).partition("/")[0]) if arguments.set else root_of(arguments)
     if arguments.answers:
         return _list_answers(arguments, root)
     warn_of_names(root)
+    if arguments.set and found_path(root, problem_id := problem_id_of(arguments.set)):
+        message, help_line = f"`{problem_id}` is a problem", "`--answers` lists what its parts may ask for"
+        raise Misused(Complaint("no-such-set", message, help=help_line))
     within = f"{known_set(root, new_id_of(arguments.set))}/" if arguments.set else ""
     paths = {problem: path for problem, path in sorted(problem_paths(root).items()) if problem.startswith(within)}
     topics = {problem: topic_of(path) for problem, path in paths.items()}
@@ -53,14 +56,15 @@ def _warn_of_sets(root: Path, names: Iterable[str]) -> None:
 
 
 def _list_answers(arguments: argparse.Namespace, root: Path) -> int:
-    from derive.building.answers import answers_of
-    from derive.building.workers import done, job_of
     from derive.course.problem_set import path_of
 
     if not arguments.set or "/" not in (problem_id := problem_id_of(arguments.set)):
         message = "`--answers` lists the answers of one problem"
         raise Misused(Complaint("no-such-problem", message, help="for example `derive list hw9/block --answers`"))
     path_of(root, problem_id)
+    from derive.building.answers import answers_of
+    from derive.building.workers import done, job_of
+
     with waiting(f"deriving {problem_id}"):
         work = partial(answers_of, root, problem_id)
         rows = done(job_of(root, problem_id, work, arguments.time_limit))

@@ -29,9 +29,10 @@ def solve(arguments: argparse.Namespace) -> int:
 
     problem_id, limit = problem_id_of(arguments.id), arguments.time_limit
     root = root_with(arguments, problem_id.partition("/")[0])
-    if arguments.width and arguments.format != "fragment":
-        message = "`--width` has no effect without `--format fragment`"
-        raise Misused(Complaint("usage", message, help="leave it out"))
+    for option, form in (("width", "fragment"), ("engine", "pdf")):
+        if getattr(arguments, option) and arguments.format != form:
+            message = f"`--{option}` has no effect without `--format {form}`"
+            raise Misused(Complaint("usage", message, help="leave it out"))
     check_output(arguments.output, root)
     path_of(root, problem_id)
     set_id, form = problem_id.partition("/")[0], arguments.format

@@ -34,7 +34,7 @@ def test_a_port_that_is_taken_is_told(capfd: pytest.CaptureFixture[str]) -> None
 def test_a_port_is_a_number_that_a_port_can_have(port: str, capfd: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit):
         main(["preview", "hw9/block", "--port", port])
-    assert "invalid port value" in capfd.readouterr().err
+    assert "is not a port" in capfd.readouterr().err
 
 
 @pytest.mark.parametrize(("options", "lines"), [((), 4), (("-q",), 3)])
