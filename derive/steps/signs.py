@@ -132,7 +132,7 @@ def _difference_of_powers(value: Expr) -> Expr | None:
     signs = [1 if term.is_positive else -1 if term.is_negative else 0 for term in terms]
     if sorted(signs) != [-1, 1]:
         return None
-    n = ilcm(*(power.exp.q for power in roots))
+    n = ilcm(1, *(power.exp.q for power in roots))
     return tidied(Add(*(sign * (sign * term) ** n for sign, term in zip(signs, terms, strict=True))))
 
 
