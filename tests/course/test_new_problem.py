@@ -41,10 +41,10 @@ def test_an_editor_is_told_of_the_schema(tmp_path: Path) -> None:
 def test_the_list_of_a_set_grows_by_one_name_and_keeps_the_rest(tmp_path: Path, listed: str) -> None:
     root = course_in(tmp_path)
     file = root / "problems" / "hw9" / "set.yaml"
-    file.write_text(f"course: M  # mine\ntitle: T\n{listed}date: today\n")
+    file.write_text(f"# mine\ncourse: M\ntitle: T\n{listed}date: today\n")
     written(root, "hw9/wheel", "body")
     assert problem_set(root, "hw9").problems == ("hw9/block", "hw9/wheel")
-    assert "course: M  # mine\n" in file.read_text() and file.read_text().endswith("date: today\n")
+    assert "# mine\ncourse: M\n" in file.read_text() and file.read_text().endswith("date: today\n")
 
 
 def test_a_file_that_is_there_is_never_written_over(tmp_path: Path) -> None:
