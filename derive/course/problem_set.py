@@ -234,7 +234,8 @@ def known_set(root: Path, set_id: str) -> str:
 
 
 def problem_set(root: Path, set_id: str) -> ProblemSet:
-    """Return the set; raise `Misused` if it does not exist, and one `Rejected` with all errors of its file."""
+    """Return the set. Raise `Misused` if it does not exist; if its file has errors, raise one `Rejected` with all of
+    them."""
     path = f"problems/{known_set(root, set_id)}/set.yaml"
     faults = Faults()
     of_course = _course(root, faults)

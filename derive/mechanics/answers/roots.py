@@ -417,7 +417,7 @@ def _assumed(unknown: Expr) -> dict[str, bool]:
     "the roots of an equation; for another answer, its zeros",
     equation="roots: an equation, or another answer",
     letter="for: a letter, or `cos(theta)`",
-    root="root: one of several: `positive`, `negative`, `largest`, `smallest`, `2`",
+    root="root: which root: `positive`, `negative`, `largest`, `smallest`, or its number, such as `2`",
     symbols="symbol: one for each root",
 )
 def _in_results(
