@@ -604,8 +604,8 @@ class Decision:
         ]
 
     def with_several_values(self) -> Symbol | None:
-        """Return a letter that has several values in one part; only letters that one side lacks, and letters in their
-        definitions, are searched."""
+        """Return a letter that has several values in one part; None if there is no such letter. Only letters that one
+        side lacks, and letters in their definitions, are searched."""
         one_side = self.left.free_symbols ^ self.right.free_symbols
         for symbol in sorted(one_side, key=str):
             definition = self.known.latest(symbol)

@@ -391,7 +391,9 @@ def _check_portrait(drawing: Placement, faults: Faults) -> None:
         message = f"`panels` has no effect on the phase portrait `{drawing.key}`: each case has its own panel"
         faults.error("unused-key", message, drawing.place, help="leave it out")
     if not drawing.is_portrait:
-        message = f"the phase portrait `{drawing.key}` needs `plot` with one answer, `levels` and `over`"
+        message = (
+            f"the phase portrait `{drawing.key}` needs `plot` with one answer, `levels`, and `over` with two ranges"
+        )
         help_line = "such as `plot: hamiltonian, levels: [m*g*l], over: {theta: [-180 deg, 180 deg], p_theta: [...]}`"
         faults.error("missing-key", message, drawing.place, help=help_line)
     elif extra:

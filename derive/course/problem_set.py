@@ -252,7 +252,8 @@ def problem_set(root: Path, set_id: str) -> ProblemSet:
     faults.stop()
 
     def own(name: str) -> str | None:
-        """Return the value of a key of the set or, if the set does not have it, the value of the course."""
+        """Return the value of a key of the set or, if the set does not have it, the value of the course; None if both
+        lack the key."""
         found: str | None = getattr(written, name) or getattr(of_course, name)
         return found
 
@@ -317,7 +318,7 @@ def _shared(root: Path, set_id: str, *names: str) -> dict[str, Any]:
 
 
 def _logo(root: Path, path: Word, faults: Faults) -> bytes | None:
-    """Return the content of a logo, which must be a small PNG file of the course."""
+    """Return the content of a logo, which must be a small PNG file of the course; after an error, None."""
     file = root / path
     help_line = "name a PNG file in the folder of the course, such as `logo.png`"
     if not file.resolve().is_relative_to(root.resolve()) or not file.is_file():

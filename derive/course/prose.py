@@ -196,7 +196,7 @@ def _some_prose(node: Tree, what: str, faults: Faults) -> Prose | None:
 
 
 def latex_in(prose: Prose) -> Complaint | None:
-    """Return a warning about the first LaTeX outside of dollar signs, if there is any."""
+    """Return a warning about the first LaTeX outside of dollar signs; None if there is none."""
     found = [*_LATEX.finditer(_PIECE.sub(_blanked, prose.text))]
     if not found:
         return None

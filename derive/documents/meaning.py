@@ -434,7 +434,8 @@ class Meaning:
         return Integer(0)
 
     def variable_of_call(self, named: Node | None, own: Any) -> Symbol | None:
-        """Return the variable of a function that is written with a number: theta for U(0) and for U(theta = 0)."""
+        """Return the variable of a function that is written with a number: theta for U(0) and for U(theta = 0). Return
+        None for U(0) if the function does not have exactly one known variable."""
         if named is not None:
             letter = _letter_in(named)
             return self.symbol(letter) if letter is not None else None
@@ -521,7 +522,8 @@ class Meaning:
         return total
 
     def written_with_prime(self, value: Expr, by: Symbol) -> Symbol | None:
-        """Return the symbol of dy/dx in an expression if `by` is y': both denote the same derivative."""
+        """Return the symbol of dy/dx in an expression if `by` is y', because both denote the same derivative; None if
+        `by` has no prime, or if the expression does not contain dy/dx."""
         letter = self.symbols.get(by)
         if letter is None or not letter.primes:
             return None

@@ -500,7 +500,7 @@ class _Grading:
         return self.text[span.start : span.end].strip()
 
     def unequal_side(self, statement: _Statement) -> Read | None:
-        """Return a side in an equation, other than a name, that differs from the last side."""
+        """Return a side in an equation, other than a name, that differs from the last side; None if no side does."""
         if statement.is_single or statement.read is None:
             return None
         first = 0 if statement.name is None and len(statement.read.sides) == 2 else 1

@@ -163,7 +163,8 @@ def _extremum(
 
 
 def _letter_of(of: Quantity) -> str | None:
-    """Return the letter of a quantity, or of the vector whose length the quantity is."""
+    """Return the letter of a quantity, or of the vector whose length the quantity is; None if the symbol of the
+    quantity is a formula."""
     symbol = of.symbol.args[0] if isinstance(of.symbol, Norm) else of.symbol
     return str(symbol.name) if isinstance(symbol, Symbol | MatrixSymbol) else None
 

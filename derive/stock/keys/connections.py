@@ -191,7 +191,7 @@ class FrictionKeys(Record):
 
     @property
     def symbol(self) -> Word | None:
-        """Return the symbol of the friction that prevents slipping."""
+        """Return the symbol of the friction that prevents slipping; None if the author gives no symbol."""
         return self.rolling or self.force
 
 
