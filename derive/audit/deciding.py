@@ -830,7 +830,8 @@ def _degree(value: Expr, letters: tuple[Symbol, ...]) -> int:
 
 
 def _approximate_multiple(wanted: Expr, equation: Expr, meaning: Meaning) -> bool | None:
-    """Whether one equation agrees to the leading order with a multiple of an earlier equation."""
+    """Return True if one equation agrees to the leading order with a multiple of an earlier equation, and None if this
+    is not known."""
     symbols = wanted.free_symbols | equation.free_symbols
     for letters in filter(None, [changing_letters(symbols, meaning)]):
         scale = Symbol("epsilon_", positive=True)

@@ -131,7 +131,7 @@ class Prose:
 
     @property
     def plain(self) -> str | None:
-        """The text if it has no mention and no formula."""
+        """The text if it has no mention and no formula; otherwise None."""
         if any(not match["dollar"] for match in _PIECE.finditer(self.text)):
             return None
         return " ".join(self.text.replace("\\$", "$").split())

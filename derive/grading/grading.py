@@ -389,7 +389,8 @@ class _Grading:
         return found
 
     def of_list(self, statements: list[_Statement], target: Target) -> tuple[Verdict, list[_Statement]] | None:
-        """Judge the entries of a list that several statements give by name, such as `r = ..., theta = ...`."""
+        """Judge the entries of a list that several statements give by name, such as `r = ..., theta = ...`; None if not
+        exactly one statement gives each entry."""
         used = []
         for symbol in target.symbol:
             base = parts_of(str(symbol))[0]

@@ -308,8 +308,8 @@ def _not_reached(equation: Quantity, unknown: Expr, every: Sequence[RootOf], key
 
 def _existing(root: RootOf, unknown: Expr, equation: Quantity) -> Relation | None:
     """Return the condition for an angle with this sine or cosine to exist; None if the unknown is not a sine or cosine,
-    or if the angle always exists. The inequality is strict if the equation also contains the other function (the cosine
-    for a root that is a sine), because this function vanishes at the bound."""
+    or if it is known whether the angle exists. The inequality is strict if the equation also contains the other
+    function (the cosine for a root that is a sine), because this function vanishes at the bound."""
     if not isinstance(unknown, sin | cos) or root.value in (1, -1):
         return None
     exists, _ = within_one(root.value)
