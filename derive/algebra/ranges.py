@@ -201,7 +201,8 @@ def sign_within(expr: Expr) -> int | None:
 
 
 def strict_sign_within(expr: Expr) -> int | None:
-    """The sign as for `sign_within`, but also at the ends that belong to the ranges."""
+    """The sign as for `sign_within`, if it is the same at the ends that belong to the ranges; None if it is unknown or
+    differs there."""
     sign = sign_within(expr)
     if sign is None:
         return None

@@ -587,7 +587,7 @@ class _Auditor:
 
     def near_motion(self, claim: Claim, near: Nearness, right_node: Node, letter: Symbol) -> Edit | None:
         """Return one change after which a frequency, a period or a motion would follow from an earlier equation of
-        motion of the same part."""
+        motion of the same part; None if no such change is found."""
         assert claim.values is not None
         part = claim.row.block.part
         for equation, number in reversed(frequency_equations(letter, self.meaning, near.known)):

@@ -604,8 +604,8 @@ class Decision:
         ]
 
     def with_several_values(self) -> Symbol | None:
-        """Return a letter that has several values in one part; only letters that one side lacks, and letters in their
-        definitions, are searched."""
+        """Return a letter that has several values in one part; None if there is no such letter. Only letters that one
+        side lacks, and letters in their definitions, are searched."""
         one_side = self.left.free_symbols ^ self.right.free_symbols
         for symbol in sorted(one_side, key=str):
             definition = self.known.latest(symbol)
@@ -830,7 +830,8 @@ def _degree(value: Expr, letters: tuple[Symbol, ...]) -> int:
 
 
 def _approximate_multiple(wanted: Expr, equation: Expr, meaning: Meaning) -> bool | None:
-    """Whether one equation agrees to the leading order with a multiple of an earlier equation."""
+    """Return True if one equation agrees to the leading order with a multiple of an earlier equation, and None if this
+    is not known."""
     symbols = wanted.free_symbols | equation.free_symbols
     for letters in filter(None, [changing_letters(symbols, meaning)]):
         scale = Symbol("epsilon_", positive=True)

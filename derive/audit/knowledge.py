@@ -188,7 +188,8 @@ class Known:
         return not any((found := self.meaning.symbols.get(each)) is not None and found.dots for each in rates)
 
     def is_momentum(self, symbol: Symbol) -> bool:
-        """Whether a letter is a momentum, which stays fixed in derivatives by coordinates: p = m x' in H(x, p)."""
+        """Whether a letter is a momentum, such as p = m x' in H(x, p); it is held fixed in derivatives with respect to
+        coordinates."""
         letter, definition = self.meaning.symbols.get(symbol), self.definitions.get(symbol, [None])[-1]
         if letter is None or letter.base not in MOMENTA:
             return False

@@ -108,7 +108,7 @@ def read_roster(path: Path) -> tuple[Student, ...]:
         if not NAME.fullmatch(code):
             faults.error("roster", f"`{code}` cannot be a code: use letters, digits, `-` and `_`", place)
         elif code.lower() in taken:
-            help_line = "give each student a code of its own, in a column `code`"
+            help_line = "give each student a different code, in a column `code`"
             faults.error("roster", f"line {taken[code.lower()]} has the same code, `{code}`", place, help=help_line)
         else:
             taken[code.lower()] = line

@@ -99,7 +99,7 @@ def _answers(problem: Problem, derivation: Derivation, values: Mapping[str, Step
 
 def _taking_a_number(result: Any) -> Any | None:
     """Return the expression that is evaluated numerically: the result or, for a condition such as R > a/2, its right
-    side."""
+    side. None for a condition that is not solved for a symbol, and for a result that is not an expression."""
     if isinstance(result, Relation):
         solved = isinstance(result.left, Symbol) and not result.right.has(result.left)
         result = result.right if solved else None

@@ -98,7 +98,8 @@ def the_document(kind: str) -> Callable[[Path, ProblemSet, Sequence[Rendered]], 
 
 
 def report_document(root: Path, heading: ProblemSet, problems: Sequence[Rendered]) -> str:
-    """Return a complete .tex for the instructor: how the set was checked, and where its source is wrong."""
+    """Return a complete .tex for the instructor: how the set was checked, and which errors its source document
+    contains."""
     numbers = heading.numbers
     listed = [Listed(str(numbers.get(each.id.rpartition("/")[2], "")), each) for each in problems]
     return _document(root, "report.tex.j2", heading, listed)

@@ -296,7 +296,7 @@ def _positive(text: str) -> float:
     with suppress(ValueError):
         if 0 < (seconds := float(text)) < 1e6:
             return seconds
-    raise argparse.ArgumentTypeError(f"`{text}` is not a time in seconds, such as 60")
+    raise argparse.ArgumentTypeError(f"`{text}` is not a positive time in seconds below 1000000, such as 60")
 
 
 def _count(text: str) -> int:

@@ -81,7 +81,8 @@ def check_name(word: Word, faults: Faults) -> None:
 
 
 def range_of_sort(name: str, sort: SortOfLetter, faults: Faults) -> Range | None:
-    """Return the range that a declaration states, if any."""
+    """Return the range that a declaration states; None if it states no range, or only that a quantity is positive whose
+    kind is always positive."""
     with faults:
         if sort.ends:
             return read_range(name, sort.ends, sort)

@@ -85,7 +85,8 @@ def read_expression(
 ) -> tuple[Expr, Dimension]:
     """Return the value and dimension of an expression in the declared symbols; raise `Rejected` if it has an error.
 
-    letter_for   a function of a number with a unit and of a kind; it returns a letter for the number, or None
+    letter_for   a function with two arguments, a number with a unit and its kind of quantity; it returns a letter for
+                 the number, or None
     """
     return _Parser(scalar, symbols, letter_for).whole()
 

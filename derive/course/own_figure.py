@@ -1,4 +1,4 @@
-"""A figure of the author: the key `figure:` of a problem names a PDF, SVG or PNG file next to the problem.
+"""A figure that the author supplies: the key `figure:` of a problem names a PDF, SVG or PNG file next to the problem.
 
 Another program made the file, so its place, size and format are checked. The private data of drawing programs are
 removed from an SVG. An SVG is rejected if it has a script, a reference to another file, or an element that is not a

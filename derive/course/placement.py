@@ -183,7 +183,7 @@ def _at(node: Tree | None, parts: int, faults: Faults) -> str | None:
 
 
 def width_of(node: Tree | None, faults: Faults) -> float | None:
-    """Return the width in centimetres that the key `width` states."""
+    """Return the width in centimetres that the key `width` states; None without this key, or after an error in it."""
     if node is None:
         return None
     with faults:

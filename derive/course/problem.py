@@ -301,7 +301,7 @@ def _by_method(pinned: Pinned, written: ProblemKeys, script: Script | StockScrip
             of_names = {**{str(name): part.method for name in part.answers}, **of_names}
     methods = Methods(written.method, of_names)
     if not methods.stated or pinned.described is None and isinstance(script, StockScript):
-        return pinned  # the description has errors, which have been reported
+        return pinned  # no method is stated, or the description has errors, which have been reported
     if pinned.described is None or not pinned.described.has_methods:
         message = "a `method` leads to equations of motion, so it belongs to `solve: system`"
         faults.error("unused-key", message, methods.stated[0].place, help="leave it out")
@@ -367,7 +367,9 @@ def _check_panels(drawing: Placement, faults: Faults) -> None:
         faults.error("unused-key", message, drawing.place, help="leave it out, or add `cases`")
     if drawing.up and (len(drawing.plot) == 2 or drawing.is_diagram or drawing.levels):
         message = f"`up` has no effect on `{drawing.key}`, which is not a plot of curves"
-        faults.error("unused-key", message, drawing.up.place, help="leave it out, or write `over`")
+        is_path = len(drawing.plot) == 2
+        help_line = "leave it out" if is_path else "leave it out, or give the range of the vertical axis under `over`"
+        faults.error("unused-key", message, drawing.up.place, help=help_line)
     if drawing.then and (len(drawing.plot) == 2 or drawing.is_diagram or drawing.levels or drawing.against != "t"):
         message = f"`then` has no effect on `{drawing.key}`, which is not a plot of curves against `t`"
         faults.error("unused-key", message, drawing.then.place, help="leave it out")
@@ -389,7 +391,9 @@ def _check_portrait(drawing: Placement, faults: Faults) -> None:
         message = f"`panels` has no effect on the phase portrait `{drawing.key}`: each case has its own panel"
         faults.error("unused-key", message, drawing.place, help="leave it out")
     if not drawing.is_portrait:
-        message = f"the phase portrait `{drawing.key}` needs `plot` with one answer, `levels` and `over`"
+        message = (
+            f"the phase portrait `{drawing.key}` needs `plot` with one answer, `levels`, and `over` with two ranges"
+        )
         help_line = "such as `plot: hamiltonian, levels: [m*g*l], over: {theta: [-180 deg, 180 deg], p_theta: [...]}`"
         faults.error("missing-key", message, drawing.place, help=help_line)
     elif extra:

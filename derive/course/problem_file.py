@@ -391,7 +391,8 @@ class LimitKeys(Record):
 
 
 def _limit(node: Tree, name: str, faults: Faults) -> LimitKeys | None:
-    """Read an entry of `limits:`, which must have either `of` with `letter`, or `of` with `where`, or only `step`."""
+    """Read an entry of `limits:`, which must have either `of` with `letter`, or `of` with `where`, or only `step`.
+    Return None after an error."""
     found = _LIMIT.read(node, name, faults)
     if found is None:
         return None

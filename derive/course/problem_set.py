@@ -234,7 +234,8 @@ def known_set(root: Path, set_id: str) -> str:
 
 
 def problem_set(root: Path, set_id: str) -> ProblemSet:
-    """Return the set; raise `Misused` if it does not exist, and one `Rejected` with all errors of its file."""
+    """Return the set. Raise `Misused` if it does not exist; if its file has errors, raise one `Rejected` with all of
+    them."""
     path = f"problems/{known_set(root, set_id)}/set.yaml"
     faults = Faults()
     of_course = _course(root, faults)
@@ -251,7 +252,8 @@ def problem_set(root: Path, set_id: str) -> ProblemSet:
     faults.stop()
 
     def own(name: str) -> str | None:
-        """Return the value of a key of the set or, if the set does not have it, the value of the course."""
+        """Return the value of a key of the set or, if the set does not have it, the value of the course; None if both
+        lack the key."""
         found: str | None = getattr(written, name) or getattr(of_course, name)
         return found
 
@@ -316,7 +318,7 @@ def _shared(root: Path, set_id: str, *names: str) -> dict[str, Any]:
 
 
 def _logo(root: Path, path: Word, faults: Faults) -> bytes | None:
-    """Return the content of a logo, which must be a small PNG file of the course."""
+    """Return the content of a logo, which must be a small PNG file of the course; after an error, None."""
     file = root / path
     help_line = "name a PNG file in the folder of the course, such as `logo.png`"
     if not file.resolve().is_relative_to(root.resolve()) or not file.is_file():

@@ -131,7 +131,7 @@ class Prose:
 
     @property
     def plain(self) -> str | None:
-        """The text if it has no mention and no formula."""
+        """The text if it has no mention and no formula; otherwise None."""
         if any(not match["dollar"] for match in _PIECE.finditer(self.text)):
             return None
         return " ".join(self.text.replace("\\$", "$").split())
@@ -196,7 +196,7 @@ def _some_prose(node: Tree, what: str, faults: Faults) -> Prose | None:
 
 
 def latex_in(prose: Prose) -> Complaint | None:
-    """Return a warning about the first LaTeX outside of dollar signs, if there is any."""
+    """Return a warning about the first LaTeX outside of dollar signs; None if there is none."""
     found = [*_LATEX.finditer(_PIECE.sub(_blanked, prose.text))]
     if not found:
         return None

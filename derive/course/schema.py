@@ -121,7 +121,8 @@ def _text(node: Tree, name: str, faults: Faults) -> Word | None:
 
 
 def quotes_needed(node: Tree) -> str | None:
-    """Return the advice to quote a text that YAML reads as a mapping or a list because of its first character."""
+    """Return the advice to quote a text that YAML reads as a mapping or a list because of its first character; None for
+    any other node."""
     opening = node.place.text[node.place.column - 1 :][:1]
     return f"quote text that begins with `{opening}`" if opening in ("{", "[") else None
 

@@ -143,7 +143,7 @@ def told_at(place: Place | None, places: Mapping[str, Place] = NOWHERE) -> Itera
 
 
 def in_keys(help_line: str | None) -> str | None:
-    """Return the help line of a verb in its form for a YAML file; verbs write help lines for scripts."""
+    """Return the help line of a verb, if any, in its form for a YAML file; verbs write help lines for scripts."""
     if help_line and help_line.startswith(DECIDES):
         return f"state it under `given:`, as `assume: [{help_line.removeprefix(DECIDES).strip()}]`"
     return help_line.in_file if isinstance(help_line, Spelled) else help_line

@@ -221,7 +221,7 @@ class Mapping:
         return self._by_name.get(key)
 
     def at(self, path: str) -> Tree | None:
-        """Return the value at a path such as `body.inner`."""
+        """Return the value at a path such as `body.inner`; None if there is no value at this path."""
         node: Tree | None = self
         for key in path.split("."):
             node = node.get(key) if isinstance(node, Mapping) else None
@@ -432,7 +432,7 @@ def _cut_off(before: Tree, key: Scalar, value: Tree) -> Scalar | None:
 
 
 def _cut_at_comma(before: Tree, key: Scalar, value: Tree) -> Scalar | None:
-    """Return the whole value if a decimal comma inside braces has split it, as in `{l: 1,2 m}`."""
+    """Return the whole value if a decimal comma inside braces has split it, as in `{l: 1,2 m}`; otherwise None."""
     if not (isinstance(before, Scalar) and before.style == key.style == "" and isinstance(value, Scalar)):
         return None
     source, start = key.source, before.start

@@ -1,9 +1,9 @@
 """The nodes of a side as an expression of SymPy, or the reason why they have no value.
 
-A letter and each of its rates are separate symbols: `x`, `x'`, `x''`. A vector is a column with opaque components. The
-derivative of a letter about which nothing is known is a symbol, too. Letters are positive numbers unless they change
-with time, are functions, or have a name that is usual for an angle, a coordinate or a constant of either sign. Authors
-rely on this in sqrt(m^2) = m.
+A letter and each of its rates are separate symbols: `x`, `x'`, `x''`. The letter of a vector is a column whose
+components are new symbols about which nothing is known. The derivative of a letter about which nothing is known is a
+symbol, too. Letters are positive numbers unless they change with time, are functions, or have a name that is usual for
+an angle, a coordinate or a constant of either sign. Authors rely on this in sqrt(m^2) = m.
 """
 
 from __future__ import annotations
@@ -117,7 +117,8 @@ class Meaning:
     evaluations: dict[Symbol, tuple[Symbol, Symbol, Expr]] = field(default_factory=dict)
     two_signs: bool = False
     left_out: tuple[Symbol, int] | None = None  # the letter and the order of the terms that are left out: O(x^2)
-    sums: dict[Symbol, tuple[Expr, Symbol, str]] = field(default_factory=dict)  # term, index and range of open sums
+    # the symbol of a sum that is not written out -> its term, index and range
+    sums: dict[Symbol, tuple[Expr, Symbol, str]] = field(default_factory=dict)
     terms: int = 1  # the number of terms of the sums around the current node
 
     def of(self, node: Node) -> Value:
@@ -433,7 +434,8 @@ class Meaning:
         return Integer(0)
 
     def variable_of_call(self, named: Node | None, own: Any) -> Symbol | None:
-        """Return the variable of a function that is written with a number: theta for U(0) and for U(theta = 0)."""
+        """Return the variable of a function that is written with a number: theta for U(0) and for U(theta = 0). Return
+        None for U(0) if the function does not have exactly one known variable."""
         if named is not None:
             letter = _letter_in(named)
             return self.symbol(letter) if letter is not None else None
@@ -520,7 +522,8 @@ class Meaning:
         return total
 
     def written_with_prime(self, value: Expr, by: Symbol) -> Symbol | None:
-        """Return the symbol of dy/dx in an expression if `by` is y': both denote the same derivative."""
+        """Return the symbol of dy/dx in an expression if `by` is y', because both denote the same derivative; None if
+        `by` has no prime, or if the expression does not contain dy/dx."""
         letter = self.symbols.get(by)
         if letter is None or not letter.primes:
             return None
@@ -532,8 +535,8 @@ class Meaning:
         return None
 
     def of_member(self, term: Expr, index: Symbol, by: Symbol) -> Expr:
-        """Return the derivative of a sum by a letter that only one of its terms contains: the derivative of the sum of
-        m_i v_i^2/2 by v_k is m_k v_k."""
+        """Return the derivative of a sum with respect to a letter that only one term of the sum contains; 0 if no term
+        contains it. For example, the derivative of the sum of m_i v_i^2/2 with respect to v_k is m_k v_k."""
         letter = self.symbols.get(by)
         members = [self.symbols.get(each) for each in term.free_symbols if self.has_index(each, index)]
         if letter is None or not any(
@@ -761,7 +764,10 @@ class Meaning:
             if lower.is_Integer and upper.is_Integer and 0 <= upper - lower <= MOST_TERMS:
                 return self.terms_of(node, indices[0], int(lower), int(upper))
         if node.name != "sum":
-            raise Meaningless("the limits of this product are not numbers", node.span)
+            needed = (
+                f"one index, and two whole numbers as limits, the upper one at most {MOST_TERMS} above the lower one"
+            )
+            raise Meaningless(f"this product cannot be written out: it needs {needed}", node.span)
         value = self._of(node.body)
         bounds = [self.range_of(each) for each in (node.lower, node.upper)]
         for index in reversed(indices):
@@ -870,7 +876,7 @@ class Meaning:
         raise Meaningless("the operand of nabla does not fit", node.span)
 
     def of_cases(self, node: Cases) -> Any:
-        raise Meaningless("this has a value for each case", node.span)
+        raise Meaningless("a formula with cases has no single value", node.span)
 
     def of_condition(self, node: Condition) -> Any:
         raise Meaningless("this is a condition", node.span)

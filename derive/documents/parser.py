@@ -827,7 +827,8 @@ class _Reader:
         return Letter(token.span, "Delta")
 
     def follows_number(self, token: Token) -> bool:
-        """Whether a number, not a script, precedes a command directly."""
+        """Whether a number that is not a subscript or superscript precedes a command; spacing commands between them are
+        ignored."""
         before = next((i for i in range(self.at - 1, -1, -1) if self.tokens[i] is token), 0) - 1
         while before >= 0 and self.tokens[before].is_command(",", ";", " ", "!", ":"):
             before -= 1

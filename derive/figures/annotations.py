@@ -583,7 +583,8 @@ class PointMark(_Single):
         return [Bullet(spot), Tag(self.label, spot, (0.7, 0.7), 4.0)]
 
     def in_words(self) -> InWords | None:
-        """Return the description of a point that has a label, with its components unless they are long or all zero."""
+        """Return the description of a point, with its components unless they are long or all zero; None for a point
+        without a label."""
         entries = tuple(tidied(entry) for entry in self.at)
         is_short = any(entries) and sum(entry.count_ops() for entry in entries) <= SHORT
         return self._if_named("point", place=entries if is_short else None)

@@ -79,8 +79,9 @@ HANGER = Rational(1, 8)  # the drawn distance of a small pulley from the ceiling
 BOWL = 4  # the radius of a bowl, relative to `Connections.size`
 SPHERE = 2  # the radius of a fixed circle that a round body touches from outside, relative to `Connections.size`
 AXIS = Rational(4, 5)  # the length of the axes on a table, relative to TABLE
-TABLE = Rational(5, 2)  # the radius of a table in space, relative to `ball_size`
-BEYOND = Rational(6, 5)  # the radius of a table, relative to the greatest distance of a contact from its middle
+TABLE = Rational(5, 2)  # the radius of a table in space on which a body moves about, relative to `ball_size`
+# The radius of any other table, relative to the greatest distance of a contact from the middle of the table.
+BEYOND = Rational(6, 5)
 AROUND = Rational(1, 4)  # the radius of the arrow of a motor, relative to the size of the body
 HALF_OF_ROPE = 1.2  # half the drawn thickness of a rope with mass, in points
 PAST = Rational(3, 2)  # the drawn length of a plane beyond the bodies on it, relative to their size

@@ -550,8 +550,8 @@ def _over_pulley(system: System, of: Any) -> tuple[PointForce, PointForce] | Non
 
 
 def _asides(pulls: tuple[PointForce, PointForce]) -> tuple[float, float]:
-    """Return the shifts of the two pulls at a small pulley to their left, in points, so that each arrow starts at the
-    rim."""
+    """Return the distances, in points, by which the arrows of the two pulls at a small pulley are shifted to the left
+    of their directions, so that each arrow starts at the rim."""
     (x, y), (u, v) = (force.direction for force in pulls)
     side = -1.0 if numeric(x * v - y * u) > SLIGHT else 1.0
     return side * WHEEL, -side * WHEEL

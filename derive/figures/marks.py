@@ -174,7 +174,8 @@ class Drawing:
     forces_on     the mass of the body whose free-body diagram this is; None in any other drawing
     mode          the normal mode that the drawing shows; None in any other drawing
     seen_from     the azimuth and the elevation of the view in space, in degrees; None if the camera chooses the view
-    body_size     the size of the body in a force diagram, in points; None if the drawing has its usual width
+    body_size     the size of the body in a force diagram, in points, which determines the scale; None if the usual
+                  width of a drawing determines the scale
     polhodes      the curves of a free rotation that the drawing shows; None in any other drawing
     """
 

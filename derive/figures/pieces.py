@@ -1,4 +1,4 @@
-"""The pieces of a drawing, and the interface `Paper`, from which a mark computes its pieces.
+"""The pieces of a drawing, and the interface `Paper`, which gives a mark the data for its pieces.
 
 `derive.render.drawing` draws these pieces only.
 """

@@ -67,7 +67,8 @@ def drawing(
                results it shows
     forces_on  the mass of the body whose forces the drawing shows; the caption names this mass
     mode       the normal mode that the drawing shows; the caption names its frequency
-    body_size  the size of the body in a force diagram, in points; by default the drawing has its usual width
+    body_size  the size of the body in a force diagram, in points, which determines the scale; by default the usual
+               width of a drawing determines the scale
     undrawn    the given forces that the drawing does not show, each with its kind; a caption states them
     """
     if view not in (SPACE, PLANE, None):

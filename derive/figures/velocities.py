@@ -224,8 +224,8 @@ def _met(system: System, at: Location, hinged: bool = False) -> Iterable[tuple[A
 
 
 def later_marks(system: System, moment: Moment, marks: Iterable[Mark]) -> Iterable[Mark]:
-    """Yield the rods and round bodies of a plane system, dashed, at positive values of the coordinates that are zero at
-    an impact, with the marks of these coordinates.
+    """Yield the rods and round bodies of a plane system, dashed, in a later state, with the marks of the coordinates
+    that have changed. Coordinates that are zero and at rest before the impact are positive in this state.
 
     marks   the marks of the system, which contain the coordinates as symbols
     """

@@ -123,7 +123,8 @@ class Key:
     notation: Notation = field(default_factory=Notation, compare=False, repr=False)
 
     def part(self, name: str) -> Part | None:
-        """Return a part by its name, with all its answers or only one: `b(2)` is part b with only its second answer."""
+        """Return a part by its name, with all its answers or only one: `b(2)` is part b with only its second answer.
+        Return None if there is no such part or answer."""
         plain, inner = _split(name)
         label = label_in([part.label for part in self.parts], plain)
         if label is None:

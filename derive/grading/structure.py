@@ -58,7 +58,7 @@ def factor_between(left: Expr, right: Expr) -> Expr | None:
 
 
 def _number_between(left: Expr, right: Expr) -> Expr | None:
-    """Return the ratio of two expressions if it is a number that can be recognised."""
+    """Return the ratio of two expressions if it is a number that can be recognised; otherwise None."""
     one, other = fingerprint(left), fingerprint(right)
     if one is None or other is None or any(abs(each) < 1e-12 for each in other):
         return None

@@ -326,8 +326,8 @@ def _without_cells(tokens: list[Token]) -> list[Token]:
 
 
 def _inner(tokens: list[Token], at: int) -> tuple[list[Token] | None, int]:
-    """Return the tokens of an argument, without brackets around it, and the position after them; None instead of the
-    tokens if braces are not needed."""
+    """Return the tokens of an argument without the brackets around them, and the position after the argument. If the
+    caller need not add braces, return None and the unchanged position."""
     token = tokens[at]
     left = token.is_command("left") and at + 1 < len(tokens) and tokens[at + 1].is_mark("(")
     if token.is_mark("(") or left:

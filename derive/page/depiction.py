@@ -456,8 +456,8 @@ def _part_of(key: str, problem: Problem, derivation: Derivation) -> int | None:
 def _given_away(
     problem: Problem, drawing: m.Recorded, placement: Placement | None, derivation: Derivation
 ) -> Complaint | None:
-    """Return an error if a drawing shows a step that is derived later, or a step on which no answer depends, or if its
-    `at` names an unknown step."""
+    """Return an error if a drawing shows a step that is derived later, or a step on which no answer depends, or if the
+    `at` of the drawing names an unknown step; otherwise None."""
     index, earliest = _index(problem, drawing, derivation), _earliest(drawing, derivation)
     place = (placement.at_place or placement.place) if placement else problem.place_of("solve")
     at = placement.at if placement is not None else None

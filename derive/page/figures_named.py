@@ -73,7 +73,8 @@ def _named(figures: Sequence[Illustration], words: Phrases) -> dict[str, Any]:
 
 
 def _sentence_before(blocks: Sequence[Block]) -> int | None:
-    """Return the position of the paragraph before the figures, or before the display that precedes the figures."""
+    """Return the position of the paragraph before the figures, or before the display that precedes the figures; None if
+    there is no such paragraph."""
     for at in (len(blocks) - 1, len(blocks) - 2):
         if at >= 0 and isinstance(blocks[at], Paragraph):
             return at

@@ -340,7 +340,7 @@ def _ends(plot: Plot, placement: Placement | None) -> list[Expr]:
 
 
 def _ends_up(problem: Problem, plot: Plot, placement: Placement | None) -> tuple[float, float] | None:
-    """Return the ends of the vertical axis if the problem states them."""
+    """Return the ends of the vertical axis if the problem states them; otherwise None."""
     if placement is None or placement.up is None:
         return None
     with told_at(placement.up.place):

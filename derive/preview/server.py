@@ -53,7 +53,7 @@ class Pages:
     detail: str | None = None
     told: Callable[[str, Shown], None] = lambda name, shown: None
     _last: dict[str, Shown] = field(default_factory=dict)
-    _good: dict[str, str] = field(default_factory=dict)  # for each page, the last main part without an error
+    _good: dict[str, str] = field(default_factory=dict)  # for each page, the last `Shown.main` without errors
     _edition: int = 0
     _changed: threading.Condition = field(default_factory=threading.Condition)
     _asking: threading.Lock = field(default_factory=threading.Lock)

@@ -41,7 +41,8 @@ def _without_higher_root(value: Expr) -> Expr:
 def reached(unknown: Expr, value: Expr) -> tuple[Relation | None, bool]:
     """The condition under which an unknown can have the value, and whether this is known to be impossible.
 
-    A sine or cosine is between -1 and 1, and the value of a symbol is in the range of this symbol.
+    A sine or cosine is between -1 and 1, and the value of a symbol is in the range of this symbol. The condition is
+    None if the unknown is not a sine or cosine, or if the truth of the condition is known.
     """
     exists, never = (None, False)
     if isinstance(unknown, sin | cos) and value not in (1, -1):

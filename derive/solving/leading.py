@@ -65,7 +65,8 @@ def beginnings(of: Quantity, value: Any, x: Symbol, place: Expr, order: int | No
 def expansion_of(of: Quantity, value: Expr, x: Symbol, place: Expr, order: int | None, is_one: bool = True) -> Series:
     """The terms up to an order, by default the leading term only. Rejects a value without an expansion in powers.
 
-    is_one   whether the value is a single number; an entry of a vector may have no term within the order
+    is_one   whether the value is a scalar result; if it is an entry of a vector or tensor, a series without a term up
+             to the order is not an error
     """
     try:
         return expanded(value, x, place, None if order is None else Rational(order))

@@ -150,7 +150,8 @@ def _one_of_many(name: Word, written: OneOfManyKeys, others: GivenBody, known: I
 
 
 def _asked(body: DescribedBody, own: Questions, others: Questions, known: InLetters) -> Asked:
-    """Return one body with its points and axes; keys for all bodies are the default."""
+    """Return one body with its points and axes. A key that this body does not have is taken from the keys for all
+    bodies."""
     about, origin = own.about or others.about, own.origin or others.origin
     directions = Directions(known)
     direction = own.direction or others.direction
@@ -216,15 +217,15 @@ class BodyAnswers(Answers[Asked]):
         found = self.body.extent
         if not isinstance(found, Quantity):
             message = f"the {name} of {self.told} is known, so it is not a step"
-            rejected("no-such-answer", message, None, "ask for `density`: its step shows this size")
+            rejected("no-such-answer", message, None, f"ask for `density`, whose step shows the {name}")
         return found
 
     def _has_no(self, name: str) -> NoReturn:
-        fills = f"it fills {'an' if self.body.filling == 'area' else 'a'} {self.body.filling}: ask for `density`"
+        filling = self.body.filling
+        fills = f"it fills {'an' if filling == 'area' else 'a'} {filling}"
+        of_density = f"{fills}: ask for `density`, whose step shows the {filling}"
         parts = isinstance(self.body, Composite)
-        help_line = (
-            "ask for `mass`, the sum of the masses of its parts" if parts else f"{fills}, whose step shows this size"
-        )
+        help_line = "ask for `mass`, the sum of the masses of its parts" if parts else of_density
         help_line = "its mass is given" if isinstance(self.body, PointMass) else help_line
         rejected("no-such-answer", f"`{name}` is not an answer about {self.told}", None, help_line)
 

@@ -567,7 +567,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
 
     @property
     def state(self) -> dict[Any, Expr] | Quantity | None:
-        """Return the given state about which motions are linearised, if there is one."""
+        """Return the given state about which motions are linearised; None if none is given."""
         if self.described.at_rest is not None:
             return self.by_name.one("equilibria", self.described.at_rest, self.described.at_rest.place)
         found = {self.coordinates[name]: value for name, value in self.described.at}

@@ -191,7 +191,7 @@ def _ending(claim: Claim) -> str:
 
 def _margin(claim: Claim) -> Expr | None:
     """An expression in the multipliers: N, which vanishes where the contact ends, or mu_s N - |F|, which vanishes where
-    the body begins to slip."""
+    the body begins to slip. None if a force of the step is not a multiplier."""
     quantities, inputs = claim.judged.quantities, claim.judged.inputs
     found = [quantities[role] for role in ("force", "normal", "friction") if role in quantities]
     if not found or any(each.symbol not in claim.blueprint.multipliers for each in found):

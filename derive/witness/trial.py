@@ -25,7 +25,7 @@ from derive.witness.tape import NotComputable, Tape
 SALTS = 60  # largest number of sets of numbers that are tried to satisfy the assumptions
 ROUNDS = 25  # largest number of iterations of Newton's method
 EXACT = 1e-10
-MOMENT = 1e-6  # a time over which momenta are differentiated
+MOMENT = 1e-6  # the time step of the central difference that differentiates momenta
 ATTEMPTS = 5  # largest number of random states that are tried to satisfy the conditions and assumptions
 
 HOLDS = {

@@ -88,7 +88,7 @@ def test_a_number_that_is_only_named_has_the_unit_of_its_dimension(tmp_path: Pat
 def test_a_number_that_is_only_named_is_in_no_unit_that_only_a_kind_has(unit: str, tmp_path: Path) -> None:
     complaint = refused(tmp_path, f"{{swinging: {{unit: {unit}}}}}")
     assert complaint.code == "wrong-unit"
-    assert complaint.message == f"`swinging` has no kind, so `{unit}` may not be its unit"
+    assert complaint.message == f"`swinging` has no kind, so `{unit}` is not allowed as its unit"
     assert complaint.help == "give it a `kind=` in the script"
 
 

@@ -390,6 +390,7 @@ OVER = "    over: {theta: [-180 deg, 180 deg], p_theta: [-9 kg*m^2/s, 9 kg*m^2/s
         ([("theta: [-180 deg, 180 deg], ", "")], 14, "the phase portrait `portrait` needs", ""),
         ([(OVER, OVER + "    against: theta\n")], 18, "`against` has no effect on the phase portrait", "leave it out"),
         ([(OVER, OVER + "    range: [0 deg, 1 deg]\n")], 18, "`range` has no effect on the phase portrait", ""),
+        ([(OVER, OVER + "    up: [0 J, 1 J]\n")], 18, "`up` has no effect on `portrait`", "leave it out, or give"),
         ([("levels: [-5 J, m*g*l, 15 J]", "levels: []")], 16, "`levels` must be a list of values", ""),
         ([("-5 J", "-5 m")], 16, "`-5 m` is a length", ""),
         ([("-5 J", "-5 m*g*h")], 16, "", ""),
@@ -596,6 +597,12 @@ def test_a_mistake_in_the_surfaces_of_a_path_is_reported(
 ) -> None:
     found = messages(tmp_path, edited(NEAR_A_SPHERE, *edits))
     assert any(said in each for each in found), found
+
+
+def test_the_help_for_a_path_does_not_name_keys_of_other_plots(tmp_path: Path) -> None:
+    text = edited(NEAR_A_SPHERE, ("surfaces: [sphere, floor]", "up: [0 m, 1 m]"))
+    (found,) = [each for each in complaints(tmp_path, text) if "`up` has no effect" in each.message]
+    assert found.help == "leave it out"
 
 
 def test_a_path_shows_the_circle_of_a_string() -> None:

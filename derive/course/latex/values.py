@@ -76,7 +76,7 @@ class Letters:
         return self.declared[found[0]] if len(found) == 1 else None
 
     def components(self, base: str, subscript: str) -> tuple[Declared, ...] | None:
-        """Return the components of the vector with this name, if all three are declared."""
+        """Return the components of the vector with this name; None if not all three are declared."""
         for names in COMPONENTS:
             found = [self.named(base, f"{subscript}_{name}") for name in names]
             if all(found):

@@ -363,7 +363,7 @@ class _EntryReader:
     # -- the document ---------------------------------------------------------------------------------------------
 
     def cited(self, written: EntryKeys) -> Cited | None:
-        """Return the document of an entry, if it is a file of the set."""
+        """Return the document of an entry; None if the entry names no document, or if it is not a file of the set."""
         name = str(written.document or self.document)
         if not name:
             return None
@@ -372,7 +372,8 @@ class _EntryReader:
         return cited(self.problem.root, self.problem.set_id, name)
 
     def formula(self, written: EntryKeys) -> Formula | None:
-        """Return the formula of the document that an entry cites by its lines."""
+        """Return the formula of the document that an entry cites by its lines; None if the entry needs no lines, or if
+        the formula cannot be read."""
         has_value = written.latex is not None or written.states is not None
         lines = written.lines
         if lines is None and written.line is not None and not has_value and (written.answer or written.quote is None):
@@ -421,7 +422,7 @@ class _EntryReader:
         return stated or printed
 
     def slip(self, written: EntryKeys, formula: Formula | None) -> Entry | None:
-        """Read an erratum that is only quoted and corrected."""
+        """Read an erratum that is only quoted and corrected; None if its correction cannot be read."""
         assert written.erratum is not None
         right, place = written.erratum.right, written.places.get("quote") or written.places[""]
         instead = right.text if isinstance(right, Scalar) else ""

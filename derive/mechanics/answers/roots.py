@@ -226,8 +226,8 @@ def _name(unknown: Expr, letter: str, number: int) -> Expr:
 
 
 def _excluded(divisor: Expr, condition: Relation | None) -> Relation | None:
-    """Return the condition that the divisor does not vanish. Leave out factors that `condition` makes nonzero, such as
-    cos(theta_0) if cos(theta_0) > 0."""
+    """Return the condition that the divisor does not vanish; None if it cannot vanish. Leave out factors that
+    `condition` makes nonzero, such as cos(theta_0) if cos(theta_0) > 0."""
     excluded = may_vanish(divisor)
     if excluded is None or condition is None or condition.operator != ">" or not is_zero(condition.right):
         return excluded
@@ -307,9 +307,9 @@ def _not_reached(equation: Quantity, unknown: Expr, every: Sequence[RootOf], key
 
 
 def _existing(root: RootOf, unknown: Expr, equation: Quantity) -> Relation | None:
-    """Return the condition for an angle with this sine or cosine to exist. The inequality is strict if the equation
-    also contains the other function (the cosine for a root that is a sine), because this function vanishes at the
-    bound."""
+    """Return the condition for an angle with this sine or cosine to exist; None if the unknown is not a sine or cosine,
+    or if it is known whether the angle exists. The inequality is strict if the equation also contains the other
+    function (the cosine for a root that is a sine), because this function vanishes at the bound."""
     if not isinstance(unknown, sin | cos) or root.value in (1, -1):
         return None
     exists, _ = within_one(root.value)
@@ -417,7 +417,7 @@ def _assumed(unknown: Expr) -> dict[str, bool]:
     "the roots of an equation; for another answer, its zeros",
     equation="roots: an equation, or another answer",
     letter="for: a letter, or `cos(theta)`",
-    root="root: one of several: `positive`, `negative`, `largest`, `smallest`, `2`",
+    root="root: which root: `positive`, `negative`, `largest`, `smallest`, or its number, such as `2`",
     symbols="symbol: one for each root",
 )
 def _in_results(

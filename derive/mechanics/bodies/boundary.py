@@ -179,7 +179,8 @@ def _is_long(curve: Curve) -> bool:
 
 
 def _stretched_ball(place: ImmutableMatrix, limits: Bounds) -> Ellipsoidal | None:
-    """The ellipsoid of a map that scales a ball of radius 1, in spherical coordinates, along each axis."""
+    """The ellipsoid of a map that scales a ball of radius 1, in spherical coordinates, along each axis; None for any
+    other map."""
     if [tuple(ends) for _, *ends in limits] != [(0, 1), (0, pi), (0, 2 * pi)]:
         return None
     r, *angles = (letter for letter, *_ in limits)

@@ -34,8 +34,8 @@ class OverMass:
 
 
 def over_mass(body: Any, region: Region, weight: Expr, mean: bool = False) -> OverMass:
-    """The law, the inputs and the lines of the integral of f dm, where f is a function of the position. The density in
-    dm is a step or a formula.
+    """The law, the inputs and the lines of the integral of f dm, where f is a function of the position. In dm, the
+    density is the symbol of an earlier step, or the formula of the density.
 
     weight   the function f of the position, by which dm is multiplied
     mean     whether to divide the integral by the mass

@@ -153,7 +153,9 @@ def _check_turned(before: Axes, after: Axes, about: Location, angle: Any) -> Non
         v = before.in_space[:, i]
         carried = v * cos(angle) + e.cross(v) * sin(angle) + e * e.dot(v) * (1 - cos(angle))
         if not equal(ImmutableDenseMatrix(after.in_space[:, i]), ImmutableDenseMatrix(carried)):
-            raise Unverified(Complaint("unverified", "`turned`: the new axes are not the rotated axes"))
+            raise Unverified(
+                Complaint("unverified", "`turned`: the new axes are not the old axes rotated by the angle")
+            )
 
 
 space = Axes(ImmutableDenseMatrix(eye(3)))

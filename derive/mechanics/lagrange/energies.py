@@ -85,7 +85,8 @@ class Mover:
 
 
 def movers(system: System, lagrangian: str = "") -> list[Mover]:
-    """Return the particles and bodies with a term (1/2) M v^2, with the indices of their speeds: v, v_1 or v_rod."""
+    """Return the particles and bodies whose kinetic energy has a term (1/2) M v^2. Each has the index of its speed:
+    none for v, `1` for v_1, `rod` for v_rod."""
     found = [Mover(particle.mass, particle.at, "", False) for particle in system.particles]
     found += [
         Mover(placed.body.mass, placed.centre, placed.body.called.partition(" ")[0], True)
@@ -455,8 +456,8 @@ FEW_SPRINGS, SHORT = 4, 6  # greatest number of extensions that a sentence names
 
 
 def _stretches(springs: Sequence[Any], moving: Sequence[Symbol]) -> dict[str, tuple[Expr, Expr]]:
-    """Return the extension of each spring for the sentence: as length minus natural length, and from the force of the
-    spring. The result is empty if the sentence does not need the extensions or would be too long."""
+    """Return two expressions for the extension of each spring: length minus natural length, and force divided by spring
+    constant. The result is empty if the sentence does not need the extensions or would be too long."""
     found: dict[str, tuple[Expr, Expr]] = {}
     for i, each in enumerate(springs, 1):
         constant = derivative(each.pull, each.distance)

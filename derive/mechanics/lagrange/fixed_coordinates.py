@@ -97,7 +97,8 @@ def _without_root(f: Expr) -> Expr:
 
 
 def _only_root(f: Expr, q: Symbol) -> Expr | None:
-    """Return the only admissible zero of a function of one coordinate; zero for a multiple of its sine."""
+    """Return the only admissible zero of a function of one coordinate; zero for a multiple of its sine. None if there
+    are several zeros, none, or no formula for them."""
     if f.has(sin(q), cos(q)):
         return ZERO if not tidied(f / sin(q)).has(q) else None
     try:

@@ -282,7 +282,7 @@ def potential(energy: Any) -> StoredEnergy:
 
 
 def charge(amount: Any, at: Location, E: Any = None, B: Any = None) -> Charge:
-    """A charge, C, at a place in a uniform electric field E, V/m, and a uniform magnetic field B, T.
+    """A charge (in C) at a place in a uniform electric field E (in V/m) and a uniform magnetic field B (in T).
 
     E   the components of the electric field, as many as the place has
     B   three components; for a place in a plane, only the component perpendicular to the plane, towards the reader

@@ -111,7 +111,8 @@ class Line(Connection):
 
 @dataclass(frozen=True)
 class WeightOfRope(StoredEnergy):
-    """The weight of a rope, minus the weight of the particle that has the mass of the rope.
+    """The correction for the weight of a rope. In the system, a particle with the mass of the rope represents the rope;
+    its potential energy is subtracted from the potential energy of the rope.
 
     energy   the sum of (mass) g (height of the middle) over the straight pieces, minus M g y of the particle, J
     force    a force on the first end, along the rope, that does the work of the weight. If all pieces move by ds along
@@ -351,7 +352,8 @@ def _pieces(ends: Sequence[Any]) -> list[Piece]:
 
 
 def _owner(each: Any) -> Any:
-    """Return the body or particle that a piece of string pulls at one end; None for a massless pulley."""
+    """Return the body or particle that a piece of string pulls at one end; None for a massless pulley
+    or a place in space."""
     if isinstance(each, Pulley):
         return each.of if isinstance(each, Rim) else None
     return end_of(each)[1]

@@ -414,7 +414,7 @@ def help_to_sign(length: Expr, changing: Sequence[Symbol]) -> str:
         return f"{DECIDES} {less} < {more}"
     name = changing[0]
     if range_of(name) is not None:
-        return f"give `{name}` a narrower range, or choose sizes with which the sign of {length} never changes"
+        return f"give `{name}` a narrower range, or choose sizes for which the sign of {length} never changes"
     what, noun = ("function", "function_of_time") if isinstance(name, Prescribed) else ("coordinate", "coordinate")
     if coordinates_in(ImmutableDenseMatrix([name])).get(name) == "angle":
         return Spelled("give the angle a range", f"give the angle a range, such as `{name}: angle in (0, pi)`")

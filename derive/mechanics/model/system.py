@@ -92,7 +92,8 @@ class MovingBody(Part):
 
     @property
     def mass_points(self) -> Sequence[MassPoint]:
-        """The mass at the centre of mass, and second moments at the ends of vectors that rotate with the body."""
+        """The mass points that represent the body: its mass at the centre of mass, and points weighted by second
+        moments, at the ends of vectors from the origin that rotate with the body."""
         placed = self.placed
         spread = central_second_moments(placed.body)
         points = [MassPoint(placed.body.mass, placed.centre.components)]

@@ -100,7 +100,8 @@ def _arrival(
     ancestors = (each for quantity in (of, *others) for each in quantity.ancestors())
     root = next((each for each in ancestors if each.fact(SignedRate) and each.rests_on(speed)), None)
     if root is None or is_zero(begun.start_rate):
-        return come  # from rest, the motion comes only to places ahead of its start
+        # There is no signed rate to check; or the motion starts from rest and reaches only places ahead of its start.
+        return come
     sense = root.needed(SignedRate).sense
     ahead = _side_of_start(come, sense)
     if ahead in (0, 1):

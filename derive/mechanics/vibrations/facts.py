@@ -85,7 +85,7 @@ class Linear(LinearSystem, Fact):
     def common(self, i: int) -> Expr:
         """Return the common factor of all terms of one equation: m l for m l^2 theta_ddot + m g l theta.
 
-        The factor contains no numbers, and nothing that may be negative.
+        The factor contains no rational number, and no part that may be zero or negative.
         """
         entries = [entry for matrix in (self.mass, self.turning, self.stiffness) for entry in matrix.row(i)]
         parts = [together(entry).as_numer_denom() for entry in (*entries, self.driven[i]) if entry != 0]

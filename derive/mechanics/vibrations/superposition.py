@@ -265,7 +265,7 @@ def _as_product(excited: Sequence[ExcitedMode], i: int) -> Expr | None:
     """Write A cos(w_1 t) + A cos(w_2 t) as 2 A cos((w_2 - w_1) t/2) cos((w_1 + w_2) t/2), which shows the beats.
 
     Write A cos(w_1 t) - A cos(w_2 t) as 2 A sin((w_2 - w_1) t/2) sin((w_1 + w_2) t/2). In both products the frequencies
-    are symbols.
+    are symbols. Return None for any other sum.
     """
     plain = [s for s in excited if s.frequency is not None and s.sign != 0 and s.sign != -1 and s.initial == 0]
     if len(excited) != 2 or len(plain) != 2:

@@ -135,8 +135,8 @@ def _frequency(
 
 
 def _left_by_drift(linear: Sequence[Quantity], columns: Sequence[MatrixBase]) -> tuple[Expr, ...]:
-    """Return the residuals of the full equations of motion for uniform motions of the coordinates, if all of them
-    vanish."""
+    """Return the residuals of the full equations of motion for uniform motions of the coordinates. Return an empty
+    tuple if one of these residuals does not vanish."""
     left = [value for column in columns for value in left_by_drift(linear, column, stand_in("s"))]
     return tuple(left) if all(map(is_zero, left)) else ()
 

@@ -24,7 +24,7 @@ ENDS = 0.04  # part of a curve at either end that has no name
 
 
 def dots_of(spots: Sequence[Spot]) -> list[Spot]:
-    """Return points of a line at small distances."""
+    """Return points along a line, at small distances from one another."""
     found = [spots[0]]
     for (x, y), (u, v) in pairwise(spots):
         parts = max(1, round(dist((x, y), (u, v)) / STEP))

@@ -133,7 +133,7 @@ def _clash(problem: Problem, letter: Symbol, name: Any, what: str) -> Complaint:
 
 
 def _place(problem: Problem, letter: Symbol) -> Place | None:
-    """Return the place where the symbol is declared or used."""
+    """Return the place where the symbol is declared or used; None if the file has no such place."""
     given = next((given.name for given in problem.givens if letter in given.letters), "")
     keys = (f"define.{letter.name}", f"symbols.{letter.name}", f"given.{given}", "symbols", "given")
     return next((problem.places[key] for key in keys if key in problem.places), None)

@@ -221,7 +221,8 @@ class HtmlPage:
     # --- equations ---------------------------------------------------------------------------------------------------
 
     def steps(self, display: Display) -> Sequence[Html]:
-        """Return the rows of each step of a display, or of several steps with answers in a common frame."""
+        """Return the rows of a display, with one entry per step. Steps whose answers share a frame have one entry
+        together."""
         printed = [printed_lines(group, self.notation, PAGE_WIDTH) for group in display.groups]
         found = []
         for together in answers_together(printed):

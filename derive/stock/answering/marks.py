@@ -245,7 +245,8 @@ class Marked:
         return read_expression(node, self._letters.letters)
 
     def _size(self, written: Written | None) -> Expr | None:
-        """Return the size of an arrow or a turn relative to the drawing, a positive number."""
+        """Return the size of an arrow or a rotation relative to the drawing, a positive number; None if the author
+        states no size."""
         if written is None:
             return None
         size, _ = read_expression(written.scalar, {})

@@ -191,7 +191,7 @@ class FrictionKeys(Record):
 
     @property
     def symbol(self) -> Word | None:
-        """Return the symbol of the friction that prevents slipping."""
+        """Return the symbol of the friction that prevents slipping; None if the author gives no symbol."""
         return self.rolling or self.force
 
 
@@ -527,7 +527,7 @@ def _over(written: WrittenPlace, known: Connected) -> Any:
 
 
 def _end(written: WrittenPlace, known: Connected, name: str) -> Any:
-    """Return the body, particle or point of a body at an end, or a place in space."""
+    """Return what is at one end of a connection: a body, a particle, a point of a body, or a place in space."""
     way = written.way
     if way is not None and way.start is not None and str(way.start) in known.places.carried and way.axes is None:
         by = known.places.at(WrittenPlace(None, replace(way, start=None), written.place), name)
