@@ -32,6 +32,7 @@ from sympy import (
     Rational,
     cancel,
     cos,
+    cot,
     nan,
     oo,
     sign,
@@ -448,8 +449,10 @@ def _ratio_by_a_letter(above: Expr, below: Expr) -> Expr | None:
 
 
 def _by_cosines(expr: Expr) -> Expr:
-    """Write tangents as quotients, and squares of sines with cosines, so that common factors are visible."""
+    """Write tangents and cotangents as quotients, and squares of sines with cosines, so that common factors are
+    visible."""
     expr = expr.replace(tan, lambda angle: sin(angle) / cos(angle))
+    expr = expr.replace(cot, lambda angle: cos(angle) / sin(angle))
     return TR5(expr.expand(), max=8) if expr.has(sin) else expr
 
 

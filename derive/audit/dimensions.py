@@ -17,6 +17,7 @@ from sympy import Expr, MatrixBase, Symbol
 from derive.audit.claims import Claim, Outcome
 from derive.documents.facts import ANGLES
 from derive.documents.meaning import Meaning
+from derive.documents.syntax import Text
 from derive.units import UNIT_NAMES
 
 USUAL = {  # the powers of mass, length and time
@@ -127,7 +128,9 @@ def equations_of(claim: Claim, meaning: Meaning) -> Iterator[Equation]:
         return
     if (left.is_number and left != 0) or (right.is_number and right != 0) or left.atoms(sympy.Float):
         return
-    if any(_is_number_with_unit(each) for each in (left, right)):
+    if any(_is_number_with_unit(each) for each in (left, right)) or _has_unit(claim):
+        return
+    if isinstance(right, sympy.exp):  # `x = e^{st}` is the form of a solution; its constant factor is left out
         return
     found: list[Form] = []
     try:
@@ -148,6 +151,12 @@ def _is_number_with_unit(side: Expr) -> bool:
     names = [each.name for each in side.free_symbols if each.name != "±"]
     have_numbers = all(each.as_coeff_Mul()[0] != 1 for each in sympy.Add.make_args(side))
     return bool(names) and have_numbers and all(each in UNIT_NAMES for each in names)
+
+
+def _has_unit(claim: Claim) -> bool:
+    """Whether a side contains a number with an upright unit, whose value is a pure number: `a^2 + (60 cm)^2`."""
+    sides = [each for each in (claim.left, claim.right) if each is not None]
+    return any(isinstance(node, Text) and node.text.startswith("unit ") for side in sides for node in side.walk())
 
 
 def form_of(value: Expr, meaning: Meaning, found: list[Form]) -> Form | None:

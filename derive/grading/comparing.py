@@ -18,6 +18,8 @@ from sympy import Add, Expr, Integer, MatrixBase, Rational, Symbol, diff
 from derive.algebra.dimensions import NUMBER, Dimension, exponents
 from derive.algebra.expressions import PLUS_MINUS, TIME, rate
 from derive.algebra.kinds import Inhomogeneous, kind_with_article, named
+from derive.algebra.ranges import Range, within
+from derive.audit.fingerprint import differ
 from derive.audit.time_limit import FAULTS
 from derive.grading.key import Key, Target
 from derive.grading.outcomes import Outcome, Verdict
@@ -114,10 +116,12 @@ class _Comparison:
         own = {self.target.symbol} if isinstance(self.target.symbol, Symbol) else set()
         if value.free_symbols & own and right.free_symbols.isdisjoint(own):
             return None
-        used = (value.free_symbols & set(self.key.definitions)) - right.free_symbols
+        known = {*self.key.definitions, *self.key.momenta}
+        used = (value.free_symbols & known) - right.free_symbols
         if not used and not right.free_symbols & set(self.key.definitions):
             return None
-        left, full = self.expanded(value), self.expanded(right)
+        momenta = {each: of for each, of in self.key.momenta.items() if each in used}
+        left, full = self.expanded(value.xreplace(momenta)), self.expanded(right)
         if (left, full) == (value, right) or not are_equal(left, full):
             return None
         if results := sorted(used - self.key.allowed, key=str):
@@ -334,6 +338,12 @@ class _Comparison:
             if (dimension := self.key.dimensions.get(each)) is not None and each != TIME
         }
         angles = {each for each, dimension in kinds.items() if dimension == NUMBER}
+        roots = angles & self.key.coordinates if not differ(left**2, goal**2) else set()
+        for angle in sorted(roots, key=str):  # `2 sin(theta/2)` for the root of 2 - 2 cos(theta)
+            with within({angle: Range(Integer(0), sympy.pi / 2)}):
+                if are_equal(left, goal):
+                    told = f"for {shown(angle, self.key)} between 0 and 90 degrees"
+                    return Verdict(Outcome.CONVENTION, told)
         text = special_values(left, goal, kinds, angles)
         return Verdict(Outcome.SPECIAL, f"it is right only for {text}") if text else None
 

@@ -42,7 +42,7 @@ def unit_in(text: str) -> Unit | None:
     plain = re.sub(r"\\(?:mathrm|text|textrm|rm|si|unit|mathit|operatorname)\b", " ", plain)
     plain = re.sub(r"\\frac\s*\{([^{}]*)\}\s*\{([^{}]*)\}", r" \1/\2 ", plain)
     plain = re.sub(r"\\(?:cdot|times|[,;:! ])|[~*·⋅×]|(?<=[A-Za-z])\.(?=[A-Za-z])", " ", plain)
-    plain = plain.replace("\\", " ").replace("{", "").replace("}", "").replace("°", " deg ")
+    plain = plain.replace("\\", " ").replace("{", "").replace("}", "").replace("°", " deg ").replace("º", " deg ")
     plain = re.sub(r"(?<![A-Za-z])[A-Za-z]+", lambda found: _WORDS.get(found[0], found[0]), plain)
     plain = re.sub(r"\s*\^\s*", "^", re.sub(r"\s*/\s*", "/", plain)).replace("(", " ").replace(")", " ")
     plain = re.sub(r"\b(rev|rad)/min\b", lambda found: "rpm" if found[1] == "rev" else found[0], plain)
@@ -116,7 +116,12 @@ def verdict_on_number(
         )
     if unit is None:
         return _without_unit(value, is_decimal, figures, places, target, number, dimension)
-    return _in_unit(value, is_decimal, figures, places, number, unit.factor, unit.text)
+    found = _in_unit(value, is_decimal, figures, places, number, unit.factor, unit.text)
+    if unit.factors == (("min", -1),) and "rpm" in number.unit and not found.is_right:
+        turns = _in_unit(value, is_decimal, figures, places, number, read_unit("rpm").factor, "rpm")
+        if turns.is_right:
+            return Verdict(Outcome.CONVENTION, f"with `{unit.text}` as revolutions per minute; {turns.because}")
+    return found
 
 
 def _without_unit(

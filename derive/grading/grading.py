@@ -8,8 +8,9 @@ from fractions import Fraction
 from typing import Any
 
 import sympy
-from sympy import Abs, Expr, Matrix, MatrixBase, Rational, Symbol
+from sympy import Abs, Expr, Matrix, MatrixBase, Rational, Symbol, acos, asin, atan, cos, sin, tan
 
+from derive.algebra.dimensions import NUMBER
 from derive.algebra.expressions import PLUS_MINUS, Relation
 from derive.algebra.order import in_order
 from derive.algebra.ranges import within
@@ -536,6 +537,11 @@ class _Grading:
                 ):
                     found = Verdict(Outcome.CONVENTION, f"as the right side of {target.text}")
                     verdicts.append(self.with_reading(found, statement, read))
+                elif isinstance(read.value, acos | asin | atan) and isinstance(goal.left, cos | sin | tan):
+                    angle = Read(read.node, goal.left.args[0])
+                    verdicts.append(
+                        self.with_reading(verdict_on_relation(angle, "=", read, target, self.key), statement, read)
+                    )
                 elif goal.operator == "=":
                     found = verdict_on_relation(read, "=", zero, target, self.key)
                     verdicts.append(
@@ -555,11 +561,12 @@ class _Grading:
 
     def as_number(self, statement: _Statement, target: Target) -> Verdict | None:
         """Judge a number, with or without a unit; None if the problem gives no number or none is typed."""
-        if target.is_relation and (angle := angle_of(target, statement.name)) is not None:
+        if target.is_relation and (angle := angle_of(target, self.angle_in(statement, target))) is not None:
             target = angle
         if not statement.is_equation and not target.is_relation:
             return None
-        if not statement.is_single and statement.name is None and statement.read is not None:
+        of_function = target.is_relation and statement.first and statement.first[0].value == target.value.left
+        if not statement.is_single and statement.name is None and statement.read is not None and not of_function:
             return None
         if target.number is None:
             return self.as_components(statement, target) if target.numbers else None
@@ -584,6 +591,17 @@ class _Grading:
                 found = replace(found, reading=self.named(statement, latex_of(read.node, self.key.names)))
                 return self.with_direction(found, statement, target)
         return None
+
+    @staticmethod
+    def angle_in(statement: _Statement, target: Target) -> Any:
+        """The name of a typed angle. A number without a name is the angle in `cos(theta) = 2/3` if its unit is that of
+        an angle."""
+        arguments = target.value.left.args
+        if statement.is_single and arguments:
+            unit = next((unit for _, unit in with_units(statement.texts[-1])), None)
+            if unit is not None and unit.dimension == NUMBER and unit.angles:
+                return arguments[0]
+        return statement.name
 
     def as_components(self, statement: _Statement, target: Target) -> Verdict | None:
         """Judge a vector of decimals, with or without a unit; None if none is typed."""

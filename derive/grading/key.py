@@ -105,6 +105,7 @@ class Key:
     definitions   the value of each symbol that a step introduces
     allowed       symbols that the problem defines, such as beta = b/2m; an answer may contain them
     points        whether the problem has points; without points each part counts 1
+    momenta       the values of momenta that are also variables of the Hamiltonian
     """
 
     problem: str
@@ -120,6 +121,7 @@ class Key:
     order: Order
     kinds: Mapping[Symbol, str] = field(default_factory=dict)
     points: bool = False
+    momenta: Mapping[Symbol, Expr] = field(default_factory=dict)
     notation: Notation = field(default_factory=Notation, compare=False, repr=False)
 
     def part(self, name: str) -> Part | None:
@@ -188,7 +190,8 @@ def key_of(
         problem.id, tuple(parts), tuple(made.target(step, made.label_of(step)) for step in derivation.steps),
         Names.of(made.symbols), made.wholes, made.definitions, frozenset(made.allowed), dimensions, frozenset(moving),
         problem.ranges, problem.order,
-        {q: kind for step in derivation.steps for q, kind in step.coordinates}, bool(credits), notation,
+        {q: kind for step in derivation.steps for q, kind in step.coordinates}, bool(credits), made.momenta,
+        notation,
     )  # fmt: skip
 
 
@@ -220,6 +223,7 @@ class _Making:
         self.symbols: dict[Any, None] = {TIME: None}
         self.wholes: dict[tuple[str, str], MatrixBase] = {}
         self.definitions: dict[Symbol, Expr] = {}
+        self.momenta: dict[Symbol, Expr] = {}
         self.allowed: set[Symbol] = {each.symbol for each in problem.defined}
         self._collect()
 
@@ -248,9 +252,13 @@ class _Making:
             free: set[Any] = getattr(_explicit(asked.result), "free_symbols", set())
             self.allowed |= {each for each in free if each in self.definitions}
         self.symbols.pop(PLUS_MINUS, None)
-        for moving in {q for step in self.derivation.steps for q, _ in step.coordinates}:
+        coordinates = {q for step in self.derivation.steps for q, _ in step.coordinates}
+        rates = {rate(q) for q in coordinates}
+        for moving in coordinates:
             for symbol in (moving, rate(moving), rate(moving, 2)):  # a motion does not define its coordinate
-                self.definitions.pop(symbol, None)
+                value = self.definitions.pop(symbol, None)
+                if value is not None and symbol == moving and value.free_symbols & rates:
+                    self.momenta[symbol] = value
 
     def _named(self, step: Step, value: Any) -> Iterator[tuple[Any, Any]]:
         yield from ((name, _explicit(of)) for name, of in step.names if isinstance(name, Symbol))

@@ -161,6 +161,8 @@ class _InProblem(Meaning):
 
     def of_pow(self, node: Pow) -> Any:
         base, exponent = self._of(node.base), self._of(node.exponent)
+        if isinstance(base, MatrixBase) and isinstance(node.exponent, Letter) and node.exponent.base == "T":
+            return base.T
         if isinstance(exponent, Expr) and exponent.is_Number and abs(exponent) > HIGHEST_POWER:
             if not (base == 10 and abs(exponent) <= 300):
                 raise Meaningless(f"too large: a power is at most {HIGHEST_POWER}", node.exponent.span)

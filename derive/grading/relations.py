@@ -10,11 +10,12 @@ from dataclasses import replace
 from typing import Any
 
 import sympy
-from sympy import Expr, Integer, MatrixBase, Rational, Symbol, acos, asin, atan, cos, pi, sin, tan
+from sympy import Expr, Integer, MatrixBase, Rational, Symbol, acos, asin, atan, cos, cot, csc, pi, sec, sin, tan
 
 from derive.algebra.dimensions import NUMBER
 from derive.algebra.equality import equal
 from derive.algebra.expressions import PLUS_MINUS, Relation
+from derive.algebra.ranges import never_vanishes_within
 from derive.audit.time_limit import FAULTS
 from derive.grading.comparing import _Comparison, aligned, factor_is_near, shown, verdict_on_value
 from derive.grading.key import Key, Number, Target
@@ -39,7 +40,7 @@ def verdict_on_relation(left: Read, mark: str, right: Read, target: Target, key:
     typed = Relation(aligned(left.value, goal), mark, aligned(right.value, goal))
     if typed.residual == 0 or are_surely_equal(typed.left, typed.right):
         return Verdict(Outcome.DIFFERENT, "both sides are equal, so this says nothing")
-    if _are_equivalent(typed, goal):
+    if _are_equivalent(typed, goal) or _are_equivalent_with_cosines(typed, goal):
         return Verdict(Outcome.EQUAL, "")
     full = Relation(comparison.expanded(typed.left), mark, comparison.expanded(typed.right))
     expanded = Relation(comparison.expanded(goal.left), goal.operator, comparison.expanded(goal.right))
@@ -68,6 +69,25 @@ def _are_equivalent(one: Relation, other: Relation) -> bool:
         return bool(equal(one, other))
     except FAULTS:
         return False
+
+
+def _are_equivalent_with_cosines(typed: Relation, goal: Relation) -> bool:
+    """Whether two equations are equivalent after the denominators of tangents, cotangents and secants are removed. The
+    right equation must have no solution where a denominator vanishes."""
+    if not (typed.operator == goal.operator == "=" and typed.residual.has(tan, cot, sec, csc)):
+        return False
+    quotients = (
+        typed.residual.replace(tan, lambda x: sin(x) / cos(x)).replace(cot, lambda x: cos(x) / sin(x))
+        .replace(sec, lambda x: 1 / cos(x)).replace(csc, lambda x: 1 / sin(x))
+    )  # fmt: skip
+    above, below = sympy.fraction(sympy.together(quotients))
+    ends = {cos: (pi / 2, -pi / 2), sin: (Integer(0), pi)}
+    for base in below.as_powers_dict():
+        if isinstance(base, sin | cos):
+            places = [{base.args[0]: end} for end in ends[type(base)]]
+            if not all(never_vanishes_within(goal.residual.xreplace(place)) for place in places):
+                return False
+    return _are_equivalent(Relation(above, "=", Integer(0)), goal)
 
 
 def give_the_same(typed: list[Relation], goals: list[Relation]) -> bool:

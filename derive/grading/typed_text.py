@@ -307,10 +307,11 @@ def _wrapped(tokens: list[Token]) -> list[Token]:
             at = end + 1
             if at >= len(tokens):
                 continue
-        inner, at_next = _inner(tokens, at)
+        is_sign = token.text == "_" and tokens[at].is_mark("-", "+")  # `omega_+`
+        inner, at_next = ([tokens[at]], at + 1) if is_sign else _inner(tokens, at)
         if inner is not None:
-            span = inner[0].span if inner else token.span
-            found += [Token(Kind.OPEN, "{", span), *_wrapped(inner), Token(Kind.CLOSE, "}", span)]
+            first, last = (inner[0].span, inner[-1].span) if inner else (token.span, token.span)
+            found += [Token(Kind.OPEN, "{", first), *_wrapped(inner), Token(Kind.CLOSE, "}", last)]
             at = at_next
     return found
 

@@ -178,6 +178,9 @@ def test_a_row_with_other_dimensions_than_the_rest_is_blamed() -> None:
     )
     (claim,) = wrong(text)
     assert claim.row.line == 3 and claim.verdict is not None and "dimensions" in claim.verdict.because
+    assert (
+        wrong(text.replace("l^3", "l^2") + "\n\n$$ l = e^{s t} $$\n\n$$ J = m (l^2 + (60\\,\\mathrm{cm})^2) $$") == []
+    )
 
 
 @pytest.mark.parametrize(
