@@ -520,8 +520,8 @@ def _moves_alone(system: System, of: Any, free: Sequence[int], drawn: Sequence[A
     free    the indices of the components that change
     drawn   the directions of the drawn forces of constraints that the coordinates fulfil
     """
-    parts = [*system.particles, *system.bodies]
-    own, places = 0, []
+    parts: list[Any] = [*system.particles, *system.bodies]
+    own, places = 0, list[Expr]()
     for each in parts:
         own = len(places) if each == of else own
         places += [*(each.centre if isinstance(each, PlacedBody) else each.at).components]
