@@ -217,7 +217,8 @@ def test_a_value_of_a_constant_momentum_is_used_by_an_answer(tmp_path: Path) -> 
     text = edited(SLEEPING_TOP[:start] + SLEEPING_TOP[end:], ("  at: {theta: 0}\n", ""))
     unused = edited(text, ("[effective_potential, stability, enough]", "conserved"))
     assert "no answer depends on the value of the momentum of phi" in str(complaints(tmp_path, unused))
-    assert "constant_psi" in solved(tmp_path, edited(text, ("[effective_potential, stability, enough]", "constant_psi")))
+    used = edited(text, ("[effective_potential, stability, enough]", "constant_psi"))
+    assert "constant_psi" in solved(tmp_path, used)
 
 
 def test_a_wrong_value_of_a_constant_momentum_gives_another_condition(tmp_path: Path) -> None:
