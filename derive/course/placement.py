@@ -77,6 +77,7 @@ class Placement:
     width: float | None = None
     view: tuple[float, float] | None = None
     view_place: Place | None = field(default=None, repr=False)
+    width_place: Place | None = field(default=None, repr=False)
     values: tuple[tuple[Symbol, Expr], ...] = ()
     names: Table[str, Place] = field(default_factory=dict, repr=False)
     range: Range | None = field(default=None, repr=False)
@@ -144,6 +145,7 @@ def placements(
             width=width_of(written.width, faults),
             view=written.view,
             view_place=written.places.get("view"),
+            width_place=written.places.get("width"),
             values=_values(written.values, symbols, faults),
             names={letter: letter.place for letter in written.values},
             range=Range(written.ends) if written.ends else None,

@@ -381,14 +381,11 @@ class Connections:
     def _plane(self, plane: Plane, low: Location, high: Location, contacts: Sequence[Contact]) -> Iterable[Mark]:
         if plane.is_two_sided:
             yield Edge(column_of(low), column_of(high), "edge")
-        elif isinstance(plane.moves, Location):
-            velocity = Location(tuple(diff(c, TIME) for c in plane.moves.components))
-            size = tidied(sqrt(Add(*(c**2 for c in velocity.components))))
-            if isinstance(size, Abs) and size.args[0].is_Symbol:  # the arrow is drawn for a positive symbol
-                size = size.args[0]
+        elif isinstance(plane.ground, Location):
             yield Edge(column_of(low), column_of(high), "edge")
             start = low + Rational(1, 10) * (high - low) - self.size * Rational(1, 5) * plane.unit_normal
-            yield Arrow(column_of(start), column_of(velocity), Rational(1, 2), False, label=size)
+            yield from _arrows_of_motion(column_of(start), plane.ground)
+            return
         elif self.carries_only_blocks(plane):
             floor = self._floor(plane, contacts)
             yield floor
@@ -399,12 +396,13 @@ class Connections:
         yield from self._origin(plane, 0.0)
 
     def carries_only_blocks(self, plane: Surface) -> bool:
-        """Whether the surface is a level plane under particles that are drawn as blocks. The centre of each block is at
-        its particle, so springs and strings are at half the height of the block."""
+        """Whether the surface is a level plane at rest under particles that are drawn as blocks. The centre of each
+        block is at its particle, so springs and strings are at half the height of the block."""
         on_it = [each.of for each in self.contacts if each.surface == plane]
         return (
             isinstance(plane, Plane)
             and plane.of is None
+            and not isinstance(plane.ground, Location)
             and is_zero_direction(plane.unit_normal.components[0])
             and all(isinstance(of, Particle) for of in on_it)
         )
@@ -429,7 +427,7 @@ class Connections:
         If a spring, a string or a rod has a fixed end, the origin is usually an equilibrium position, so the result is
         False.
         """
-        if plane.of is not None or isinstance(plane.moves, Location) or self.start:
+        if plane.of is not None or isinstance(plane.ground, Location) or self.start:
             return False
         if not is_zero_direction(plane.unit_normal.components[0]):
             return False
@@ -817,6 +815,24 @@ class Connections:
         circles = [each.surface for each in self.contacts if isinstance(each.surface, Circle) and self.in_a_plane]
         centred = any(same(circle.centre, link.start) for circle in circles)
         return centred or any(same(a, link.start) and same(b, link.end) for one in ends for a, b in (one, one[::-1]))
+
+
+def _arrows_of_motion(start: Any, place: Location) -> Iterator[Mark]:
+    """Yield the arrow of a place with a prescribed motion: its velocity if it is constant, or its constant acceleration
+    from rest. For any other motion along a straight line, yield an arrow in both directions."""
+    rates = [ImmutableDenseMatrix([tidied(diff(c, TIME, n)) for c in place.components]) for n in (1, 2)]
+    constant = next((each for each in rates if any(each) and not each.has(TIME)), None)
+    if constant is rates[0] or constant is not None and not any(rates[0].subs(TIME, 0)):
+        size = tidied(sqrt(Add(*(c**2 for c in constant))))
+        if isinstance(size, Abs) and size.args[0].is_Symbol:  # the arrow is drawn for a positive symbol
+            size = size.args[0]
+        yield Arrow(start, constant, Rational(1, 2), False, label=size)
+        return
+    x, y = rates[0]
+    way = _direction(1, tidied(y / x)) if x != 0 else _direction(0, 1)
+    if not way.has(TIME):
+        yield Arrow(start, way, Rational(1, 4), False)
+        yield Arrow(start, -way, Rational(1, 4), False)
 
 
 def distance_of(start: Location, end: Location) -> Expr:

@@ -495,13 +495,11 @@ def _moves_by(system: System, of: Any, acting: Sequence[PointForce], found: Mapp
     """Whether the drawn forces account for the motion of the centre of mass. If not, an unknown reaction also acts,
     such as the force of the ice on a plank."""
     centre, mass = (of.centre, of.body.mass) if isinstance(of, PlacedBody) else (of.at, of.mass)
-    moving = list(system.coordinates)
     free = [k for k, c in enumerate(centre.components) if coordinates_in(c)]
     normals = [force.direction for force in acting if not _multipliers(system, force)]
-    rows = ImmutableDenseMatrix(
-        [[*(derivative(centre.components[k], q) for q in moving), *(n[k] for n in normals)] for k in free]
-    )
-    if free and rows.rank(simplify=True) < len(free):
+    others = {each.force for each in system.constraints}  # the coordinates alone do not fulfil these constraints
+    kept = [each.direction for each in acting if not others & {*_multipliers(system, each)}]
+    if not _moves_alone(system, of, free, kept):
         return False
     if _is_on_axle(system, of, acting):
         return True
@@ -513,6 +511,26 @@ def _moves_by(system: System, of: Any, acting: Sequence[PointForce], found: Mapp
         if not is_zero(Add(*(f.size * f.direction[k] for f in acting)).xreplace(values) - down):
             return False
     return True
+
+
+def _moves_alone(system: System, of: Any, free: Sequence[int], drawn: Sequence[Any]) -> bool:
+    """Whether the coordinates allow the body to move alone, without rotation, in each direction that is perpendicular
+    to the drawn forces. If not, an unknown reaction can act in that direction, such as the force of a wedge.
+
+    free    the indices of the components that change
+    drawn   the directions of the drawn forces of constraints that the coordinates fulfil
+    """
+    parts: list[Any] = [*system.particles, *system.bodies]
+    own, places = 0, list[Expr]()
+    for each in parts:
+        own = len(places) if each == of else own
+        places += [*(each.centre if isinstance(each, PlacedBody) else each.at).components]
+        places += [as_expr(each.turned)] if isinstance(each, PlacedBody) and each.is_plane else []
+    moves = ImmutableDenseMatrix([[derivative(c, q) for c in places] for q in system.coordinates])
+    forces = ImmutableDenseMatrix(len(drawn), len(free), [way[k] for way in drawn for k in free])
+    aside = [dict(zip((own + k for k in free), way, strict=True)) for way in forces.nullspace(simplify=tidied)]
+    alone = ImmutableDenseMatrix(len(aside), len(places), lambda i, k: aside[i].get(k, 0))
+    return bool(moves.col_join(alone).rank(simplify=tidied) == moves.rank(simplify=tidied))
 
 
 def _multipliers(system: System, force: PointForce) -> list[Symbol]:

@@ -36,7 +36,7 @@ from derive.mechanics.kinematics.places import Location
 from derive.mechanics.model.forces import Damper, GivenForce
 from derive.mechanics.model.joints import DragAlong
 from derive.mechanics.model.no_slip import Rolling
-from derive.mechanics.model.surfaces import Plane
+from derive.mechanics.model.surfaces import Plane, dot
 from derive.mechanics.model.system import Central, Particle, System
 
 __all__ = ["sketch"]
@@ -440,21 +440,40 @@ class _Scene:
         """Return the two ends of the dimension line of a length q; None if q cannot be shown in this way.
 
         The ends are the two ends of a piece of a rope, or the positions of one point at q = 0 and at the drawn value of
-        q. The point is a mass, or the point at which a body is placed.
+        q. The point is a mass, the point at which a body is placed, or the end of a string or a rod. The position at
+        q = 0 has a constant distance along the line from the origin or from another drawn place; otherwise the line
+        would seem to measure another length.
         """
         found = []
         if (piece := self.connections.rope_piece(q)) is not None:
             return piece
-        held = [placed.at for placed in self.system.bodies]
-        for at in [*(at for _, at in self.system.masses), *held]:
+        for at in self._places:
             way = Location(tuple(diff(c, q) for c in at.components))
             if any(way.components) and is_fixed(self.system, way) and tidied(Add(*(c**2 for c in way.components))) == 1:
                 start = Location(tuple(c.xreplace({q: ZERO}) for c in at.components))
+                if not self._is_measurable(start, way):
+                    continue
                 found.append((len(moving_in(self.system, *at.components)), start, at))
         if not found:
             return None
         _, start, at = min(found, key=lambda each: each[0])
         return start, at
+
+    @property
+    def _places(self) -> list[Location]:
+        """The places of masses, and other ends of strings, of rods and of the lines in place of rods."""
+        masses = [*(at for _, at in self.system.masses), *(placed.at for placed in self.system.bodies)]
+        links = [link for i, link in self.links.items() if not self._is_drawn(self.system.particles[i], link)]
+        ends = [line.places[k] for line in self.connections.lines for k in (0, -1)]
+        return [*masses, *(link.start for link in links), *ends]
+
+    def _is_measurable(self, start: Location, way: Location) -> bool:
+        """Whether a place has a constant distance, in the direction of a unit vector, from the origin or from a drawn
+        place."""
+        between = [at for line in self.connections.lines for at in line.places]
+        springs = [end for each in self.system.between for end in (each.start, each.end)]
+        gaps = [start, *(start - place for place in (*self._places, *between, *springs))]
+        return any(not moving_in(self.system, tidied(dot(gap, way))) for gap in gaps)
 
     def _dimension(self, q: Symbol, start: Location, at: Location, before: int) -> Mark:
         x, y = (tidied(c) for c in (at - start).components)

@@ -26,7 +26,9 @@ from derive.figures import marks as m
 from derive.figures.annotations import PositiveDirection, PositiveRotation
 from derive.figures.branches import BranchLine
 from derive.figures.extrema import MINIMUM
+from derive.figures.parts import BarMark
 from derive.figures.polhodes import order_of
+from derive.figures.surfaces import ThinRod
 from derive.page.plots import (
     Axis,
     Curve,
@@ -341,8 +343,8 @@ def _with_values(problem: Problem, placement: Placement) -> dict[str, Place | No
 
 
 def keys_without_effect(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Complaint]:
-    """Return a warning for each key of a plot in a drawing that is not a plot, and for `view` in a drawing that is not
-    in space."""
+    """Return a warning for each key of a plot in a drawing that is not a plot, for `view` in a drawing that is not in
+    space, and for `width` in the force diagram of a particle."""
     found = []
     for placement in problem.drawings:
         no_plot = any(d.key == placement.key and not isinstance(d, m.Plot) for d in drawings)
@@ -352,17 +354,27 @@ def keys_without_effect(problem: Problem, drawings: Sequence[m.Recorded]) -> lis
             message = f"`{name}` has no effect on `{placement.key}`, which is not a plot"
             place = placement.range.place if placement.range and name == "range" else placement.place
             found.append(Complaint("unused-key", message, place, help="leave it out", severity="warning"))
-        flat = next((d for d in drawings if d.key == placement.key and not _is_in_space(d)), None)
-        if placement.view is not None and flat is not None:
-            message = f"`view` has no effect on `{placement.key}`, which is not a drawing in space"
-            found.append(
-                Complaint("unused-key", message, placement.view_place, help="leave it out", severity="warning")
-            )
+        shown = next((d for d in drawings if d.key == placement.key), None)
+        ignored: list[tuple[str, Place | None, str]] = []
+        if placement.view is not None and shown is not None and not _is_in_space(shown):
+            ignored.append(("view", placement.view_place, "which is not a drawing in space"))
+        if placement.width is not None and shown is not None and _is_of_a_particle(shown):
+            ignored.append(("width", placement.width_place, "because a particle has no size"))
+        for name, at, reason in ignored:
+            message = f"`{name}` has no effect on `{placement.key}`, {reason}"
+            found.append(Complaint("unused-key", message, at, help="leave it out", severity="warning"))
     return found
 
 
 def _is_in_space(drawing: m.Recorded) -> bool:
     return isinstance(drawing, m.Drawing) and drawing.view == m.SPACE
+
+
+def _is_of_a_particle(drawing: m.Recorded) -> bool:
+    """Whether a drawing is the force diagram of a particle, whose lengths are all in points."""
+    if not isinstance(drawing, m.Drawing) or drawing.forces_on is None or drawing.body_size is not None:
+        return False
+    return not any(isinstance(mark, BarMark | ThinRod) for mark in drawing.marks)
 
 
 def not_drawn(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Complaint]:

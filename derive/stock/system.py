@@ -121,6 +121,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         if not any(each.step.rule == POTENTIAL_ENERGY for each in steps):
             forget_words()
         self._check_letters()
+        self._check_kept()
         if self.described.given is None:
             self._draw_forces()
             self._draw_after(drawings)
@@ -473,7 +474,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         found = {}
         for name, q in self.coordinates.items():
             if L.has(q.rate) and not L.has(q.symbol) or name in letters:
-                own = None if name in self.kept else letters.get(name) or constant(f"p_{name}")
+                own = None if name in dict(self.described.kept) else letters.get(name) or constant(f"p_{name}")
                 try:
                     found[name] = conserved(self.lagrangian, q, value=own)
                 except Rejected as refused:
@@ -605,6 +606,17 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
             return not all(is_zero(slope.subs(zero)) for slope in slopes)
         pushes = [c for force in self.system.given_forces for c in force.components]
         return bool(pushes) and not any(map(depends_on_time, pushes))
+
+    def _check_kept(self) -> None:
+        """Reject given values of constant momenta if no answer depends on them."""
+        run = current_run.get()
+        used = {each.key for each in (run.established if run is not None else ())}
+        names = [name for name, _ in self.described.kept]
+        if names and not any(f"constant_{name}" in used for name in names):
+            message = f"no answer depends on the value of the momentum of {names[0]}"
+            place = next(key.place for key, _ in self.described.without if key == "conserved")
+            help_line = f"ask for `effective_potential` or `constant_{names[0]}`, or leave the value out"
+            rejected("unused-key", message, place, help_line)
 
     def _check_letters(self) -> None:
         """Check that each symbol of the description denotes quantities of one kind."""

@@ -31,6 +31,7 @@ from derive.figures.surroundings import (
     CurvedGround,
     DistanceMark,
     FixedEnd,
+    FloorMark,
     GroundMark,
     MovingEnd,
     WayMark,
@@ -618,3 +619,31 @@ def test_a_view_of_a_plane_drawing_has_no_effect(tmp_path: Path) -> None:
     viewed = edited(BESET, ("statement:", "drawings: {system: {view: top}}\nstatement:"))
     found = rendered(course_with(tmp_path, viewed), "trial/one", only={"text"}).warnings
     assert [each.message for each in found] == ["`view` has no effect on `system`, which is not a drawing in space"]
+
+
+def test_a_width_of_the_force_diagram_of_a_particle_has_no_effect(tmp_path: Path) -> None:
+    wide = edited(PENDULUM, ("statement:", "drawings: {forces_bob: {width: 8 cm}}\nstatement:"))
+    found = rendered(course_with(tmp_path, wide), "trial/one", only={"text"}).warnings
+    assert "`width` has no effect on `forces_bob`, because a particle has no size" in [each.message for each in found]
+
+
+@pytest.mark.parametrize(("place", "arrows"), [("[A*t**2/2, 0]", ["A"]), ("[0, b*cos(omega*t)]", ["None", "None"])])
+def test_a_plank_with_a_prescribed_motion_is_not_ground(tmp_path: Path, place: str, arrows: list[str]) -> None:
+    text = f"""\
+title: A block on a moving plank
+solve: system
+symbols: {{m: mass, A: acceleration, g: acceleration, b: length, omega: angular speed}}
+given:
+  coordinates: {{x: length, y: length}}
+  particles: {{block: {{mass: m, at: [x, y]}}}}
+  gravity: g
+  surfaces: {{plank: {{through: {place}, along: [1, 0]}}}}
+  contacts: {{of: block, on: plank, normal: N}}
+statement: A block.
+parts:
+  - ask: Find the normal force.
+    answer: N
+"""
+    drawn = drawings(tmp_path, text)["system"]
+    assert not any(isinstance(mark, GroundMark | FloorMark) for mark in drawn.marks)
+    assert [str(mark.label) for mark in of_class(drawn, Arrow)] == arrows

@@ -60,6 +60,28 @@ def test_a_tension_has_one_symbol(tmp_path: Path) -> None:
         drawings(tmp_path, twice)
 
 
+def test_a_block_has_no_diagram_if_the_force_of_its_guide_is_unknown(tmp_path: Path) -> None:
+    """The coordinates keep the block on a wedge, and the load beside the wedge; no contact is described."""
+    text = """\
+title: A movable wedge
+solve: system
+symbols: {m: mass, M: mass, h: length, g: acceleration, alpha: 'angle in (0, pi/2)'}
+given:
+  coordinates: {X: length, s: length}
+  particles:
+    wedge: {mass: M, at: [X, 0]}
+    block: {mass: m, at: [X + s*cos(alpha), -s*sin(alpha)]}
+    load: {mass: m, at: [X, s - h]}
+  gravity: g
+  strings: {from: block, to: load, over: [wedge], drawn_tension: S}
+statement: A block and a load.
+parts:
+  - ask: Find the equations of motion.
+    answer: equations_of_motion
+"""
+    assert [*drawings(tmp_path, text)] == ["system"]
+
+
 def test_an_axle_balances_the_strings_and_the_weight_of_a_pulley() -> None:
     weight, *strings, axle = of_class(library_drawings("atwood_disc")["forces_pulley"], ForceArrow)
     assert list(axle.value) == [0, 1] and axle.label == weight.label + strings[0].label + strings[1].label

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from math import hypot
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -11,7 +12,7 @@ from sympy import cos, pi, sin, symbols
 
 from derive.algebra.expressions import TIME, scalar
 from derive.figures import particle, sketch
-from derive.figures.annotations import AppliedForce, Axis, AxisOfRotation, PointMark
+from derive.figures.annotations import AppliedForce, Axis, AxisOfRotation, LengthMark, PointMark
 from derive.figures.encoding import drawings_from_data, drawings_to_data
 from derive.figures.marks import PLANE, SPACE
 from derive.figures.parts import BarMark, ConnectionMark, ParticleMark, RopeMark, SpringMark
@@ -43,6 +44,7 @@ from derive.steps.record import recorded
 from tests.courses import ROOT
 from tests.figures.machines import SKETCHES, SYSTEMS, G, a, at, g, k, labels, m, m1, m2, of, omega, seen
 from tests.figures.scenery import strokes
+from tests.figures.test_connected import drawings
 
 
 @pytest.mark.parametrize("name", SYSTEMS)
@@ -226,3 +228,26 @@ def test_coordinates_of_one_body_are_not_those_of_the_centre_of_mass() -> None:
         found = sketch("system", two_stars(centre=False))
         assert found is not None
         assert not of(found, PointMark) and "x" not in labels(found, ConnectionMark)
+
+
+@pytest.mark.parametrize(("first", "labelled"), [("X - m*b*cos(phi)/(m + M)", []), ("X", ["X"])])
+def test_a_dimension_line_of_a_coordinate_ends_at_a_place_with_this_coordinate(
+    tmp_path: Path, first: str, labelled: list[str]
+) -> None:
+    """In the first case, X is the position of the centre of mass, where nothing is drawn."""
+    text = f"""\
+title: A dumbbell
+solve: system
+symbols: {{m: mass, M: mass, b: length}}
+given:
+  coordinates: {{X: length, phi: angle}}
+  particles:
+    one: {{mass: M, at: [{first}, 0]}}
+    two: {{mass: m, at: [{first} + b*cos(phi), b*sin(phi)]}}
+  massless_rods: {{from: one, to: two}}
+statement: A dumbbell.
+parts:
+  - ask: Find the equations of motion.
+    answer: equations_of_motion
+"""
+    assert labels(drawings(tmp_path, text)["system"], LengthMark) == labelled

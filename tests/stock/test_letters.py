@@ -212,6 +212,15 @@ def test_a_constant_momentum_may_be_told_by_what_it_is(tmp_path: Path) -> None:
     assert equal(found["enough"].value.right, 2 * sqrt(A * M * g * l) / C)
 
 
+def test_a_value_of_a_constant_momentum_is_used_by_an_answer(tmp_path: Path) -> None:
+    start, end = SLEEPING_TOP.index("  results:"), SLEEPING_TOP.index("statement:")
+    text = edited(SLEEPING_TOP[:start] + SLEEPING_TOP[end:], ("  at: {theta: 0}\n", ""))
+    unused = edited(text, ("[effective_potential, stability, enough]", "conserved"))
+    assert "no answer depends on the value of the momentum of phi" in str(complaints(tmp_path, unused))
+    used = edited(text, ("[effective_potential, stability, enough]", "constant_psi"))
+    assert "constant_psi" in solved(tmp_path, used)
+
+
 def test_a_wrong_value_of_a_constant_momentum_gives_another_condition(tmp_path: Path) -> None:
     """With p_phi = 0 nothing holds it upright: there the effective potential has no bound."""
     text = edited(SLEEPING_TOP, ("{phi: C*s, psi: C*s}", "{phi: 0, psi: C*s}"))
