@@ -245,6 +245,13 @@ def test_axes_with_different_units_have_scales_of_their_own() -> None:
     assert panel.values == pytest.approx((-1.16, -46.4, 1.16, 46.4), rel=1e-3)
 
 
+def test_a_line_at_an_energy_has_dots_at_its_turning_points() -> None:
+    plot = plot_of(a * theta**2, Integer(-1), Integer(1), "length")
+    (bound,), (free,) = (panels(replace(plot, energies=(energy,)), 1) for energy in (a / 4, 2 * a))
+    assert [place for place, _ in bound.points] == [pytest.approx((x, 0.25)) for x in (-0.5, 0.5)]
+    assert free.heights and not free.points  # this line ends at the ends of the range
+
+
 def test_panels_of_paths_have_their_own_heights() -> None:
     found = sheet(path_of(cos(theta), a * sin(theta)), 1, 2, alt="two", width=6.0)
     one = sheet(path_of(cos(theta), 2 * sin(theta)), width=6.0)

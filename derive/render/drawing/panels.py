@@ -234,7 +234,8 @@ def curve_panel(
             _point(*each, curves, own, across, notation)
             for each in curves.points(own)
             if not _is_tick_at_end(each, across, curves)
-        ),
+        )
+        + _turning_points(own, across_by, up_by),
         heights=tuple(
             ((start * across_by, energy * up_by), (end * across_by, energy * up_by))
             for curve in own
@@ -243,6 +244,18 @@ def curve_panel(
         ),
         is_signed=_is_well_inside(0.0, low, high),
         has_open=curves.has_unstable,
+    )
+
+
+def _turning_points(own: Sequence[Curve], across_by: float, up_by: float) -> tuple[tuple[Spot, str], ...]:
+    """Return the points where a line at an energy meets its curve, without names."""
+    return tuple(
+        ((place * across_by, energy * up_by), "")
+        for curve in own
+        for energy, ranges in curve.heights
+        for both in ranges
+        for place in both
+        if place not in (curve.lower, curve.upper)
     )
 
 
