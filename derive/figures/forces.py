@@ -58,7 +58,7 @@ VISIBLE, LONGER = Rational(1, 2), Integer(2)
 ON_A_LINE = Rational(3, 5)  # least factor for all arrows if each drawing shows a particle with forces on one line
 OFF = Rational(1, 30)  # distance between a rod and the arrow of a force along it, relative to the length of the rod
 APART = 5.0  # the distance between the arrows of two forces on the same line, in points
-ALONG = 1.8  # distance between a surface and the arrow of a force along it, on the side of the body, in points
+ALONG = 3.6  # distance between a surface and the arrow of a force along it, on the side of the body, in points
 # A round body whose weight and normal force are on one line: its drawn size in points, and the lengths of its longest
 # and of its shortest arrow, in units of FORCE points. With these lengths the weight ends above the contact, and the
 # friction is visible.

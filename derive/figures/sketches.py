@@ -345,13 +345,14 @@ class _Scene:
         if height in self.system.coordinates:
             yield Axis(column_of(link.start) * 0, column_of(Rational(5, 3) * link.start), label=height)
 
-    def _cartesian(self, at: Location) -> Iterable[Mark]:
+    def _cartesian(self, at: Location, *, measured: bool = False) -> Iterable[Mark]:
+        """Yield the axes, and the dashed lines from a place to them, with their lengths if `measured`."""
         for k, q in enumerate(at.components):
             ahead = Location(tuple(q if i == k else ZERO for i in range(self.rows)))
             origin, end = column_of(ahead) * 0, column_of(Rational(4, 3) * ahead)
             yield Axis(origin, end, label=q)
             if self.rows == 2:
-                yield ConnectionMark(column_of(at), column_of(ahead))
+                yield ConnectionMark(column_of(at), column_of(ahead), label=at.components[1 - k] if measured else None)
         if self.rows == 3:  # down to the plane of the first two axes, and from there to these axes
             x, y, _ = at.components
             foot = column_of(Location((x, y, ZERO)))
@@ -391,7 +392,7 @@ class _Scene:
         yield ConnectionMark(column_of(other.at), column_of(corner), label=x)
         yield ConnectionMark(column_of(one.at), column_of(corner), label=y)
         yield PointMark(column_of(middle))
-        yield from self._cartesian(middle)
+        yield from self._cartesian(middle, measured=True)
 
     # --- displacements ---
 

@@ -41,7 +41,7 @@ from derive.render.drawing.canvas import sheet_of
 from derive.render.notation.notation import Notation
 from derive.render.printing.text_page import inline_text
 from derive.steps.record import recorded
-from tests.courses import ROOT
+from tests.courses import ROOT, library_drawings
 from tests.figures.machines import SKETCHES, SYSTEMS, G, a, at, g, k, labels, m, m1, m2, of, omega, seen
 from tests.figures.scenery import strokes
 from tests.figures.test_connected import drawings
@@ -220,7 +220,12 @@ def test_two_bodies_have_their_centre_of_mass_and_the_way_from_one_to_the_other(
         found = sketch("system", two_stars())
         assert found is not None
         assert labels(found, Axis) == ["X", "Y"]
-        assert {"x", "y"} <= set(labels(found, ConnectionMark))
+        assert {"X", "Y", "x", "y"} <= set(labels(found, ConnectionMark))
+
+
+def test_a_dashed_line_is_left_out_with_its_label() -> None:
+    drawn = library_drawings("two_bodies")
+    assert len(of(drawn["system"], ConnectionMark)) == len(of(drawn["orbits"], ConnectionMark)) + 4
 
 
 def test_coordinates_of_one_body_are_not_those_of_the_centre_of_mass() -> None:

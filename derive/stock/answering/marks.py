@@ -23,6 +23,7 @@ from derive.course.yaml_tree import Sequence as SequenceNode
 from derive.errors import did_you_mean, rejected
 from derive.figures.annotations import AngleMark, Arrow, Cone, HollowPoint, Line, Turn
 from derive.figures.marks import PLANE, Drawing, Mark, Surface, noted
+from derive.figures.parts import ConnectionMark
 from derive.figures.positions import SIDES, value_and_keys
 from derive.figures.surroundings import AngleBetween, DistanceMark, WayMark
 from derive.steps.record import current_run
@@ -94,8 +95,8 @@ class Marked:
             drawings[drawings.index(shown[name])] = own
 
     def _kept(self, marks: Sequence[Mark]) -> Iterator[Mark]:
-        """Yield the marks of a drawing, except marks whose labels the problem leaves out; a surface stays, without its
-        label."""
+        """Yield the marks of a drawing, except marks whose labels the problem leaves out; a surface that is not a
+        dashed line stays, without its label."""
         labels = {str(mark.label) for mark in marks if mark.label is not None}
         for word in self.drawing.without:
             if word not in labels:
@@ -103,7 +104,7 @@ class Marked:
         for mark in marks:
             if mark.label is None or str(mark.label) not in self.drawing.without:
                 yield mark
-            elif isinstance(mark, Surface):
+            elif isinstance(mark, Surface) and not isinstance(mark, ConnectionMark):
                 yield replace(mark, label=None)
 
     @cached_property
