@@ -365,7 +365,7 @@ class Connections:
         touches = [each for each in self.contacts if each.surface == plane]
         ways = [distance_of(plane.through, each.at) for each in touches]
         if any(moving_in(self.system, way) for way in ways) and any(hasattr(each.of, "hub") for each in touches):
-            return TABLE * self.ball_size
+            return max(TABLE * self.ball_size, *(BEYOND * way for way in ways), key=self.number)
         return BEYOND * max(ways, key=self.number)
 
     @property

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+import sympy
 from sympy import symbols as symbols_of
 
 from derive.building.solution import rendered
@@ -396,8 +397,16 @@ def test_a_coin_on_a_table_has_axes_euler_angles_and_its_radius() -> None:
     assert labels == {"x", "y", "z", "phi", "theta", "psi", "a", "g", "R", "Omega"}
     (table,) = of_class(drawn, TableMark)
     touch = next(mark for mark in of_class(drawn, Line) if str(mark.label) == "a").end
+    letters = {letter.name: letter for c in touch for letter in c.free_symbols}
+    a, phi, theta = letters["a"], letters["phi"], letters["theta"]
+    circle = {
+        letters["x"]: 2 * a * sympy.sin(phi),
+        letters["y"]: -2 * a * sympy.cos(phi),
+        letters["z"]: a * sympy.sin(theta),
+    }
     values = dict(drawn.values)
-    assert sum(numeric(c, values) ** 2 for c in touch) < numeric(table.radius, values) ** 2
+    away, radius = (numeric(e.subs(circle), values) for e in (sum(c**2 for c in touch), table.radius**2))
+    assert away < radius
 
 
 CARTS = """\
