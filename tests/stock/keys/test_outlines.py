@@ -126,7 +126,7 @@ def drawing_of(folder: Path, name: str) -> Drawing:
 def drawn(folder: Path, text: str) -> Drawing:
     run = Run()
     run_solve(loaded(folder, text), run)
-    (found,) = run.drawings
+    found = run.drawings[0]  # a problem may add further drawings
     assert isinstance(found, Drawing)
     return found
 
