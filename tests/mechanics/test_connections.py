@@ -785,6 +785,20 @@ def test_a_liquid_in_a_tube_has_the_length_of_its_three_pieces(tmp_path: Path, l
     assert (found + g * Symbol("x", real=True) / (b + h)).simplify() == 0
 
 
+def test_the_length_of_a_rope_is_not_guessed(tmp_path: Path) -> None:
+    """Whether the tube is a U or an inverted U depends on the sign of h - b, so the motion is stable or unstable."""
+    tube = "{from: [-b, h - b + x], over: [[-b, 0], [b, 0]], to: [b, h - b - x], mass_of: rope}"
+    own = ("{from: [x - l, 0], over: [[0, 0]], to: [0, -x], length: l, mass_of: rope}", tube)
+    with pytest.raises(DeriveError, match="this sign is unknown"):
+        solved(tmp_path, edited(ROPE, *IN_A_TUBE, own))
+    x, b, g, h = Symbol("x", real=True), *symbols("b g h", positive=True)
+    for assumed, total in (("h > b", 2 * h), ("h < b", 4 * b - 2 * h)):
+        text = edited(ROPE, *IN_A_TUBE, own, ("gravity: g", f"gravity: g\n  assume: [{assumed}]"))
+        found = solved(tmp_path, text)["acceleration_x"].value
+        sense = -2 if assumed == "h > b" else 2
+        assert (found - sense * g * x / total).simplify() == 0
+
+
 def test_gravity_changes_nothing_for_a_rope_whose_pieces_keep_their_height(tmp_path: Path) -> None:
     level = edited(ROPE, ("to: [0, -x]", "to: [x, 0]"))
     assert solved(tmp_path, level)["acceleration_x"].value == 0

@@ -246,6 +246,8 @@ def string(
     if mass_of is None:
         return line, *more
     _check_rope(line, mass_of, tension)
+    if length is None:
+        _require_known_signs(line.lengths)
     return (replace(line, rope=mass_of),)
 
 
@@ -274,6 +276,19 @@ def _check_rope(line: Any, particle: Any, tension: str) -> None:
     if not is_zero(own.components[-1]):
         message = "the particle that has the mass of the rope must stay at a constant height, but it moves up or down"
         raise Rejected(Complaint("which-body", message, help=BESIDE_THE_ROPE))
+
+
+def _require_known_signs(lengths: Sequence[Expr]) -> None:
+    """Reject a length whose sign is unknown where all coordinates are zero: the length of the rope would be a guess."""
+    for each in map(_at_zero, lengths):
+        if each != 0 and sign_for_all(each) is None:
+            message = f"a piece of the rope is |{each}| long where the coordinates are zero, and this sign is unknown"
+            help_line = "give the `length` of the rope, or a relation under `assume:` that decides the sign"
+            raise Rejected(Complaint("sign", message, help=help_line))
+
+
+def _at_zero(length: Expr) -> Expr:
+    return tidied(length.xreplace(dict.fromkeys(coordinates_in(length), ZERO)))
 
 
 def _rotates(way: Location) -> bool:
@@ -415,8 +430,7 @@ def _kept_lengths(pieces: Sequence[tuple[Location, Location]], whole: Expr | Non
     for lengths in product(*(_possible_lengths(*piece) for piece in pieces)):
         found = tidied(Add(*lengths))
         if found != 0 and not coordinates_in(ImmutableDenseMatrix([found])):
-            at_zero = [each.xreplace(dict.fromkeys(coordinates_in(each), ZERO)) for each in lengths]
-            negative = any(sign_for_all(tidied(each)) == -1 for each in at_zero)
+            negative = any(sign_for_all(_at_zero(each)) == -1 for each in lengths)
             others = whole is None or not is_zero(found - whole)
             kept.append((others, negative, found.could_extract_minus_sign(), list(lengths)))
     return min(kept, key=lambda each: each[:3])[3] if kept else None
