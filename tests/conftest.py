@@ -67,8 +67,11 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 
 
 def _sampled(items: list[pytest.Item]) -> list[pytest.Item]:
-    """Return the first of every few cases of each test with many cases, and all other tests."""
-    sizes = Counter(item.nodeid.partition("[")[0] for item in items)
+    """Return the first of every few cases of each test with many cases, and all other tests.
+
+    The mark `every_case` keeps all cases of a test.
+    """
+    sizes = Counter(item.nodeid.partition("[")[0] for item in items if not item.get_closest_marker("every_case"))
     seen: Counter[str] = Counter()
     kept = []
     for item in items:

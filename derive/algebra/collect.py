@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterable, Sequence
 from functools import lru_cache, partial
 from itertools import permutations
 
-from sympy import Abs, Add, Dummy, Expr, Integer, Mul, Pow, Rational, Symbol, cos, igcd, ilcm, sin
+from sympy import Abs, Add, Dummy, Expr, Integer, Mul, Pow, Rational, Symbol, cos, fraction, igcd, ilcm, sin
 from sympy.polys.polyerrors import PolynomialError
 
 from derive.algebra.coefficients import Coefficient, Factored, Outside, coefficients
@@ -292,15 +292,19 @@ def _with_its_rates(coefficient: Coefficient, rates: list[tuple[Symbol, int]], h
 
 
 def _with_one(product: Expr) -> Expr:
-    """Divide a sum by the symbols of the denominator if the product of these symbols is a term of the sum:
-    (1 + r^2/p^2) r_dot^2, not (p^2 + r^2) r_dot^2/p^2."""
+    """Divide a sum by the denominator if one of its terms then has no denominator, and if this is not longer:
+    (1 + r^2/p^2) r_dot^2, not (p^2 + r^2) r_dot^2/p^2, and R^2 + h^2/(4 pi^2), not (pi^2 R^2 + h^2/4)/pi^2."""
     above, below = product.as_numer_denom()
     sums = [part for part in Mul.make_args(above) if part.is_Add]
     number, letters = below.as_coeff_Mul()
-    if len(sums) != 1 or letters == 1 or below.has(Add) or letters not in sums[0].args:
+    if len(sums) != 1 or letters == 1 or below.has(Add):
         return product
-    rest = Mul(1 / number, *(part for part in Mul.make_args(above) if part is not sums[0]))
-    return Mul(rest, Add(*(term / letters for term in sums[0].args)))
+    whole = [term for term in sums[0].args if fraction(term / letters)[1].is_Rational]
+    if not whole:
+        return product
+    divisor = igcd(number, *(term.as_coeff_Mul()[0].p for term in whole)) * letters
+    rest = Mul(*(part for part in Mul.make_args(above) if part is not sums[0]), divisor / below)
+    return min((Mul(rest, Add(*(term / divisor for term in sums[0].args))), product), key=length)
 
 
 def _times_rates(coefficient: Coefficient, rates: list[tuple[Symbol, int]], halves: bool) -> Expr:

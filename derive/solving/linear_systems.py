@@ -686,14 +686,16 @@ def _is_power_of_one_sum(value: Expr) -> bool:
 def root_of(square: Expr) -> Expr:
     """Return the square root, if possible with one root sign, as in sqrt(k/m)."""
     drawn = tidied(sqrt(square))
-    if drawn == 0 or square.has(sin) or not any(p.free_symbols for p in _roots_in(drawn)):  # sqrt(3) Omega
+    if drawn == 0 or not any(p.free_symbols for p in _roots_in(drawn)):  # sqrt(3) Omega
         return drawn
     if _is_power_of_one_sum(drawn):
         return drawn
     number, letters = square.as_coeff_Mul()
     if number != 1 and sqrt(number).is_Rational and not is_irrational(letters):
-        return sqrt(number) * Root(spread_or_by_terms(letters))
-    return Root(square if is_irrational(square) else spread_or_by_terms(square))
+        whole = sqrt(number) * Root(spread_or_by_terms(letters))
+    else:
+        whole = Root(square if is_irrational(square) else spread_or_by_terms(square))
+    return min((drawn, whole), key=length) if square.has(sin) else whole
 
 
 def is_irrational(value: Expr) -> bool:

@@ -472,7 +472,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         L = explicit(self.lagrangian.value)
         letters = dict(self.described.conserved)
         found = {}
-        for name, q in self.coordinates.items():
+        for name, q in self.independent.items():
             if L.has(q.rate) and not L.has(q.symbol) or name in letters:
                 own = None if name in dict(self.described.kept) else letters.get(name) or constant(f"p_{name}")
                 try:
@@ -493,7 +493,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
     @property
     def reduced(self) -> Quantity:
         """Return the Routhian if it can replace the Lagrangian; otherwise the Lagrangian."""
-        is_left = self.cyclic and len(self.cyclic) < len(self.coordinates)
+        is_left = self.cyclic and len(self.cyclic) < len(self.independent)
         return self.routhian if is_left and not self._has_place_of_cyclic else self.lagrangian
 
     @property
@@ -513,7 +513,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         """Return the function that is stationary at equilibria: the potential energy, an effective potential energy or
         the Lagrangian."""
         if self.described.given is not None:
-            return self.effective_potential if 0 < len(self.cyclic) < len(self.coordinates) else self.lagrangian
+            return self.effective_potential if 0 < len(self.cyclic) < len(self.independent) else self.lagrangian
         self._check_friction_at_rest()
         still: Mapping[Any, Any] = dict.fromkeys([q.rate for q in self.coordinates.values()], Integer(0))
         is_driven = explicit(self.kinetic_energy.value).xreplace(still) != 0
@@ -521,14 +521,14 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         if self.system.constraints:  # a constraint force may act along a cyclic coordinate
             return self.lagrangian if is_pushed else self.potential_energy
         self._assume_momenta()
-        if self.cyclic and len(self.cyclic) < len(self.coordinates) or is_driven and len(self.coordinates) == 1:
+        if self.cyclic and len(self.cyclic) < len(self.independent) or is_driven and len(self.independent) == 1:
             return self.effective_potential
         return self.lagrangian if is_pushed else self.potential_energy
 
     def _assume_momenta(self) -> None:
         """Assume that each constant momentum with a positive symbol is positive. Assume that any other constant
         momentum is not zero, if the equilibrium may depend on this momentum."""
-        left = [q.symbol for name, q in self.coordinates.items() if name not in self.cyclic]
+        left = [q.symbol for name, q in self.independent.items() if name not in self.cyclic]
         for symbol in (momentum.symbol for momentum in self.cyclic.values()):
             if symbol.is_positive:
                 assume(Relation(symbol, ">", Integer(0)))
@@ -578,7 +578,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         motions = self.motions
         if self.reduced is not self.lagrangian:
             self._check_momenta_have_symbols()
-            left = [q for name, q in self.coordinates.items() if name not in self.cyclic]
+            left = [q for name, q in self.independent.items() if name not in self.cyclic]
             motions = tuple(equation_of_motion(self.routhian, q, key=f"reduced_{q.symbol.name}") for q in left)
             at = at or self.stationary[0]
         elif at is None and self._is_pushed and len(self.stationary) == 1:

@@ -92,6 +92,12 @@ class Blueprint:
         """For each condition, whether it is a condition on the rates."""
         return np.array([c.in_rates for c in self.of.conditions], dtype=bool)
 
+    @cached_property
+    def dependent(self) -> dict[int, int]:
+        """The index of each condition that expresses a coordinate by others -> the index of this coordinate."""
+        found = enumerate(each.expresses for each in self.of.conditions)
+        return {row: self.coordinates.index(q) for row, q in found if q is not None}
+
     def with_numbers(self, numbers: Mapping[Symbol, float]) -> Dynamics:
         return Dynamics(self, numbers)
 
@@ -322,7 +328,23 @@ class Dynamics:
         return on_places, np.where(in_rates[:, None], by_rates, by_places)
 
     def momenta(self, state: State) -> Reals:
-        """The generalized momenta; a charge in a magnetic field contributes q A, with A = (1/2) B x r."""
+        """The momenta conjugate to the independent coordinates; zero for the coordinates that these determine."""
+        return self.independent(state).T @ self._all_momenta(state)
+
+    def independent(self, state: State) -> Reals:
+        """The derivatives of all coordinates (rows) with respect to the independent coordinates (columns); the columns
+        of the other coordinates are zero."""
+        found = np.eye(self.count)
+        if dependent := self.blueprint.dependent:
+            rows, columns = list(dependent), list(dependent.values())
+            slopes = self._slopes_of_conditions(state)[0][rows]
+            found[:, columns] = 0.0
+            found[columns] = -np.linalg.solve(slopes[:, columns], slopes @ found)
+        return found
+
+    def _all_momenta(self, state: State) -> Reals:
+        """The momenta if all coordinates were independent; a charge in a magnetic field contributes q A, with A =
+        (1/2) B x r."""
         if self._lagrangian is not None:
             return self._slopes_of_lagrangian(state, self._lagrangian)[self.count :]
         at = self.placed(state)

@@ -241,7 +241,8 @@ class Trial:
             if kept:
                 momenta, (matrix, _) = self.dynamics.momenta(here), self.dynamics.inertia(here)
                 residual = np.append(residual, [momenta[k] - value for k, value in kept])
-                rows = np.vstack([rows, matrix[[k for k, _ in kept]]])
+                of_momenta = self.dynamics.independent(here).T @ matrix
+                rows = np.vstack([rows, of_momenta[[k for k, _ in kept]]])
             if not np.isfinite(residual).all():
                 raise Contradiction(of_rates=True)
             if np.abs(residual).max(initial=0.0) < EXACT:
@@ -257,15 +258,15 @@ class Trial:
         return self._projected(state, [])
 
     def with_momenta(self, state: State, momenta: Mapping[int, float]) -> State:
-        """The state with these momenta of cyclic coordinates; only the rates of these coordinates are changed."""
+        """The state with these momenta of cyclic coordinates; only the rates of these coordinates, and of the
+        coordinates that these determine, are changed."""
         if not momenta:
             return state
         rows = list(momenta)
         matrix, _ = self.dynamics.inertia(state)
+        moved = self.dynamics.independent(state)[:, rows]
         missing = np.array(list(momenta.values())) - self.dynamics.momenta(state)[rows]
-        v = state.v.copy()
-        v[rows] += np.linalg.solve(matrix[np.ix_(rows, rows)], missing)
-        return replace(state, v=v)
+        return replace(state, v=state.v + moved @ np.linalg.solve(moved.T @ matrix @ moved, missing))
 
     @cached_property
     def _depends_on_time(self) -> bool:

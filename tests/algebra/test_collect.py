@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from sympy import Abs, Add, Expr, Mul, Rational, Symbol, cos, expand, sin, symbols
+from sympy import Abs, Add, Expr, Mul, Rational, Symbol, cos, expand, pi, sin, symbols
 
 from derive.algebra.collect import (
     by_accelerations,
@@ -47,6 +47,13 @@ def test_half_of_a_mass_stands_before_its_squared_rate() -> None:
     written = by_rates(value, [q], halves=True)
     assert set(written.args) == {Rational(1, 2), I + M * a**2 / 4, p_dot**2}
     assert equal(written, value)
+
+
+@pytest.mark.parametrize(("halves", "before"), [(False, ()), (True, (Rational(1, 2), M))])
+def test_one_term_of_a_coefficient_has_no_denominator(halves: bool, before: tuple[Expr, ...]) -> None:
+    value = Mul(*before) * (a**2 * p_dot**2 + I**2 * p_dot**2 / (4 * pi**2))  # a helix of radius a and pitch I
+    written = by_rates(value, [q], halves=halves)
+    assert set(written.args) == {*before, a**2 + I**2 / (4 * pi**2), p_dot**2}
 
 
 @pytest.mark.parametrize("value", [p_dot - p_dot, M * a - a * M])

@@ -547,3 +547,4 @@ def test_the_root_of_a_square_contains_no_square() -> None:
     Omega, g, l = symbols("Omega g l", positive=True)
     assert linear_systems.root_of(3 * Omega**2) == sqrt(3) * Omega
     assert linear_systems.root_of(3 * g / l) == Root(3 * g / l)
+    assert linear_systems.root_of((g + l * Omega**2 * sin(l) ** 2) / l) == Root(g / l + Omega**2 * sin(l) ** 2)

@@ -220,3 +220,38 @@ parts:
     R, a, g = symbols("R a g", positive=True)
     theta, theta_ddot = symbols("theta theta_ddot", real=True)
     assert equal(explicit(solved(tmp_path, text)["motion_theta"].value).residual, (R - a) * theta_ddot + g * sin(theta))
+
+
+HOOP = """\
+coordinates: {{x: length, phi: angle, theta: angle{more}}}
+assume: [a < R]
+places: {{O: [x, R], P: {{from: O, by: [(R - a)*sin(theta), -(R - a)*cos(theta)]}}}}
+bodies:
+  hoop: {{shape: hoop, radius: R, mass: M, centre: O, turned: -phi}}
+  {bodies}
+surfaces:
+  floor: {{through: [0, 0], along: [1, 0]}}
+  {surfaces}
+contacts:
+  - {{of: hoop, on: floor, friction: rolling}}
+  {contacts}
+gravity: g
+"""
+
+
+@pytest.mark.parametrize("inside", ["a disc", "a pendulum"])
+def test_a_hoop_that_rolls_has_one_momentum_along_the_floor(tmp_path: Path, inside: str) -> None:
+    """The coordinate x is cyclic, and its momentum includes the rotation of the hoop and of a disc that rolls in it."""
+    disc = {
+        "more": ", psi: angle",
+        "bodies": "disc: {shape: disc, radius: a, mass: m, centre: P, turned: psi}",
+        "surfaces": "inner: {centre: O, radius: R, side: inside, of: hoop}",
+        "contacts": "- {of: disc, on: inner, friction: rolling}",
+    }
+    given = HOOP.format_map(disc if inside == "a disc" else dict.fromkeys(disc, ""))
+    given += "" if inside == "a disc" else "particles: {bob: {mass: m, at: P}}\n"
+    letters = "m: mass, M: mass, R: length, a: length, g: acceleration"
+    frequency = explicit(solved(tmp_path, problem(letters, given, "frequency"))["frequency"].value)
+    (R, a, g), disc_inside = symbols("R a g", positive=True), inside == "a disc"
+    squared = g * (4 * M + 3 * m) / (6 * M * (R - a)) if disc_inside else g * (2 * M + m) / (2 * M * (R - a))
+    assert equal(frequency**2, squared)

@@ -122,6 +122,7 @@ def contact(
     direction: Any = None,
     static: Any = None,
     force: str = "",
+    key: str = "no_slip",
 ) -> tuple[Contact | Part, ...]:
     """The forces between a body and a surface that it touches, and the conditions that they enforce.
 
@@ -145,6 +146,7 @@ def contact(
                a round body rolls; this requires |F| <= mu_s N, for a rail |F| <= mu_s |N|, and in space
                sqrt(F_x^2 + F_y^2) <= mu_s N
     force      with `static`: the symbol of the friction F, in newtons, positive as for `rolling`
+    key        with `rolling=True`: the key of the condition of rolling
 
     Equal and opposite forces act on the material points of the body and of the surface. The distance of a round body
     from the surface is the distance of its centre from the surface, minus the radius of the body. In space, a disc, a
@@ -167,7 +169,7 @@ def contact(
     elif normal:
         _reject_normal(normal, touch)
     if rolling:
-        found += _rolling(touch, rolling, direction)
+        found += _rolling(touch, rolling, direction, key)
     if sliding is not None:
         found.append(_sliding(touch, sliding, direction, normal or "N"))
     elif direction is not None and not isinstance(rolling, str) and static is None:
@@ -316,7 +318,7 @@ def _reject_normal(letter: str, touch: Contact) -> None:
     raise Rejected(Complaint("not-an-unknown", message, help=help_line))
 
 
-def _rolling(touch: Contact, rolling: str | bool, direction: Any) -> Sequence[Part]:
+def _rolling(touch: Contact, rolling: str | bool, direction: Any, key: str) -> Sequence[Part]:
     rolls, ground = touch.of, touch.surface.ground
     if touch.of is None and isinstance(touch.surface.of, PlacedBody):
         rolls, ground = touch.surface.of, None  # a body whose surface touches a fixed corner
@@ -325,7 +327,7 @@ def _rolling(touch: Contact, rolling: str | bool, direction: Any) -> Sequence[Pa
     if touch.is_kept and rolling is True:
         if not any(contact_velocity(rolls, touch.at, ground)):
             return []  # the coordinates already satisfy the condition of rolling
-        found = no_slip(rolls, touch.at, ground)
+        found = no_slip(rolls, touch.at, ground, key)
         return list(found) if isinstance(found, tuple) else [found]
     if not isinstance(rolling, str):
         message = "the coordinates allow the body to leave the surface, so rolling needs a friction force with a symbol"

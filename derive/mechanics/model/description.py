@@ -77,7 +77,9 @@ def described(
     bodies   those parts of the system that are bodies
     known    coordinate -> its formula in other coordinates; the description contains this equation as a condition
     """
-    found: dict[str, list[Any]] = {"conditions": [plain.Condition(q - function) for q, function in known.items()]}
+    found: dict[str, list[Any]] = {
+        "conditions": [plain.Condition(q - function, expresses=q) for q, function in known.items()]
+    }
     for part in parts:
         for name, added in part.described(bodies).items():
             found.setdefault(name, []).extend(added)

@@ -26,6 +26,7 @@ from derive.steps.establish import Lines, Scope, establish
 from derive.steps.record import assume, changes, coordinates_in
 from derive.steps.rule import CHECK, ROUTE, Rule
 from derive.steps.step import Fact, Form, Level, Quantity, is_zero
+from derive.steps.subject import Subject
 
 __all__ = ["no_slip"]
 
@@ -231,7 +232,8 @@ def _solved(
 ) -> Quantity:
     """Condition of rolling, solved for one rate."""
     q, found = condition.q, condition.rate
-    moving = list(coordinates_in(ImmutableDenseMatrix([*body.depends_on, *at.components])))
+    involved = coordinates_in(ImmutableDenseMatrix([*body.depends_on, *at.components, condition.left]))
+    moving = list(involved)  # those of a surface that moves are in the condition
     marks = [stand_in(f"delta_{i}") for i in range(len(at.components))]
 
     def at_rest(relation: Relation) -> tuple[Expr, Expr]:
@@ -273,7 +275,7 @@ def _solved(
         routes={"at_rest": at_rest, "no_more": no_more},
         key=key,
         facts=facts,
-        scope=Scope(coordinates=coordinates_in(ImmutableDenseMatrix([*body.depends_on, *at.components]))),
+        scope=Scope(coordinates=involved, about=Subject(body=body.body)),
     )
 
 

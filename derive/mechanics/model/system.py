@@ -279,7 +279,7 @@ class System:
             raise Rejected(Complaint("name", f"`{name}` is not a name for a system", help=help_line))
         self.called = name
         self.conditions = tuple(part for part in parts if isinstance(part, Quantity))
-        known = dict(_known_by(condition) for condition in self.conditions)
+        known = _known_by_all(self.conditions)
         self.known: Mapping[Symbol, Expr] = known
         self.eliminated = tuple(known)
         made = _with_weights([_as_part(part) for part in parts if not isinstance(part, Quantity)])
@@ -428,6 +428,21 @@ def _known_by(condition: Quantity) -> tuple[Symbol, Expr]:
         )
         raise Rejected(Complaint("wrong-argument", message, help=help_line))
     return found.coordinate, found.function
+
+
+def _known_by_all(conditions: Sequence[Quantity]) -> dict[Symbol, Expr]:
+    """Express the coordinates that conditions eliminate by the coordinates that are left."""
+    known: dict[Symbol, Expr] = {}
+    for condition in conditions:
+        q, function = _known_by(condition)
+        function = function.xreplace(known).expand()
+        own = function.coeff(q)  # 0 unless an earlier condition contains q
+        if own == 1:
+            message = f"`{condition.key}` contradicts the other conditions of this `System`, or follows from them"
+            raise Rejected(Complaint("wrong-argument", message, help="leave one of the conditions out"))
+        function = tidied((function - own * q) / (1 - own))
+        known = {other: value.xreplace({q: function}) for other, value in known.items()} | {q: function}
+    return known
 
 
 def _check_kept(condition: Quantity) -> None:

@@ -64,13 +64,15 @@ RIGHT_OR_LEFT = one_of(("right", "left"))
 
 @dataclass(frozen=True)
 class Connected:
-    """The objects to which connections may refer: bodies and particles by name, surfaces, pulleys, places, symbols."""
+    """The objects to which connections may refer: bodies and particles by name, surfaces, pulleys, places, symbols; and
+    the number of contacts at which a body rolls without a symbol for the friction."""
 
     bodies: Collection[str]
     surfaces: Mapping[str, Deferred[Any]]
     pulleys: Mapping[str, Deferred[Any]]
     places: Places
     letters: InLetters
+    rolling: int
 
 
 @dataclass(frozen=True)
@@ -246,6 +248,8 @@ class ContactKeys(Record):
         own = self.friction
         if own == "rolling":
             named["rolling"] = True
+            if known.rolling > 1:
+                named["key"] = f"no_slip_{self._name()}_{self.on}".replace(" ", "_")
         elif isinstance(own, FrictionKeys):
             named |= self._friction(own, known)
         forces = tuple(map(str, [*self.symbols(known.places.axes_of_motion), *self._components(known)]))

@@ -281,7 +281,8 @@ def _parts(written: SystemKeys, places: Places, known: InLetters, faults: Faults
     names = {str(name) for name in (*written.bodies, *written.particles)}
     surfaces = by_name(written.surfaces, places, known, names)
     pulleys = by_name(written.pulleys, places, known)
-    connected = Connected(names, surfaces, pulleys, places, known)
+    rolling = sum(each.friction == "rolling" for each in written.contacts)
+    connected = Connected(names, surfaces, pulleys, places, known, rolling)
     acting += pulleys.values()
     if len(surfaces) == len(written.surfaces) and len(pulleys) == len(written.pulleys):
         acting += of_each(_connections(written), connected)
