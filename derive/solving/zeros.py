@@ -77,8 +77,7 @@ def zeros_of(force: Expr, q: Symbol) -> list[Zero]:
 
 
 def zeros_nearby(value: Expr, x: Symbol) -> list[Zero]:
-    """Real zeros of a function; of a periodic factor, only a few zeros. Raises `Unsolved` if a factor cannot be solved.
-    """
+    """Real zeros of a function; of a periodic factor, only a few. Raises `Unsolved` if a factor cannot be solved."""
     numerator = value.as_numer_denom()[0]
     for form in (numerator, tidied(TR8(numerator.expand()))):
         factors = [base for f in Mul.make_args(form) if (base := f.as_base_exp()[0]).has(x)]
