@@ -558,8 +558,7 @@ def falls_along(facts: Judged, _: Any) -> bool:
 
 def at_its_place(facts: Judged, state: Any) -> bool:
     """Whether the stated equation gives each coordinate its equilibrium value. For one coordinate, the right side may
-    also be the symbol of the equilibrium.
-    """
+    also be the symbol of the equilibrium."""
     moving, place = facts.inputs["coordinates"], facts.inputs["place"]
     if state.operator != "=":
         return False

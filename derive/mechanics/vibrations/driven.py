@@ -187,8 +187,7 @@ class _Drive:
 
     def told(self, size: Symbol, lag: Symbol, at_rest: Expr) -> dict[str, tuple[Expr, Expr]]:
         """Return two items for the sentence: the motion, unless the force has both a cosine and a sine; and the
-        displacement under the constant force, if there is one.
-        """
+        displacement under the constant force, if there is one."""
         found = {} if self.static == 0 else {"static": (self.static, at_rest)}
         if ZERO in self.phase:
             swing = cos if self.phase[1] == 0 else sin
