@@ -28,7 +28,7 @@ from derive.steps.rule import Theorem
 M, r, q = Symbol("M", positive=True), Symbol("r", positive=True), scalar("q")
 G, OMEGA = vector("G"), vector("omega")
 L, MULTIPLIER, CONSTRAINT = scalar("L"), scalar("lambda_k"), scalar("f_k")
-ONE_MULTIPLIER, ONE_CONSTRAINT = scalar("lambda"), scalar("f")  # of a system with one constraint
+ONE_MULTIPLIER, ONE_CONSTRAINT = scalar("lambda"), scalar("f")  # for a system with one constraint
 INERTIA_AND_FORCE = Terms(TimeRate(Partial(L, rate(q))), -Partial(L, q))  # the left side of Lagrange's equation
 
 PARALLEL_AXES = Theorem(

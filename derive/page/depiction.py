@@ -579,7 +579,7 @@ def _in_small_numbers(ratios: Sequence[Expr]) -> list[str]:
 
 
 def _told_once(marks: Sequence[m.Mark]) -> list[m.Mark]:
-    """Return the marks without repetitions, for the alternative text."""
+    """Return the marks for the alternative text without repetitions; dashed curves without labels count as one mark."""
     found: dict[Any, m.Mark] = {}
     for mark in marks:
         told = mark.in_words()

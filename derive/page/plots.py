@@ -451,7 +451,7 @@ def _below(expr: Expr, energy: Expr, variable: Symbol, lower: float, upper: floa
 
 
 def with_names(found: Sequence[Extremum], places: Sequence[tuple[Any, float]], near: float) -> tuple[Extremum, ...]:
-    """Return the extrema, each with the name of the first of the places that is not farther away than `near`."""
+    """Return the extrema, each with the name of the first place within the distance `near` of it, if there is one."""
     names = [next((name for name, at in places if abs(at - each.at) <= near), None) for each in found]
     return tuple(replace(each, name=name) for each, name in zip(found, names, strict=True))
 

@@ -258,8 +258,8 @@ class Phrases:
         return {name for table in tables for phrase in table.get(rule, {}).values() for name in names_compared(phrase)}
 
     def term(self, word: str) -> tuple[Inline, ...]:
-        """Return the text of `terms:` for a word of a step or an input: `diagonal` is "a long diagonal". A word
-        without a text is a name that the author chose."""
+        """Return the text of `terms:` for a word of a step or an input: `diagonal` is "a long diagonal". A word without
+        a text is a name that the author chose; its text is the label `own_name`."""
         told = self.terms.get(word)
         if isinstance(told, str):
             return filled(told, AXIS_NAMES)

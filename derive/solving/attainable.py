@@ -60,7 +60,8 @@ def is_out_of_range(unknown: Expr, value: Expr) -> bool:
 def lies_within(letter: Symbol, value: Expr, exists: Relation | None) -> bool | None:
     """Whether a value is in the range of a symbol, tested with numbers that satisfy the condition `exists`.
 
-    None if different numbers give different results or none can be tested. A symbol without a range may have any value.
+    None if different numbers give different results, or if no numbers can be tested. A symbol without a range may have
+    any value.
     """
     known, seen = range_of(letter), set()
     if known is None:

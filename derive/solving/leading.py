@@ -51,7 +51,7 @@ def entry_by_entry(change: Callable[[Expr], Expr], value: Any) -> Any:
 
 
 def beginnings(of: Quantity, value: Any, x: Symbol, place: Expr, order: int | None) -> list[Series]:
-    """The terms of each entry's series; without an order, only the terms of lowest power."""
+    """The terms of each entry's series; without an order, only terms of the lowest power that occurs in any entry."""
     is_one = not isinstance(value, MatrixBase)
     each = [expansion_of(of, entry, x, place, order, is_one) for entry in entries_of(value)]
     if order is None:

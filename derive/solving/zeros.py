@@ -77,8 +77,7 @@ def zeros_of(force: Expr, q: Symbol) -> list[Zero]:
 
 
 def zeros_nearby(value: Expr, x: Symbol) -> list[Zero]:
-    """Real zeros of a function; of a factor that repeats, only a few zeros. Raises `Unsolved` if a factor cannot be
-    solved."""
+    """Real zeros of a function; of a periodic factor, only a few. Raises `Unsolved` if a factor cannot be solved."""
     numerator = value.as_numer_denom()[0]
     for form in (numerator, tidied(TR8(numerator.expand()))):
         factors = [base for f in Mul.make_args(form) if (base := f.as_base_exp()[0]).has(x)]
@@ -242,7 +241,7 @@ def _roots(factor: Expr, x: Expr) -> list[tuple[Zero, int | None]]:
 
 
 def _of_lengths(factor: Expr, q: Symbol) -> list[Zero]:
-    """The zeros of a polynomial in q, of a root minus a constant, or of a sum of two powers of q."""
+    """The zeros of a polynomial in q, of a square root minus a constant, or of a sum of two powers of q."""
     if q.is_positive and any(p.exp.free_symbols for p in factor.atoms(Pow) if p.base == q):
         return [Zero(value) for value in _of_two_powers(factor, q)]
     roots = [p for p in factor.atoms(Pow) if p.exp.is_Rational and not p.exp.is_Integer and p.has(q)]

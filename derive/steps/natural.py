@@ -113,7 +113,7 @@ class NaturalQuantities:
 
 
 def _ancestors(quantities: Sequence[Quantity]) -> Iterator[Quantity]:
-    """Return those of these quantities and their ancestors whose symbols may replace their values."""
+    """Return the quantities, among the given ones and their ancestors, whose symbols may replace their values."""
     ancestors = (each for quantity in quantities for each in quantity.ancestors())
     return (quantity for quantity in ancestors if quantity.fact(NamesValue))
 

@@ -57,8 +57,8 @@ class Run:
     defined_at    the place in a file where each quantity of `define:` is written, by its name
     is_natural    whether results may be written with quantities of `define:` and usual ones such as omega_0
     numbers       the numbers that the problem gives for its symbols
-    places        the place in a file where each given is written
-    letters       the symbols of the givens, coordinates, forces and definitions; results must not use these symbols
+    places        the place in a file where each given value is written
+    letters       the symbols of given values, coordinates, forces and definitions; results must not use these symbols
     memory        earlier calls of verbs
     call          the call of a verb that is running
     """
@@ -223,7 +223,7 @@ def free_letter(name: str, *indices: str) -> str:
 
 @question
 def given_letters() -> set[str]:
-    """Return the names of the symbols of the givens, coordinates, forces and definitions of the problem."""
+    """Return the names of the symbols of the given values, coordinates, forces and definitions of the problem."""
     run = current_run.get()
     return set(run.letters) if run is not None else set()
 

@@ -198,7 +198,7 @@ def _orbit(of: Quantity, there: Expr, told: Any, step: Quantity, square: Expr) -
 
 
 def _closing(square: Expr, wanted: int) -> Relation | None:
-    """Return the value of a symbol for which the squared ratio is `wanted`; None if no such value is found."""
+    """Return an equation, symbol = value, for which the squared ratio is `wanted`; None if no such value is found."""
     for letter in sorted(square.free_symbols, key=str):
         found = solved_for_letter(square - wanted, letter)
         if found is not None and not (letter.is_positive and sign_for_all(found) != 1):

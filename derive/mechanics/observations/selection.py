@@ -1,4 +1,4 @@
-"""The table of the kinds of observations, the most instructive first, and the choice of those that a page prints."""
+"""The kinds of observations, the most instructive first, and the choice of the observations that a page prints."""
 
 from __future__ import annotations
 

@@ -292,10 +292,10 @@ def kind_of_order(value: Expr, facts: Judged) -> str:
 
 
 def depends(border: str | None) -> Predicate:
-    """Judge whether the sign of the change of the energy to second order depends on the numbers. The stated condition
-    must hold if and only if this sign is positive.
+    """Judge whether the stated condition holds if and only if the energy rises to second order. The condition must be
+    true for some trial numbers and false for others.
 
-    border   the verdict of the higher order that decides on the boundary; None if no such order is stated
+    border   the verdict of the first nonzero derivative on the boundary; None if the sentence states no such derivative
     """
 
     def is_so(facts: Judged) -> bool:
@@ -314,7 +314,7 @@ def depends(border: str | None) -> Predicate:
 def bordered(border: str | None) -> Predicate:
     """Judge whether the condition includes its boundary if and only if the equilibrium is stable on the boundary.
 
-    border   the verdict of the higher order that decides on the boundary; None if no order decides
+    border   the verdict of the first nonzero derivative on the boundary; None if no derivative decides
     """
 
     def is_so(facts: Judged) -> bool:
@@ -557,7 +557,8 @@ def falls_along(facts: Judged, _: Any) -> bool:
 
 
 def at_its_place(facts: Judged, state: Any) -> bool:
-    """Whether the stated equation gives each coordinate its equilibrium value, or the symbol of the equilibrium."""
+    """Whether the stated equation gives each coordinate its equilibrium value. For one coordinate, the right side may
+    also be the symbol of the equilibrium."""
     moving, place = facts.inputs["coordinates"], facts.inputs["place"]
     if state.operator != "=":
         return False

@@ -66,8 +66,7 @@ class StableWhere(Fact):
     energy         the potential energy, J
     place          the equilibrium value of the coordinate
     border         a symbol and its value on the boundary of the condition; None if no higher order decides there
-    stable_there   whether the equilibrium is stable on the boundary, where a higher order decides; None if no order
-                   decides
+    stable_there   whether the equilibrium is stable on the boundary; None if no higher order decides there
     """
 
     missing = "is not a result of `stability` that depends on a condition"

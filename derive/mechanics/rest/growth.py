@@ -70,8 +70,8 @@ def grows_always(matter: Matter, place: Mapping[Symbol, Expr], points: Sequence[
 
 
 def inertia_is_positive(matter: Matter, place: Mapping[Symbol, Expr], points: Sequence[Numbers]) -> bool:
-    """Whether no eigenvalue of M is negative at equilibrium, for the first few points; the kinetic energy is then not
-    negative at equilibrium."""
+    """Whether M has no negative eigenvalue at equilibrium, tested at the first few points; the kinetic energy is then
+    not negative there."""
     for point, falling in product(points[:FEW], (False, True)):
         motion = _motion(matter, place, point, SIZES[0], falling)
         if motion is None:
@@ -91,8 +91,8 @@ def is_turned_aside(matter: Matter, place: Mapping[Symbol, Expr], points: Sequen
 
 @lru_cache(maxsize=16)  # each equilibrium of a system needs the same function
 def _left_over(matter: Matter) -> tuple[tuple[Symbol, ...], Leftover]:
-    """Return the given symbols, and m a - F along each coordinate as a function of coordinates, rates, accelerations
-    and these symbols."""
+    """Return the constant symbols in m a - F, and m a - F along each coordinate as a function of coordinates, rates,
+    accelerations and these symbols."""
     moving = matter.coordinates
     idle = {other.multiplier: Integer(0) for other in matter.others if other.multiplier is not None}
     left = [explicit(matter.inertia_along(q) - matter.force_along(q)).xreplace(idle) for q in moving]

@@ -25,7 +25,7 @@ from derive.steps.signs import taken_positive
 from derive.steps.step import is_zero
 
 DIGITS = 40
-SMALL = 25  # a determinant below 10^-SMALL of the product of the largest row entries counts as zero
+SMALL = 25  # a determinant counts as zero below 10^-SMALL times the product of the largest entries of all rows
 
 
 def mass_matrix(matter: Matter, coordinates: Sequence[Symbol]) -> MatrixBase:

@@ -17,10 +17,8 @@ from derive.algebra.samples import points
 from derive.steps.step import Quantity, is_zero
 
 STEPS, TRIALS = 1500, 3  # number of parts of a range; number of sets of numbers for the symbols
-HALVINGS, SHRUNK = (
-    40,
-    1e-6,
-)  # number of halvings; at a zero, the force after the halvings must be below this fraction of its first value
+HALVINGS = 40  # greatest number of halvings of an interval in which the force changes its sign
+SHRUNK = 1e-6  # at a zero, the halvings must reduce the force to less than this fraction of its first value
 LITTLE = 1e-9
 
 

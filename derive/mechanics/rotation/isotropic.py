@@ -32,7 +32,7 @@ def isotropic_where(moments: Quantity, letter: Expr, key: str = "special_case") 
     """Condition under which all three principal moments are equal, I_1 = I_3, solved for a symbol, for example h = 2R.
 
     moments   principal moments (3), kg m^2, at least two of them equal
-    letter    the symbol of a positive quantity, or the expression of this quantity in the script, such as 2b for h
+    letter    the symbol of a positive quantity, or an expression such as 2b that contains this symbol
 
     Check: with the result substituted, the tensor is a multiple of the unit tensor; and the difference of the two
     moments has opposite signs for greater and smaller values of the symbol. If no condition on a symbol is derived, the

@@ -250,7 +250,7 @@ def _axis_outcome(moments: Quantity, place: int) -> str:
 
 
 def _is_round(moments: Quantity) -> bool:
-    """Whether the body is round about z, and z is the axis of the moment that differs from two equal ones."""
+    """Whether the body is round about z, and z is the axis of the moment that differs from the two equal ones."""
     of, tensor = moments.fact(OfBody), moments.needed(PrincipalOf).tensor.value
     return (
         of is not None
@@ -288,7 +288,7 @@ def _multiplicity_of_roots(moments: Any) -> str:
 
 
 def lone_moment(moments: Any) -> int | None:
-    """Return the index of the moment that differs from two equal ones; None if there is no such moment."""
+    """Return the index of the moment that differs from the two equal ones; None if there is no such moment."""
     if _number_of_different(moments) != 2:
         return None
     for k in range(3):

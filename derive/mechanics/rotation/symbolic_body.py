@@ -1,8 +1,8 @@
 """Symbolic bodies: symbols for the mass, the distance of the centre of mass, and the principal moments about a point.
 
 A result for a symbolic body is true for every body whose centre of mass is on a principal axis through the point. If
-two moments of the symbolic body have the same symbol, these moments of the body must be equal. `put_in(result,
-*body.values)` substitutes the values of the given body.
+two moments of the symbolic body have the same symbol, the result is true only for bodies in which these two moments are
+equal. `put_in(result, *body.values)` substitutes the values of the given body.
 """
 
 from __future__ import annotations

@@ -300,8 +300,8 @@ def _without_angles(value: Expr, cyclic: Iterable[Symbol]) -> Expr:
     "frequency",
     "small oscillations about a steady motion, from the effective potential",
     of="frequency: an effective potential energy",
-    at="results: that motion",
-    without="for: the symbol to eliminate with the condition of that motion",
+    at="results: the condition of the steady motion",
+    without="for: the symbol to eliminate with the condition of the steady motion",
     symbol="symbol",
 )
 def _in_results(of: Quantity, at: Quantity, key: str, without: Letter = None, symbol: str = "omega_0") -> Quantity:

@@ -352,9 +352,8 @@ def sign_of_product(wanted: int) -> Predicate:
 
 
 def damped(sign: int | None) -> Predicate:
-    """Judge whether -beta +- i omega are roots, or, for the sign -1, whether -beta +- omega are roots.
-
-    A condition must be stated if `sign` is None, and only then.
+    """Judge whether -beta +- i omega are exponents of the motion; for the sign -1, whether -beta +- omega are
+    exponents. Conditions must be stated if and only if `sign` is None, and must hold exactly where the result is real.
     """
 
     def is_so(facts: Judged) -> bool:
@@ -465,7 +464,7 @@ def oscillates_by_itself(facts: Judged, displacement: Any) -> bool:
 
 
 def uncoupled_as_told(facts: Judged, outcome: str) -> bool:
-    """Whether the word for the coupling is correct, and the sentence names the equations of these coordinates."""
+    """Whether the word for the coupling is correct, and the sentence names the equations of the coordinates `own`."""
     coupling, own = facts.words["coupling"], list(facts.inputs["own"])
     every = range(Matrix(facts.inputs["mass"]).shape[0])
     if (coupling != "others") != all(_is_uncoupled(facts, i) for i in every):
@@ -481,7 +480,10 @@ def is_coordinate_of_the_equation(facts: Judged, q: Any) -> bool:
 
 
 def is_in_order(whole: bool) -> Predicate:
-    """Judge whether the square of the result is a root of the determinant, numbered correctly in ascending order."""
+    """Judge whether the square of the result is a root of the determinant, numbered correctly in ascending order.
+
+    whole   whether all roots of the determinant are numbered, or only the roots of one of its factors
+    """
 
     def is_so(facts: Judged) -> bool:
         square = facts.result**2

@@ -132,7 +132,7 @@ DAMPED_RATE = Rule(
 def _rate(equations: DampedModes, characteristic: Quantity, root: CharacteristicRoot, number: str) -> Quantity:
     """Decay rate.
 
-    Outcomes: oscillator (the factor is quadratic); for a linear factor decay, or growth (the rate is negative).
+    Outcomes: oscillator (the factor is quadratic); for a linear factor: decay, or growth (the rate is negative).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.5; Landau, Lifshitz, *Mechanics*, section 25.
     """
     a, _, *rest = root.factor.coefficients

@@ -179,15 +179,15 @@ class _Drive:
 
     @property
     def behind(self) -> Expr:
-        """Return the oscillation in phase with the force, a quarter of a period later."""
+        """Return the oscillation `in_phase`, delayed by a quarter of a period."""
         return self.phase[0] * sin(self.angle) - self.phase[1] * cos(self.angle)
 
     def component_behind(self, value: Expr) -> Expr:
         return self.phase[0] * value.coeff(sin(self.angle)) - self.phase[1] * value.coeff(cos(self.angle))
 
     def told(self, size: Symbol, lag: Symbol, at_rest: Expr) -> dict[str, tuple[Expr, Expr]]:
-        """Return the motion for the sentence, unless the force has a cosine and a sine; and the displacement under a
-        constant force."""
+        """Return two items for the sentence: the motion, unless the force has both a cosine and a sine; and the
+        displacement under the constant force, if there is one."""
         found = {} if self.static == 0 else {"static": (self.static, at_rest)}
         if ZERO in self.phase:
             swing = cos if self.phase[1] == 0 else sin

@@ -97,9 +97,9 @@ def _swings(factor: Expr) -> bool:
 
 
 def _is_root_of_quadratic(total: Expr, below: int) -> bool:
-    """Return whether a sum over `below` is like the quadratic formula: two numbers of which at least one has a square
-    root, or two terms of which exactly one is a root of a sum that keeps the denominator, as in (b + sqrt(b^2 + c^2))/2
-    but not in sqrt(b^2 + c^2) + b/2."""
+    """Return whether a sum over `below` is like the quadratic formula: two numbers, at least one with a square root; or
+    two terms, exactly one of them a root of a sum with a coefficient that is not a multiple of `below`, as in (b +
+    sqrt(b^2 + c^2))/2 but not in sqrt(b^2 + c^2) + b/2."""
     roots = [term for term in total.args if _has_root(term)]
     if len(total.args) != 2 or total.is_number:
         return len(total.args) == 2 and roots != []

@@ -109,7 +109,7 @@ def _points(points: Any) -> int | float | None:
 
 
 def _given(given: Any) -> Any:
-    """Return the value of an input as SymPy text, with the numbers of its symbols."""
+    """Return an input: a word, or its value as SymPy text, with the measured numbers of its symbols, if any."""
     if given.word is not None:
         return given.word
     value = given.value.components if isinstance(given.value, Direction) else given.value

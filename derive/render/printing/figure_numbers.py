@@ -13,7 +13,7 @@ from collections.abc import Iterable
 from derive.page.numbering import Number
 from derive.render.rendered import Html
 
-OF_PROBLEM = "<!--number of the problem-->"  # the place before the number of an equation
+OF_PROBLEM = "<!--number of the problem-->"  # precedes the number of an equation; it is replaced later
 _MARKED = re.compile(r"<!--figure-->(\d+)<!--end of figure-->")
 
 

@@ -53,7 +53,8 @@ LINE_HEIGHT, ROW_HEIGHT, AROUND, NOTE_LINE = 13.6, 19.0, 14.0, 8.5
 CHARACTERS, NOTE_CHARACTERS = 92, 14
 _ADJACENT_DISPLAYS = re.compile(r"(,?)\\\] *(\w{0,4}) *\\\[")  # two formulas with at most a short word between them
 END_OF_DISPLAY = r"\]"
-END_LETTERS, LETTERS_OF_A_REFERENCE = 11, 4  # characters at the end of a paragraph that are on one line, and of (3)
+END_LETTERS = 11  # characters at the end of a paragraph that stay on one line
+LETTERS_OF_A_REFERENCE = 4  # characters of a reference such as (3)
 FEW_ROWS = 4  # a display of at most this many steps is not divided between pages if each step is one low row
 
 
@@ -181,7 +182,7 @@ class LatexPage:
     def is_in_first_row(self, block: Paragraph, display: Display) -> bool:
         """Return whether words may be in the first row of their display, if they are short: words that continue the
         sentence of the display before them, and words before the law of an answer. Words with a displayed formula are
-        never in this row, nor words with a note in the margin."""
+        never in this row; if the document has notes in the margin, no words are."""
         first, *others = printed_lines(display.groups[0], self.notation)
         is_law = not first.framed and first.left is not None and any(line.framed for line in others)
         has_display = any(isinstance(node, DisplayedMath) for node in block.nodes)

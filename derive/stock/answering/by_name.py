@@ -39,7 +39,7 @@ class ByName:
     what          the kind of description: "a rotation"
     results       the entries of `results:`, which are computed from answers
     coordinates   the coordinates that results may use
-    again         a function that makes an object for the same answers, from which no step has been derived yet
+    again         a function that makes another object of this class for the same description, without derived steps
     elsewhere     a function that derives an answer of a body about another point or axis
     surfaces      the surfaces of a system, by name
     """
@@ -219,7 +219,10 @@ class ByName:
 
 
 def _called(name: str, steps: Mapping[str, Quantity]) -> tuple[Quantity, ...]:
-    """Return the step with this key, or the steps whose keys are this name with a number, such as `rest_2`."""
+    """Return the step with this key, or the steps whose keys are this name with a number, such as `rest_2`.
+
+    The name may be in the singular or the plural, and `rest_1` may denote a single step `rest`.
+    """
     if name in steps:
         return (steps[name],)
     for form in (name, *_in_other_number(name)):

@@ -81,7 +81,7 @@ def _assume_if_unknown(frictions: Sequence[Quantity], normal: Quantity, limit: S
 
 
 def _conditions(friction: Quantity, normal: Quantity, limit: StaticLimit) -> list[Relation]:
-    """Return the conditions for mu_s; none if they cannot be solved for mu_s."""
+    """Return the conditions for mu_s; none if the forces change during the motion, or if mu_s is a number."""
     if changes(explicit(friction.value) - explicit(normal.value), named_coordinates()) or limit.coefficient.is_number:
         return []
     return [each.value for each in slips(friction, normal, limit.coefficient, key=f"{friction.key}_suffices")]

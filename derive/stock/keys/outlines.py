@@ -156,7 +156,8 @@ def _inclination(components: Sequence[Expr]) -> list[Mark]:
 def drawn_turning(answers: Any, has_angle: bool) -> None:
     """Draw a body that is round or has faces, with its axes and its axis of rotation or angular velocity.
 
-    If `has_angle` is true, a second drawing may show the angle between the angular velocity and the angular momentum.
+    If `has_angle` is true and the axis of rotation is given, a second drawing shows the angle between the angular
+    velocity and the angular momentum.
     """
     body, described = answers.body, answers.described
     if not isinstance(body.boundary, Round | Faces):

@@ -302,7 +302,7 @@ def _parts(written: SystemKeys, places: Places, known: InLetters, faults: Faults
 
 
 def _landed_on(written: SystemKeys) -> set[str]:
-    """Return the names of surfaces on which a flight ends."""
+    """Return the names of the surfaces on which a flight ends and that no contact names."""
     named = {str(held["on"]) for result in written.results.values() if "on" in (held := written_in(result))}
     return named - {str(each.on) for each in written.contacts}
 
