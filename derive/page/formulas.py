@@ -36,7 +36,9 @@ if TYPE_CHECKING:
     from derive.course.latex import ReadMath, Side
 
 _WRONG = {"undeclared-symbol", "dimension", "division-by-zero", "not-real", "too-large", "wrong-number"}
-FORCES = ("force", "torque")  # kinds of unknowns that vary in time like coordinates, but for which the page has values
+# Kinds of symbols that a step lists with the coordinates, but for which the page has values: forces, which vary in time
+# like coordinates, and the unknown of a characteristic equation.
+UNKNOWNS = ("force", "torque", "angular speed")
 TRIALS, DIGITS = 3, 30  # number of trial points, and number of digits, for the comparison of roots of sums
 DEEPEST = 4  # the largest number of successive substitutions: omega_2 is given by omega_0, and omega_0 by k and m
 MOST_COMBINATIONS = 16  # largest number of combinations of values, if a formula contains several results
@@ -74,7 +76,7 @@ class Formulas:
         self.numbers = {measured.symbol: measured for measured in problem.measured}
         self.given = {letter.symbol for letter in problem.symbols.values()}
         steps = list(steps)
-        moving = {q for step in steps for q, kind in step.coordinates if kind not in FORCES}
+        moving = {q for step in steps for q, kind in step.coordinates if kind not in UNKNOWNS}
         self.varying = {each for q in moving for each in (q, rate(q))}
         results = _results(steps, self.varying)
         unknown = {step.symbol for step in steps}  # these symbols include tensions, which are declared but derived
