@@ -36,9 +36,7 @@ if TYPE_CHECKING:
     from derive.course.latex import ReadMath, Side
 
 _WRONG = {"undeclared-symbol", "dimension", "division-by-zero", "not-real", "too-large", "wrong-number"}
-# Kinds of symbols that a step lists with the coordinates, but for which the page has values: forces, which vary in time
-# like coordinates, and the unknown of a characteristic equation.
-UNKNOWNS = ("force", "torque", "angular speed")
+FORCES = ("force", "torque")  # kinds of unknowns that vary in time like coordinates, but for which the page has values
 TRIALS, DIGITS = 3, 30  # number of trial points, and number of digits, for the comparison of roots of sums
 DEEPEST = 4  # the largest number of successive substitutions: omega_2 is given by omega_0, and omega_0 by k and m
 MOST_COMBINATIONS = 16  # largest number of combinations of values, if a formula contains several results
@@ -76,7 +74,8 @@ class Formulas:
         self.numbers = {measured.symbol: measured for measured in problem.measured}
         self.given = {letter.symbol for letter in problem.symbols.values()}
         steps = list(steps)
-        moving = {q for step in steps for q, kind in step.coordinates if kind not in UNKNOWNS}
+        moving = {q for step in steps for q, kind in step.coordinates if kind not in FORCES}
+        self.frequencies = {q for step in steps for q, kind in step.coordinates if kind == "angular speed"}  # unknowns
         self.varying = {each for q in moving for each in (q, rate(q))}
         results = _results(steps, self.varying)
         unknown = {step.symbol for step in steps}  # these symbols include tensions, which are declared but derived
@@ -202,7 +201,8 @@ class Formulas:
     def _check_equation(self, left: Side, right: Side) -> None:
         """Warn if an equation with at least two results does not hold for the results of the page.
 
-        A condition on a single result, such as v^2 = g R, causes no warning.
+        A condition on a single result, such as v^2 = g R, causes no warning. Nor does an equation for a frequency that is
+        the unknown of a characteristic equation or of a steady motion.
         """
         one, other = left.branches[0][0][0], right.branches[0][0][0]
         if any(isinstance(side, Symbol | MatrixBase) for side in (one, other)):
@@ -211,7 +211,8 @@ class Formulas:
         used = self.results.keys() & apart.free_symbols
         values = [value for symbol in used for value in self.results[symbol]]
         known = {*self.results, *self.given, *self.varying}.union(*(value.free_symbols for value in values))
-        if len(used) < 2 or not apart.free_symbols <= known or any(map(_seems_zero, self._in_givens(apart))):
+        is_condition = len(used) < 2 or apart.free_symbols & self.frequencies
+        if is_condition or not apart.free_symbols <= known or any(map(_seems_zero, self._in_givens(apart))):
             return
         message = f"`{left.text} = {right.text}` is printed, but it does not hold for the results of the page"
         help_line = "correct the equation; if it is about a special case, you can ignore the warning"
