@@ -201,8 +201,8 @@ class Formulas:
     def _check_equation(self, left: Side, right: Side) -> None:
         """Warn if an equation with at least two results does not hold for the results of the page.
 
-        A condition on a single result, such as v^2 = g R, causes no warning. Nor does an equation for a frequency that is
-        the unknown of a characteristic equation or of a steady motion.
+        A condition on a single result, such as v^2 = g R, causes no warning. Nor does an equation for a frequency that
+        is the unknown of a characteristic equation or of a steady motion.
         """
         one, other = left.branches[0][0][0], right.branches[0][0][0]
         if any(isinstance(side, Symbol | MatrixBase) for side in (one, other)):
