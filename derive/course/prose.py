@@ -104,8 +104,9 @@ class Prose:
     @cached_property
     def paragraphs(self) -> tuple[tuple[str | Mention | TexFormula, ...], ...]:
         found: list[list[str | Mention | TexFormula]] = [[]]
-        for piece in self.pieces:
-            first, *others = re.split(f"{self.gap}\\s*", piece.rstrip("\n")) if isinstance(piece, str) else [piece]
+        *pieces, last = self.pieces or ("",)
+        for piece in (*pieces, last.rstrip("\n") if isinstance(last, str) else last):
+            first, *others = re.split(f"{self.gap}\\s*", piece) if isinstance(piece, str) else [piece]
             found[-1] += [first] if first else []
             found += [[each] if each else [] for each in others]
         return tuple(tuple(each) for each in found if each)

@@ -75,6 +75,7 @@ class Formulas:
         self.given = {letter.symbol for letter in problem.symbols.values()}
         steps = list(steps)
         moving = {q for step in steps for q, kind in step.coordinates if kind not in FORCES}
+        self.frequencies = {q for step in steps for q, kind in step.coordinates if kind == "angular speed"}  # unknowns
         self.varying = {each for q in moving for each in (q, rate(q))}
         results = _results(steps, self.varying)
         unknown = {step.symbol for step in steps}  # these symbols include tensions, which are declared but derived
@@ -200,7 +201,8 @@ class Formulas:
     def _check_equation(self, left: Side, right: Side) -> None:
         """Warn if an equation with at least two results does not hold for the results of the page.
 
-        A condition on a single result, such as v^2 = g R, causes no warning.
+        A condition on a single result, such as v^2 = g R, causes no warning. Nor does an equation for a frequency that
+        is the unknown of a characteristic equation or of a steady motion.
         """
         one, other = left.branches[0][0][0], right.branches[0][0][0]
         if any(isinstance(side, Symbol | MatrixBase) for side in (one, other)):
@@ -209,7 +211,8 @@ class Formulas:
         used = self.results.keys() & apart.free_symbols
         values = [value for symbol in used for value in self.results[symbol]]
         known = {*self.results, *self.given, *self.varying}.union(*(value.free_symbols for value in values))
-        if len(used) < 2 or not apart.free_symbols <= known or any(map(_seems_zero, self._in_givens(apart))):
+        is_condition = len(used) < 2 or apart.free_symbols & self.frequencies
+        if is_condition or not apart.free_symbols <= known or any(map(_seems_zero, self._in_givens(apart))):
             return
         message = f"`{left.text} = {right.text}` is printed, but it does not hold for the results of the page"
         help_line = "correct the equation; if it is about a special case, you can ignore the warning"

@@ -44,6 +44,15 @@ def test_text_and_mentions_come_in_their_order() -> None:
     assert [mention.name for mention in found.mentions] == ["mass", "torque", "hw-1", "axes"]
 
 
+@pytest.mark.parametrize("mark", [">", "|"])
+def test_a_paragraph_may_begin_with_a_mention(mark: str) -> None:
+    gap = "\n\n\n" if mark == ">" else "\n\n"
+    found = prose(f"title: {mark}\n  A top.{gap}  <<figure axes>> shows\n  <<mass>>.\n").paragraphs
+    texts = [[piece if isinstance(piece, str) else "..." for piece in paragraph] for paragraph in found]
+    line_end = " " if mark == ">" else "\n"
+    assert texts == [["A top."], ["...", f" shows{line_end}", "...", "."]]
+
+
 def test_a_mention_stands_where_it_is_written() -> None:
     found = prose("title: A top of <<mass>>, <<mass>> and <<rate>>")
     assert (found.place_of("mass").column, found.place_of("mass").width) == (17, 8)

@@ -251,6 +251,8 @@ parts:
 
 def test_a_ratio_of_roots_of_sums_is_compared_at_trial_numbers(tmp_path: Path) -> None:
     assert not rendered(course_with(tmp_path, DOUBLE), "trial/one", only={"text"}).warnings
+    condition = edited(DOUBLE, (r"\omega_2/\omega_1 = 1 + \sqrt{2}", r"\omega^2\omega_1 = \omega\omega_2^2"))
+    assert not rendered(course_with(tmp_path / "condition", condition), "trial/one", only={"text"}).warnings
     wrong = edited(DOUBLE, ("1 + ", "2 + "))
     (warning,) = rendered(course_with(tmp_path / "wrong", wrong), "trial/one", only={"text"}).warnings
     assert warning.code == "differs-from-result"

@@ -501,7 +501,7 @@ def magnetic_term_of(system: System, symbol: str = "L_B", key: str = "magnetic_t
         for field in matter.fields:
             pairs = zip(field.vector_potential, field.place, strict=True)
             changing = [(a, c) for a, c in pairs if a != 0 and (c.has(*moving) or depends_on_time(c))]
-            rates = [Factors(a, TimeRate(c, *moving)) for a, c in changing]
+            rates = [Factors(a, rate(c) if c in moving else TimeRate(c, *moving)) for a, c in changing]
             terms.append(Factors(field.charge, Terms(*rates) if len(rates) > 1 else Add(*rates)))
         return Terms(*terms) if len(terms) > 1 else terms[0]
 

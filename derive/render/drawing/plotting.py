@@ -144,12 +144,12 @@ def _room(panels: Sequence[Panel], writing: Writing, width: float) -> Extent:
     across = [writing.size(text, SMALL) for panel in panels for _, text in panel.across]
     up = [writing.size(text, SMALL) for panel in panels for _, text in panel.up]
     name_across = max(writing.size(panel.names[0], SMALL)[1] for panel in panels)
-    name_up = max(_name_upwards(panel, writing)[0] for panel in panels)
+    name_up = max(_name_upwards(panel, writing)[0] + _pad(panel.names[1], writing) for panel in panels)
     numbers = [sum(high for _, _, high in _title(panel, writing, width)) for panel in panels]
     wide, high = max((w for w, _ in up), default=0.0), max((h for _, h in across), default=0.0)
     highest = max((h for _, h in up), default=0.0) / 2  # half the height of a number at the upper end of an axis
     return (
-        EDGE + name_up + PAD + wide + TICK,
+        EDGE + name_up + wide + TICK,
         EDGE + name_across + PAD + high + TICK,
         EDGE + max((w for w, _ in across), default=0.0) / 2,
         EDGE + max([*numbers, highest]),
@@ -187,7 +187,8 @@ def _drawn(panel: Panel, frame: Frame, writing: Writing, names: Names, ends: Spo
         yield writing.at((left - TICK, frame.spot((0.0, y))[1]), text, SMALL, (1.0, 0.5))
     across, up = panel.names
     lowest = below - TICK - max((writing.size(text, SMALL)[1] for _, text in panel.across), default=0.0) - PAD
-    leftmost = left - TICK - max((writing.size(text, SMALL)[0] for _, text in panel.up), default=0.0) - PAD
+    numbers = max((writing.size(text, SMALL)[0] for _, text in panel.up), default=0.0)
+    leftmost = left - TICK - numbers - _pad(up, writing)
     yield writing.at(((left + right) / 2, lowest), across, SMALL, (0.5, 1.0))
     yield writing.at(
         (leftmost, _middle_of_name(panel, frame, writing)), up, SMALL, (1.0, 0.5), upwards=_is_turned(up, writing)
@@ -213,6 +214,12 @@ def _name_upwards(panel: Panel, writing: Writing) -> Spot:
     """Return the width and the height of the name of the vertical axis on paper."""
     wide, high = writing.size(panel.names[1], SMALL)
     return (high, wide) if _is_turned(panel.names[1], writing) else (wide, high)
+
+
+def _pad(name: str, writing: Writing) -> float:
+    """Return the distance from the name of a vertical axis to its numbers. A letter that is not turned is farther away,
+    so that `n` and the number 2 are not read as a product."""
+    return PAD if _is_turned(name, writing) else 3 * PAD
 
 
 def _is_turned(name: str, writing: Writing) -> bool:
