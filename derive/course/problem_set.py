@@ -147,7 +147,7 @@ class SetKeys(CourseKeys):
     documents: dict[Word, Word] = key(
         "the documents to build, or a mapping from each document to the name of its files",
         Reader(DOCUMENTS_SCHEMA, _documents, dict),
-        formerly="papers",
+        instead_of="papers",
     )
     problems: tuple[Word, ...] = key(
         "names of the problems in order", list_of(TEXT, "a list of names", each="a problem of the set"), required=True

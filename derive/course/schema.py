@@ -40,21 +40,21 @@ class Reader(Generic[T]):
 
 @dataclass(frozen=True)
 class Key:
-    """One key: its meaning, the contents that it allows, whether it is required, and its former name."""
+    """One key: its meaning, the contents that it allows, whether it is required, and another name for it."""
 
     meaning: str
     reader: Reader[Any]
     required: bool = False
-    formerly: str = ""
+    instead_of: str = ""
 
 
-def key(meaning: str, reader: Reader[Any], *, required: bool = False, called: str = "", formerly: str = "") -> Any:
+def key(meaning: str, reader: Reader[Any], *, required: bool = False, called: str = "", instead_of: str = "") -> Any:
     """Declare a field of a record; the field is read from a key of a file.
 
-    called     the name of the key in the file, if it differs from the name of the field
-    formerly   the former name of the key: an error for this name says which name to write instead
+    called       the name of the key in the file, if it differs from the name of the field
+    instead_of   another name that people write, such as a former name: an error for it says to write this key
     """
-    own = Key(meaning, reader, required, formerly)
+    own = Key(meaning, reader, required, instead_of)
     return field(default_factory=reader.absent, metadata={"called": called, "key": own})
 
 
@@ -90,14 +90,16 @@ def read_record(record: type[R], node: Mapping, what: str, faults: Faults) -> R:
 def check_keys(node: Mapping, keys: Table[str, Key], what: str, faults: Faults) -> None:
     """Report unknown and missing keys of a mapping."""
     missing = [name for name, wanted in keys.items() if wanted.required and node.get(name) is None]
-    renamed = {known.formerly: name for name, known in keys.items()}
+    by_other_name = {known.instead_of: name for name, known in keys.items()}
     for name, _ in node.pairs:
         if name.text not in keys:
-            close = renamed.get(name.text) or nearest(name.text, [known for known in keys if node.get(known) is None])
+            close = by_other_name.get(name.text) or nearest(
+                name.text, [known for known in keys if node.get(known) is None]
+            )
             if close in missing:
                 missing.remove(close)
             help_line = f"did you mean `{close}`?" if close else THE_KEYS_ARE + ", ".join(f"`{k}`" for k in keys)
-            help_line = f"write `{close}`: {keys[close].meaning}" if close and name.text in renamed else help_line
+            help_line = f"write `{close}`: {keys[close].meaning}" if close and name.text in by_other_name else help_line
             faults.error("unknown-key", f"{what} has no key `{abridged(name.text)}`", name.place, help=help_line)
     for wanted in missing:
         faults.error("missing-key", f"{what} needs `{wanted}`: {keys[wanted].meaning}", node.place)

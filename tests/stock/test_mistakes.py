@@ -93,6 +93,7 @@ MISTAKES = [
     (SYSTEM, "{system: {at: statement}}", "{system: {att: statement}}", "did you mean `at`?"),
     (SYSTEM, "points: 6\n", "points: 6\ntemplate: other\n", "a problem has no key `template`"),
     (SYSTEM, "points: 6\n", "points: 6\npapers: [hint]\n", "a problem has no key `papers`"),
+    (SYSTEM, "  gravity: g\n", "  gravity: g\n  bodies: {rod: {shape: rod, mass: m, at: A}}\n", "write `centre`: "),
     # twice
     (SYSTEM, "  gravity: g\n", "  gravity: g\n  gravity: 2*g\n", "`gravity` is given twice"),
     (SYSTEM, "l: length, m: mass", "l: length, l: mass", "`l` is given twice"),

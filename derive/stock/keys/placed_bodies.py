@@ -69,9 +69,11 @@ class MovingBodyKeys(BodyKeys, QuotedKeys):
         record_of(RimKeys, "rim", "a mapping with `centre` and `radius`"),
     )
     turned: Tree | None = key(
-        "in a plane, its angle of rotation from right towards up; in space, the axes that rotate with the body", SCALAR
+        "in a plane, its angle of rotation from right towards up; in space, the axes that rotate with the body",
+        SCALAR,
+        instead_of="axes",
     )
-    centre: WrittenPlace | None = key("the position of its centre of mass", PLACE)
+    centre: WrittenPlace | None = key("the position of its centre of mass", PLACE, instead_of="at")
     held: Tree | None = key("in place of `centre`, the point of the body that is held, by name or components", POINT)
     on: WrittenPlace | None = key("with `held`, the place at which that point is held; by default the origin", PLACE)
     start: WrittenPlace | None = key(

@@ -137,7 +137,7 @@ class SystemKeys(Record):
     contacts: Sequence[ContactKeys] = key(
         "bodies that touch a surface, with the normal force and friction: `{of: disc, on: road, friction: rolling}`",
         CONTACTS,
-        formerly="rolling",
+        instead_of="rolling",
     )
     pulleys: Mapping[Word, PulleyKeys] = key("massless frictionless pulleys with a radius, by name", PULLEYS)
     wires: Sequence[Word] = key(
@@ -150,7 +150,7 @@ class SystemKeys(Record):
     joints: Sequence[JointKeys] = key("hinges, ball joints and rigid joints", JOINTS)
     motors: Sequence[MotorKeys] = key("motors that prescribe an angle at each time", MOTORS)
     dashpots: Sequence[DashpotKeys] = key("dampers between two points", DASHPOTS)
-    impact: ImpactKeys | None = key("impulses and collisions at one instant", IMPACT, formerly="blow")
+    impact: ImpactKeys | None = key("impulses and collisions at one instant", IMPACT, instead_of="blow")
     conserved: Mapping[Word, Tree] = key(
         "symbols for the constant momenta of cyclic coordinates, `phi: l`, `phi: positive l`, or their values, "
         "`psi: C*s`",
