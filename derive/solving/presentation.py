@@ -78,8 +78,10 @@ def without_positive(value: Expr, *, in_equation: bool = False) -> Expr:
 
 
 def without_sine_below(value: Expr) -> Expr:
-    """Remove sines from the denominator where possible: (1 - cos a)/(1 + cos a), not (1 - cos a)^2/sin^2 a."""
-    above, below = factored(value).as_numer_denom()
+    """Remove sines from the denominator where this makes the value shorter: (1 - cos a)/(1 + cos a), not
+    (1 - cos a)^2/sin^2 a."""
+    before = factored(value)
+    above, below = before.as_numer_denom()
     for sine in sorted(below.atoms(sin), key=str):
         c, mark = cos(sine.args[0]), Dummy("c", real=True)
         odd = sine if below.as_powers_dict()[sine] % 2 else Integer(1)
@@ -89,7 +91,7 @@ def without_sine_below(value: Expr) -> Expr:
         )
         if not downs.has(sine):
             above, below = (part.xreplace({mark: c}) for part in cancel(ups / downs).as_numer_denom())
-    return factored(above) / factored(below)
+    return min((before, factored(above) / factored(below)), key=length)
 
 
 def _is_power_of(sine: Expr, e: Expr) -> bool:
