@@ -9,6 +9,7 @@ from sympy import Expr, Float, cos, sin, solve, sqrt, symbols
 
 from derive.algebra.equality import equal
 from derive.algebra.expressions import Relation, explicit
+from derive.errors import DeriveError
 from tests.stock.described import solved
 
 m, M, k, g, mu = symbols("m M k g mu", positive=True)
@@ -255,3 +256,36 @@ def test_a_hoop_that_rolls_has_one_momentum_along_the_floor(tmp_path: Path, insi
     (R, a, g), disc_inside = symbols("R a g", positive=True), inside == "a disc"
     squared = g * (4 * M + 3 * m) / (6 * M * (R - a)) if disc_inside else g * (2 * M + m) / (2 * M * (R - a))
     assert equal(frequency**2, squared)
+
+
+BOARD = """\
+coordinates: {{s: length, phi: angle, psi: angle{more}}}
+bodies:
+  first: {{shape: cylinder, radius: R, height: R, mass: m, centre: [{first}, R], turned: -phi, across: z}}
+  second: {{shape: cylinder, radius: R, height: R, mass: m, centre: [d + s/2, R], turned: -psi, across: z}}
+particles: {{board: {{mass: M, at: [s, 2*R]}}}}
+surfaces:
+  floor: {{through: [0, 0], along: [1, 0]}}
+  underside: {{through: [0, 2*R], along: [-1, 0], of: board}}
+contacts:
+  - {{of: first, on: floor, friction: rolling}}
+  - {{of: second, on: floor, friction: rolling}}
+  - {{of: first, on: underside, friction: rolling}}
+  - {{of: second, on: underside, friction: rolling}}
+forces: [{{components: [F, 0], at: board}}]
+gravity: g
+"""
+LETTERS_OF_BOARD = "m: mass, M: mass, R: length, d: length, g: acceleration, F: force"
+
+
+def test_a_board_on_two_rollers_has_four_conditions_of_rolling(tmp_path: Path) -> None:
+    """Two of them follow from the others. The rollers move at half the rate: M + 2 (m/4 + m/8) = M + 3 m/4."""
+    given = BOARD.format(more="", first="s/2")
+    found = explicit(solved(tmp_path, problem(LETTERS_OF_BOARD, given, "acceleration_s"))["acceleration_s"].value)
+    assert equal(found, symbols("F", real=True) / (M + 3 * m / 4))
+
+
+def test_conditions_of_rolling_must_not_relate_the_coordinates_that_are_left(tmp_path: Path) -> None:
+    given = BOARD.format(more=", x: length", first="x")
+    with pytest.raises(DeriveError, match="also determine x, which is s/2 plus a constant"):
+        solved(tmp_path, problem(LETTERS_OF_BOARD, given, "acceleration_s"))

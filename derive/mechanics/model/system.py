@@ -431,17 +431,25 @@ def _known_by(condition: Quantity) -> tuple[Symbol, Expr]:
 
 
 def _known_by_all(conditions: Sequence[Quantity]) -> dict[Symbol, Expr]:
-    """Express the coordinates that conditions eliminate by the coordinates that are left."""
+    """Express the coordinates that conditions eliminate by the coordinates that are left.
+
+    Reject conditions that also relate the coordinates that are left; a condition that follows from earlier ones is
+    allowed.
+    """
     known: dict[Symbol, Expr] = {}
     for condition in conditions:
         q, function = _known_by(condition)
-        function = function.xreplace(known).expand()
-        own = function.coeff(q)  # 0 unless an earlier condition contains q
-        if own == 1:
-            message = f"`{condition.key}` contradicts the other conditions of this `System`, or follows from them"
-            raise Rejected(Complaint("wrong-argument", message, help="leave one of the conditions out"))
-        function = tidied((function - own * q) / (1 - own))
-        known = {other: value.xreplace({q: function}) for other, value in known.items()} | {q: function}
+        left = ((q - function).xreplace(known)).expand()
+        own = left.coeff(q)  # zero if earlier conditions express q
+        if own != 0:
+            function = tidied(q - left / own)
+            known = {other: value.xreplace({q: function}) for other, value in known.items()} | {q: function}
+        elif not is_zero(left):
+            other = list(coordinates_in(left))[-1]
+            value = tidied(other - left / left.coeff(other))
+            message = f"the conditions of rolling also determine {other}, which is {value} plus a constant"
+            help_line = f"write {value}, with a constant if needed, in place of {other}, and leave {other} out"
+            raise Rejected(Complaint("wrong-argument", message, help=help_line))
     return known
 
 
