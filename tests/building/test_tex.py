@@ -293,4 +293,4 @@ def test_a_drawing_is_larger_beside_a_long_statement_and_smaller_beside_a_short_
         text = pages_of(rf"{statement}\par room \the\dimexpr\textwidth-\besidewidth-1.2em\relax", target, drawing)[0]
         return float(text.split("room ")[1].split("pt")[0]) / 28.45275
 
-    assert [round(width(count), 2) for count in (1, 30)] == [0.88 * 4, 1.25 * 4]
+    assert [round(width(count), 2) for count in (1, 30)] == [0.94 * 4, 1.14 * 4]

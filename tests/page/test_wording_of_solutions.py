@@ -158,7 +158,7 @@ def test_only_an_exactly_linear_equation_has_a_frequency_for_every_amplitude() -
 
 
 def test_a_definition_within_a_sentence_ends_with_a_comma(tmp_path: Path) -> None:
-    text = page(tmp_path, re.sub(r"(?ms)^wording:\n.*?(?=^\w)", "", library("bodies/triangular_plate")))
+    text = page(tmp_path, re.sub(r"(?ms)^(wording|show):.*?(?=^\w)", "", library("bodies/triangular_plate")))
     assert "is the mass per unit area, and" in text, text
 
 
