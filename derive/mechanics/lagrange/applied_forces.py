@@ -403,8 +403,9 @@ def _sides(found: Relation, moving: Sequence[Symbol], constraints: Sequence[Cons
 
 
 def _times_forces(coefficients: Mapping[Symbol, Expr]) -> Expr:
-    """Write a common factor of the constraint forces in front of them, if this is shorter: R (S_1 - S_2), not R S_1 -
-    R S_2; but S_1/sqrt(A) - S_2/sqrt(B)."""
+    """Write a common factor of the constraint forces in front of them, if this is shorter: R (S_1 - S_2), not R S_1 - R
+    S_2. A sum such as S_1/sqrt(A) - S_2/sqrt(B) stays unchanged.
+    """
     acting = {letter: each for letter, each in coefficients.items() if each != 0}
     common = common_factor(list(acting.values())) if len(acting) > 1 else Integer(1)
     common = -common if common.could_extract_minus_sign() else common
