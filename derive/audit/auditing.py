@@ -484,7 +484,7 @@ class _Auditor:
         return {self.shown(each.span) for each in letters if self.written[each.identity] == 1}
 
     def lost_letters(self, claim: Claim, written: list[Letter]) -> list[Letter]:
-        """Return letters that a row lacks, but that the earlier rows contain from which it should follow."""
+        """Return letters that a row lacks, although the earlier rows from which it should follow contain them."""
         assert claim.values is not None
         left = claim.values[0]
         behind = set(left.free_symbols | self.expanded(left).free_symbols) if claim.is_step else set()

@@ -25,7 +25,8 @@ USUAL = {  # the powers of mass, length and time
     "x": (0, 1, 0), "y": (0, 1, 0), "z": (0, 1, 0), "r": (0, 1, 0), "omega": (0, 0, -1), "T": (1, 2, -2),
     "U": (1, 2, -2),
 }  # fmt: skip
-# These may also name an angular momentum; a period or a tension; a resultant force; a ratio of lengths.
+# l may also name an angular momentum, T a period or a tension, R a resultant force, and x, y, z and r a ratio of
+# lengths.
 LESS_USUAL = ("l", "T", "R", "x", "y", "z", "r")
 MOST_CANDIDATES = 12
 FEWEST_CLAIMS = 6

@@ -655,7 +655,7 @@ def _vanishes(vector: Any) -> bool:
 
 
 def _whole_direction(vector: Any) -> MatrixBase | None:
-    """Return the direction of a vector as numbers; None if the direction is unknown."""
+    """Return the direction of a vector as numbers; None if the vector is zero or its direction is unknown."""
     if _vanishes(vector):
         return None
     factor, rest = factored_matrix(explicit(vector))

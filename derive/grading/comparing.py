@@ -66,6 +66,8 @@ def aligned(value: Any, right: Any) -> Any:
 
 @dataclass
 class _Comparison:
+    """Compares one reading of a formula with an answer. A test returns None if it gives no verdict."""
+
     read: Read
     target: Target
     key: Key
@@ -388,7 +390,7 @@ class _Comparison:
         if value.shape != right.shape and value.shape[1] == 1 and right.shape[0] == right.shape[1] == value.shape[0]:
             value = sympy.diag(*value)
         if value.shape != right.shape:
-            return Verdict(Outcome.DIFFERENT, f"it has {_size(value)}, but {_size(right)} is asked for")
+            return Verdict(Outcome.DIFFERENT, f"it is {_size(value)}, but {_size(right)} is asked for")
         self.is_entry = True
         if self.target.scaled:
             return self.up_to_a_factor(value, right)

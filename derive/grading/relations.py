@@ -110,8 +110,9 @@ def give_the_same(typed: list[Relation], goals: list[Relation]) -> bool:
 
 
 def _renamed(typed: Relation, goal: Relation, comparison: _Comparison) -> Verdict | None:
-    """Accept another name for one letter of the problem in an inequality; None if no name makes it
-    right."""
+    """Accept another name for one letter of the problem in an inequality; None if no letter of the problem makes it
+    right.
+    """
     unknown = [each for each in comparison.read.unknown if each in typed.free_symbols]
     if goal.operator == "=" or len(unknown) != 1 or len(goal.free_symbols) < 2:  # equations are compared term by term
         return None

@@ -46,16 +46,19 @@ def hamiltonian(of: Quantity, symbol: str | None = None, key: str = "hamiltonian
 
     of   the Lagrangian, J
 
-    Separate steps derive the momenta, and the rates in terms of the momenta. Second route: H is T_2 - T_0 + U, where
-    T_2 and T_0 are the parts of T of degree 2 and 0 in the rates. With the momenta as functions of the rates, dH/dp is
-    q_dot, and -dH/dq is the sum of F . dr/dq + m v . d(dr/dq)/dt. Here F are the magnetic forces and the forces with a
-    potential energy. For charges e in magnetic fields, -dH/dq also contains the time derivative of the sum of e A .
-    dr/dq. Check: for a given L, the sum of p dH/dp, minus H, is L again, and -dH/dq is the first-order change of L if q
-    changes. Outcomes: energy (H is conserved and is T + U); conserved (H is conserved but is not T + U);
-    changing_energy (H is T + U, but L contains the time); changing (H is not T + U, and L contains the time);
-    work_energy (H is T + U, but a force outside L does work); work (H is not T + U, and a force outside L does work);
-    given_conserved, given_changing, given_work (the same for a given L, whose T and U are unknown). Errors: the same as
-    for `rates_by_momenta`. Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.1.
+    Separate steps derive the momenta, and the rates in terms of the momenta.
+    Second route: H is T_2 - T_0 + U, where T_2 and T_0 are the parts of T of degree 2 and 0 in the rates. With the
+    momenta as functions of the rates, dH/dp is q_dot, and -dH/dq is the sum of F . dr/dq + m v . d(dr/dq)/dt. Here F
+    are the magnetic forces and the forces with a potential energy. For charges e in magnetic fields, -dH/dq also
+    contains the time derivative of the sum of e A . dr/dq.
+    Check: for a given L, the sum of p dH/dp, minus H, is L again, and -dH/dq is the first-order change of L if q
+    changes.
+    Outcomes: energy (H is conserved and is T + U); conserved (H is conserved but is not T + U); changing_energy
+    (H is T + U, but L contains the time); changing (H is not T + U, and L contains the time); work_energy (H is T + U,
+    but a force outside L does work); work (H is not T + U, and a force outside L does work); given_conserved,
+    given_changing, given_work (the same for a given L, whose T and U are unknown).
+    Errors: the same as for `rates_by_momenta`.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.1.
     """
     moving = coordinates_of(of)
     energies, matter = energies_of(of), of.needed(Matter)

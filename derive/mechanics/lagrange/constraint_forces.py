@@ -309,9 +309,10 @@ def constraint_rate(of: Quantity, number: int = 0, key: str | None = None) -> Qu
     number   the index of the constraint, 0 for the first
 
     Outcomes: in_rates, in_coordinates, constant (the constraint is y = a, with one coordinate), together (several
-    constraints, including this one, are equivalent to relations such as y = a). Check: differentiate with each
-    coordinate as its Taylor series in t. Errors: there is no constraint with this index. Source: Goldstein, Poole,
-    Safko, *Classical Mechanics*, section 2.4.
+    constraints, including this one, are equivalent to relations such as y = a).
+    Check: differentiate with each coordinate as its Taylor series in t.
+    Errors: there is no constraint with this index.
+    Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4.
     """
     constraints = of.needed(Constrained).constraints
     if number not in range(len(constraints)):
