@@ -898,7 +898,9 @@ class _Auditor:
 
 
 def lacks_differential(side: Node) -> bool:
-    """Whether a multiple integral with limits has the differentials of single variables, but too few of them."""
+    """Whether a multiple integral with limits at each sign has fewer differentials than signs, but at least one.
+    Integrals with an element such as dA or dV do not count.
+    """
     for each in side.walk():
         if isinstance(each, Int):
             signs = [item for item in each.items if isinstance(item, Sign)]
@@ -910,7 +912,9 @@ def lacks_differential(side: Node) -> bool:
 
 
 def has_implied_sum(*sides: Node) -> bool:
-    """Whether two factors of a product have the same letter as an index, as in a_i b_i: this may be a sum over it."""
+    """Whether two factors of a product have the same letter as an index, as in a_i b_i: the product may stand for a sum
+    over this index.
+    """
     for side in sides:
         summed = {each.index.base for each in side.walk() if isinstance(each, Sum) and isinstance(each.index, Letter)}
         for node in side.walk():

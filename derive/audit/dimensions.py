@@ -155,7 +155,9 @@ def _is_number_with_unit(side: Expr) -> bool:
 
 
 def _has_unit(claim: Claim) -> bool:
-    """Whether a side contains a number with an upright unit, whose value is a pure number: `a^2 + (60 cm)^2`."""
+    """Whether a side contains an upright unit, as in `a^2 + (60 cm)^2`; a number with such a unit is read as a pure
+    number.
+    """
     sides = [each for each in (claim.left, claim.right) if each is not None]
     return any(isinstance(node, Text) and node.text.startswith("unit ") for side in sides for node in side.walk())
 

@@ -129,7 +129,7 @@ def _is_solution(symbol: Symbol, value: Expr, known: Known) -> bool:
 
 
 def changing_letters(symbols: set[Symbol], meaning: Meaning) -> tuple[Symbol, ...]:
-    """Return those of the symbols that change with time, are rates, or have names that are usual for angles."""
+    """Return the symbols that change with time, are rates, or have names that are usual for angles."""
     return tuple(
         sorted(
             (

@@ -592,7 +592,7 @@ class PointMark(_Single):
 
 @dataclass(frozen=True)
 class RingedPoint(PointMark):
-    """A point with a blank ring, which is visible on a rod too."""
+    """A point with a blank ring, so that the point is visible on a rod too."""
 
     def pieces(self, paper: Paper) -> list[Piece]:
         spot = paper.spot(paper.numbers.vector(self.at))
@@ -601,7 +601,7 @@ class RingedPoint(PointMark):
 
 @dataclass(frozen=True)
 class HollowPoint(PointMark):
-    """A point as a small circle, which is visible on a rod too."""
+    """A point drawn as a small circle, so that it is visible on a rod too."""
 
     def pieces(self, paper: Paper) -> list[Piece]:
         spot = paper.spot(paper.numbers.vector(self.at))

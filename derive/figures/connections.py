@@ -182,7 +182,7 @@ class Connections:
         return found
 
     def _arms(self) -> dict[Symbol, Expr]:
-        """Values of the distances of centres of mass from the centres of rims."""
+        """Values of the distances between centres of mass and centres of rims."""
         found = {}
         for placed in self.system.bodies:
             if placed.rim is not None:

@@ -100,7 +100,7 @@ class ConnectionMark(_Stretched):
 
 @dataclass(frozen=True)
 class SpringMark(_Stretched):
-    """A spring: a zigzag with straight ends, which is not drawn if both ends coincide.
+    """A spring: a zigzag with straight ends. It is not drawn if both ends coincide.
 
     covered   the lengths at its two ends that blocks cover, in points
     """

@@ -230,8 +230,9 @@ def _inhomogeneous(comparison: _Comparison, typed: Relation) -> Verdict | None:
 
 
 def _scalings(given: Expr, wanted: Expr) -> list[Expr]:
-    """Multiply an equation by factors after which one of its terms equals a term of the right equation. Return at most
-    four results, first the results with the most equal terms."""
+    """Return at most four multiples of an equation in which at least one term equals a term of the right equation,
+    first the multiples with the most equal terms.
+    """
     terms = [sympy.Add.make_args(each) for each in (given, wanted)]
     found: dict[Expr, Expr] = {}
     for term in terms[0][:6]:
