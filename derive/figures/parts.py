@@ -199,7 +199,7 @@ class RopeMark(_Piecewise):
 
 @dataclass(frozen=True)
 class RopeBelowMark(RopeMark):
-    """A string below a table, which hides the part of the string that is behind the table."""
+    """A string below a table. The table hides the part of the string behind it."""
 
     layer: ClassVar[int] = -3
 
