@@ -128,7 +128,7 @@ class _Comparison:
             return None
         if results := sorted(used - self.key.allowed, key=str):
             names = ", ".join(f"`{shown(each, self.key)}`" for each in results)
-            return Verdict(Outcome.CONVENTION, f"with {names} as the solution defines it")
+            return Verdict(Outcome.CONVENTION, f"with {names} as defined in the solution")
         return Verdict(Outcome.EQUAL, "with the definitions of the problem" if used else "")
 
     def expanded(self, value: Any) -> Any:

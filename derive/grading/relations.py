@@ -48,7 +48,7 @@ def verdict_on_relation(left: Read, mark: str, right: Read, target: Target, key:
         used = typed.free_symbols & set(key.definitions) - goal.free_symbols - key.allowed
         names = ", ".join(f"`{shown(each, key)}`" for each in sorted(used, key=str))
         if names:
-            return Verdict(Outcome.CONVENTION, f"with {names} as the solution defines it")
+            return Verdict(Outcome.CONVENTION, f"with {names} as defined in the solution")
         return Verdict(Outcome.EQUAL, "with the definitions of the problem")
     if (of_angles := _with_function(typed, goal)) is not None and _are_equivalent(of_angles, goal):
         return Verdict(Outcome.EQUAL, "")
