@@ -1,7 +1,7 @@
 """What follows from several earlier equations together.
 
-An equation counts as a consequence of other equations if, at a few points, its coefficients are a linear combination of
-the coefficients of the others. The unknowns are products of the letters that are eliminated. Lagrange's and Hamilton's
+An equation counts as a consequence of other equations if, at a few points, it is a linear combination of them. For this
+test, the products of the letters that are eliminated are the unknowns of linear equations. Lagrange's and Hamilton's
 equations of a function that the document defines also belong to the known equations.
 """
 

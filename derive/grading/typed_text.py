@@ -1,6 +1,6 @@
 r"""The text of an answer, tidied: ASCII and Unicode become LaTeX, and the answer is split into statements.
 
-`7/24 M a^2 w^2`, `theta_ddot = -g/l sin(theta)` and `½mv²` become text that the reader of documents reads. Every change
+`7/24 M a^2 w^2`, `theta_ddot = -g/l sin(theta)` and `½mv²` become LaTeX that `derive.documents` parses. Every change
 keeps track of the place in the typed text.
 """
 
