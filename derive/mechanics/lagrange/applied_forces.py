@@ -379,7 +379,8 @@ def _functions_told(constraints: Sequence[Constraint]) -> dict[str, tuple[Relati
 
 def _multipliers_told(constraints: Sequence[Constraint]) -> dict[str, Symbol]:
     """Return the multiplier of each constraint whose force equals its multiplier. Only the first four constraints are
-    considered, because a sentence names at most four. The key `multiplier_2` belongs to `function_2`."""
+    considered, because a sentence names at most four. The keys are `multiplier_1`, `multiplier_2` and so on, by the
+    position of the constraint."""
     return {f"multiplier_{i}": each.force for i, each in enumerate(constraints[:4], 1) if each.gradient == 1}
 
 
