@@ -1,7 +1,7 @@
 """The classes of all errors, and the text in which an error is shown.
 
     DeriveError                 the base class; most other exceptions are internal errors
-    ├── Rejected                errors in a file of the author; as many as possible at once
+    ├── Rejected                errors in a file of the author; as many as possible are reported at once
     ├── Unverified              a check does not confirm a step, a part of a system or a figure
     ├── BuildFailed             TeX, the disk, a time limit or the system stopped the work
     └── Misused                 the command line, or a call in a notebook, is wrong (exit code 2)

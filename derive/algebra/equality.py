@@ -408,8 +408,9 @@ def _same_mark(left: str, right: str, sign: int) -> bool:
 
 
 def _both_squared(left: Relation, right: Relation) -> bool:
-    """Whether squaring both sides of one relation gives the other, up to a positive factor; the squared sides must not
-    be negative."""
+    """Whether squaring both sides of one relation gives the other, up to a positive factor; the sides that are squared
+    must be known not to be negative.
+    """
     for squares, roots in ((left, right), (right, left)):
         difference = roots.left**2 - roots.right**2
         if difference != 0 and all(side.is_nonnegative or strict_sign_within(side) == 1 for side in roots.sides):

@@ -51,8 +51,8 @@ ONE = Form({0: 1})
 class Ring:
     """Letters with their places in a monomial, and the forms already computed.
 
-    The lowest two bits of a monomial are the power of the imaginary unit i, which is 0 or 1. Above them, each letter
-    has `WIDTH` bits.
+    The lowest two bits of a monomial store the power, 0 or 1, of the imaginary unit i. Above them, each letter has
+    `WIDTH` bits.
     """
 
     highest, work = HIGHEST, WORK

@@ -111,8 +111,9 @@ def _of_quotient(expr: Expr, paths: Mapping[Symbol, Sequence[Expr]], order: int)
 
 
 def _beginnings(below: Expr, paths: Mapping[Symbol, Sequence[Expr]], order: int) -> Iterator[tuple[int, Series]]:
-    """Yield the powers of `below` whose coefficients are not shown to vanish, each with the series of `below`: first
-    the powers of a short series in ascending order, then the powers of a longer series."""
+    """Yield the powers with which the series of `below` may begin, each with this series. These are the powers whose
+    coefficients are not shown to vanish, first in a short series and then in a longer one.
+    """
     for deep in (DEEPEST // 4, DEEPEST):
         under = taylor(below, paths, order + deep)
         yield from ((n, under) for n, part in enumerate(under[: deep + 1]) if not vanishes(part))

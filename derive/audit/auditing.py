@@ -42,8 +42,8 @@ USUAL_SECONDS = 0.3  # the usual processor time of a claim
 MOST_LATE = 40.0  # the limit falls linearly with the seconds beyond the usual time, and would be zero at MOST_LATE
 SECONDS_OF_SEARCH = 2.0  # seconds of processor time for the search for a change that makes a claim right
 MOST_INDICES = 12
-MOST_LOST = 6  # number of letters of earlier rows that a row may lack
-MOST_ROWS = 10  # number of the last claims in displays whose terms may be missing in a row
+MOST_LOST = 6  # number of missing letters that are tried as corrections of a row
+MOST_ROWS = 10  # number of the last equations, or claims in displays, that are searched for what a row lacks
 MOST_FIXED = 5  # number of earlier rows that are searched for a slip
 SPECIAL = frozenset({Cue.GIVEN, Cue.PUT_IN, Cue.ZERO, Cue.APPROXIMATE})  # cues that explain why a row has fewer terms
 MOST_READINGS = 8
@@ -484,7 +484,7 @@ class _Auditor:
         return {self.shown(each.span) for each in letters if self.written[each.identity] == 1}
 
     def lost_letters(self, claim: Claim, written: list[Letter]) -> list[Letter]:
-        """Return letters that a row lacks, but that the earlier rows contain from which it should follow."""
+        """Return letters that a row lacks, although the earlier rows from which it should follow contain them."""
         assert claim.values is not None
         left = claim.values[0]
         behind = set(left.free_symbols | self.expanded(left).free_symbols) if claim.is_step else set()
@@ -898,7 +898,9 @@ class _Auditor:
 
 
 def lacks_differential(side: Node) -> bool:
-    """Whether a multiple integral with limits has the differentials of single variables, but too few of them."""
+    """Whether a multiple integral with limits at each sign has fewer differentials than signs, but at least one.
+    Integrals with an element such as dA or dV do not count.
+    """
     for each in side.walk():
         if isinstance(each, Int):
             signs = [item for item in each.items if isinstance(item, Sign)]
@@ -910,7 +912,9 @@ def lacks_differential(side: Node) -> bool:
 
 
 def has_implied_sum(*sides: Node) -> bool:
-    """Whether two factors of a product have the same letter as an index, as in a_i b_i: this may be a sum over it."""
+    """Whether two factors of a product have the same letter as an index, as in a_i b_i: the product may stand for a sum
+    over this index.
+    """
     for side in sides:
         summed = {each.index.base for each in side.walk() if isinstance(each, Sum) and isinstance(each.index, Letter)}
         for node in side.walk():

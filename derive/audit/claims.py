@@ -70,7 +70,8 @@ class Claim:
     verdict: Verdict | None = None
     values: tuple[Value, Value] | None = None
     decimals: tuple[tuple[Value, int], ...] = ()  # each decimal in its sides, with the number of digits after the point
-    from_head: bool = False  # whether it is compared with the first side of the chain; the sides between have no value
+    # whether the left side is the first side of the chain, because the sides between have no value
+    from_head: bool = False
     tags: tuple[str, ...] = field(default_factory=tuple)
 
     @property

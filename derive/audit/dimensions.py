@@ -25,7 +25,8 @@ USUAL = {  # the powers of mass, length and time
     "x": (0, 1, 0), "y": (0, 1, 0), "z": (0, 1, 0), "r": (0, 1, 0), "omega": (0, 0, -1), "T": (1, 2, -2),
     "U": (1, 2, -2),
 }  # fmt: skip
-# These may also name an angular momentum; a period or a tension; a resultant force; a ratio of lengths.
+# l may also name an angular momentum, T a period or a tension, R a resultant force, and x, y, z and r a ratio of
+# lengths.
 LESS_USUAL = ("l", "T", "R", "x", "y", "z", "r")
 MOST_CANDIDATES = 12
 FEWEST_CLAIMS = 6
@@ -154,7 +155,9 @@ def _is_number_with_unit(side: Expr) -> bool:
 
 
 def _has_unit(claim: Claim) -> bool:
-    """Whether a side contains a number with an upright unit, whose value is a pure number: `a^2 + (60 cm)^2`."""
+    """Whether a side contains an upright unit, as in `a^2 + (60 cm)^2`; a number with such a unit is read as a pure
+    number.
+    """
     sides = [each for each in (claim.left, claim.right) if each is not None]
     return any(isinstance(node, Text) and node.text.startswith("unit ") for side in sides for node in side.walk())
 

@@ -1,4 +1,4 @@
-"""The values of an expression at a few fixed points, which show quickly that two expressions are not equal.
+"""The values of expressions at a few fixed points. Different values show quickly that two expressions are not equal.
 
 At each point, the number of a letter depends only on the letter's name, so the values of an expression are computed
 only once.

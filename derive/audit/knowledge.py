@@ -165,7 +165,7 @@ class Known:
         return None
 
     def is_general(self, symbol: Symbol, value: Expr) -> bool:
-        """Whether a letter stands for each coordinate, such as q_i, although a value is written in other letters."""
+        """Whether a letter such as q_i stands for each coordinate, and no letter of a value has the same base."""
         letters = self.meaning.symbols
         letter = letters.get(symbol)
         if letter is None or letter.base not in ("q", "p") and letter.sub not in INDICES_OF_COORDINATES:

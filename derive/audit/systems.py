@@ -1,7 +1,7 @@
 """What follows from several earlier equations together.
 
-An equation counts as a consequence of other equations if, at a few points, its coefficients are a linear combination of
-the coefficients of the others. The unknowns are products of the letters that are eliminated. Lagrange's and Hamilton's
+An equation counts as a consequence of other equations if, at a few points, it is a linear combination of them. For this
+test, the products of the letters that are eliminated are the unknowns of linear equations. Lagrange's and Hamilton's
 equations of a function that the document defines also belong to the known equations.
 """
 
@@ -129,7 +129,7 @@ def _is_solution(symbol: Symbol, value: Expr, known: Known) -> bool:
 
 
 def changing_letters(symbols: set[Symbol], meaning: Meaning) -> tuple[Symbol, ...]:
-    """Return those of the symbols that change with time, are rates, or have names that are usual for angles."""
+    """Return the symbols that change with time, are rates, or have names that are usual for angles."""
     return tuple(
         sorted(
             (

@@ -58,7 +58,7 @@ def without_preamble(
 ) -> str | None:
     """Return a source whose preamble is turned into comments, and put the format of the preamble into `place`.
 
-    Return None without a format.
+    Return None if there is no format.
     """
     above, differs, below = tex.partition(DIFFERS)
     if not differs or cache.folder is None:

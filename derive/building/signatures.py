@@ -97,7 +97,8 @@ def _make_key(file: Path) -> None:
         file.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
         if os.path.lexists(file) and _read_key(file) is None:  # replace a key that is damaged or readable by others
             file.unlink()
-        with tempfile.NamedTemporaryFile(prefix=f".{file.name}.", dir=file.parent) as temporary:  # only for its owner
+        # only its owner can read the temporary file
+        with tempfile.NamedTemporaryFile(prefix=f".{file.name}.", dir=file.parent) as temporary:
             temporary.write(secrets.token_bytes(KEY_BYTES))
             temporary.flush()
             os.fsync(temporary.fileno())

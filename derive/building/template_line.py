@@ -17,8 +17,8 @@ def own_templates(root: Path) -> tuple[Path, ...]:
 
 
 def line_of_template(templates: tuple[Path, ...], printed: str, word: str) -> Place | None:
-    """Return the line of a template that printed a line of TeX; of several such lines, the one with the most text of
-    its own. None if no line of a template can have printed it.
+    """Return the line of a template that printed a line of TeX; of several such lines, the line with the longest text
+    outside of tags. None if no line of a template can have printed it.
 
     word   the part of the printed line that the caret marks, if the template contains it
     """

@@ -81,8 +81,9 @@ def check_name(word: Word, faults: Faults) -> None:
 
 
 def range_of_sort(name: str, sort: SortOfLetter, faults: Faults) -> Range | None:
-    """Return the range that a declaration states; None if it states no range, or only that a quantity is positive whose
-    kind is always positive."""
+    """Return the range that a declaration states. Return None if it states no range, if its range has an error, or if
+    it only states that the quantity is positive and its kind is always positive.
+    """
     with faults:
         if sort.ends:
             return read_range(name, sort.ends, sort)

@@ -159,7 +159,7 @@ def read_value(name: str, node: Tree, kind: str, symbols: Mapping[str, Declared]
 
 
 def read_end(node: Tree, kind: str, symbols: Mapping[str, Declared] | None = None) -> Expr:
-    """Read an end of the range of a plot, which may be zero or negative."""
+    """Read an end of the range of a plot; the end may be zero or negative."""
     return _read(node, Wanted("range", kind, is_end_of_scale=True), symbols or {})
 
 

@@ -41,7 +41,7 @@ class Wanted:
     one_of_many       whether the value is an entry of a list
     bounds            the least and the greatest allowed angle, in degrees
     numbers           the SI numbers of symbols, for a check of the sign
-    is_end_of_scale   whether the value is an end of the range of a plot, which may have any sign
+    is_end_of_scale   whether the value is an end of the range of a plot, and so may have any sign
     """
 
     name: str

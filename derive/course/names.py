@@ -59,6 +59,6 @@ class EvidenceShown(StrEnum):
     """How much a solution shows about its verification."""
 
     NONE = "none"  # nothing
-    END = "end"  # a note at the end of the solution, which counts the checks
+    END = "end"  # at the end of the solution, a note that counts the checks
     # the note and, next to each display of formulas, its grade and, if there is room, a second route or a check
     MARGIN = "margin"

@@ -181,8 +181,8 @@ def load_problem(root: Path, problem_id: str, chosen: Chosen | None = None) -> P
 
 
 def problem_and_faults(root: Path, problem_id: str, chosen: Chosen | None = None) -> tuple[Problem, Faults]:
-    """Return the problem, and the errors in its drawings and its figure, which do not affect any step. Raise `Rejected`
-    if there are other errors.
+    """Return the problem, and the errors in its drawings and its figure; these errors do not affect any step. Raise
+    `Rejected` if there are other errors.
 
     chosen   the choices of a variant; by default the values of the file itself
     """

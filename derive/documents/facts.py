@@ -171,7 +171,7 @@ def _bare(node: Node) -> Node:
 def _preferred(node: Node) -> Iterable[Node]:
     yield node
     kids = node.alternatives[:1] if isinstance(node, Open) else node.kids
-    if isinstance(node, Open) and node.kind == "apply":  # the product: it has the letter and no `Apply`
+    if isinstance(node, Open) and node.kind == "apply":  # the reading as a product contains the letter, and no `Apply`
         kids = node.alternatives[1:]
     for kid in kids:
         yield from _preferred(kid)

@@ -622,7 +622,9 @@ def _environment(tokens: Sequence[Token], at: int) -> tuple[str, int]:
 
 
 def rows_of(tokens: Sequence[Token]) -> list[tuple[list[list[Token]], str, str]]:
-    r"""Return the rows of a display: their cells, tag and label. The rows of matrices and of `cases` stay inside."""
+    r"""Return the rows of a display: their cells, tag and label. The rows of a matrix, and of a `cases` that is not a
+    system of equations, are not separated.
+    """
     rows: list[tuple[list[list[Token]], str, str]] = []
     cells: list[list[Token]] = [[]]
     tag = label = ""

@@ -682,8 +682,7 @@ class Meaning:
         return found if found is not None else Integral(value, (x, lower, upper))
 
     def depends(self, symbol: Symbol, x: Symbol) -> bool:
-        """Whether an integrand contains a letter that the document writes as a function of the variable, without a
-        value."""
+        """Whether the document writes a letter as a function of the variable of integration, and gives it no value."""
         letter = self.symbols.get(symbol)
         if letter is None or self.defined(symbol) is not None:
             return False
@@ -730,7 +729,9 @@ class Meaning:
         return inner.xreplace(put_in).subs(variable, at)
 
     def with_label(self, value: Any, label: str) -> Any:
-        """Return new real symbols for a value with a label, such as the rate of L in the body."""
+        """Return a new real symbol for a value with a label, such as dL/dt with the label `body`. For a vector or a
+        matrix, return one symbol for each entry.
+        """
         if isinstance(value, MatrixBase):
             return value.applyfunc(lambda each: self.with_label(each, label))
         symbol = Symbol(f"({value})_{label}", real=True)

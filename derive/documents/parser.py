@@ -1266,7 +1266,9 @@ class _Reader:
     # Brackets
 
     def closing_of(self, opener: Token) -> tuple[int, bool]:
-        """Return the position of the bracket that closes the current bracket, and whether there is one."""
+        """Return the position of the bracket that closes the current one, and `True`; if there is none, the number of
+        tokens, and `False`.
+        """
         depth = 0
         for at in range(self.at, len(self.tokens)):
             token = self.tokens[at]

@@ -67,7 +67,7 @@ class Source:
     text: str = ""
     origins: array[int] = field(default_factory=lambda: array("L"))
     edits: list[Edit] = field(default_factory=list)
-    included: str = ""  # the text of the files that the document or its main document includes, which may define macros
+    included: str = ""  # the texts of the files that the document or its main document includes; they may define macros
 
     def __post_init__(self) -> None:
         if not self.text:

@@ -145,7 +145,9 @@ def _answers(told: dict[str, Any]) -> list[Answer]:
 
 
 def with_files(html: str, address: Callable[[str], str], files: dict[str, bytes]) -> tuple[str, list[str]]:
-    """Replace the names of files in a text by their addresses; return the text and the names."""
+    """Replace the names of files in a text by their addresses; return the new text and the names of the files that it
+    uses.
+    """
     used = [name for name in files if f"{IMAGE}{name}" in html]
     for name in used:
         html = html.replace(f"{IMAGE}{name}", address(name))

@@ -592,7 +592,7 @@ class PointMark(_Single):
 
 @dataclass(frozen=True)
 class RingedPoint(PointMark):
-    """A point with a blank ring, which is visible on a rod too."""
+    """A point with a blank ring, so that the point is visible on a rod too."""
 
     def pieces(self, paper: Paper) -> list[Piece]:
         spot = paper.spot(paper.numbers.vector(self.at))
@@ -601,7 +601,7 @@ class RingedPoint(PointMark):
 
 @dataclass(frozen=True)
 class HollowPoint(PointMark):
-    """A point as a small circle, which is visible on a rod too."""
+    """A point drawn as a small circle, so that it is visible on a rod too."""
 
     def pieces(self, paper: Paper) -> list[Piece]:
         spot = paper.spot(paper.numbers.vector(self.at))
@@ -655,7 +655,7 @@ def _vanishes(vector: Any) -> bool:
 
 
 def _whole_direction(vector: Any) -> MatrixBase | None:
-    """Return the direction of a vector as numbers; None if the direction is unknown."""
+    """Return the direction of a vector as numbers; None if the vector is zero or its direction is unknown."""
     if _vanishes(vector):
         return None
     factor, rest = factored_matrix(explicit(vector))

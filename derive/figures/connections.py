@@ -72,7 +72,7 @@ ACROSS = column(0, 0, 1)
 ORIGIN = Symbol("O")
 # Values of coordinates that no constraint determines, relative to `Connections.size`.
 AWAY = (Rational(8, 5), Rational(6, 5), Rational(2), Rational(4, 5))
-ON_A_TABLE = (Rational(4, 5), Rational(-13, 10))  # the same coordinates for a table in space, relative to `ball_size`
+ON_A_TABLE = (Rational(4, 5), Rational(-13, 10))  # such values on a table in space, relative to `ball_size`
 WHEEL = Rational(1, 24)  # the drawn radius of a small pulley, relative to `_span`
 HOOK = Rational(9, 5)  # the length of the hook that holds the axle of a pulley, relative to the radius of the pulley
 HANGER = Rational(1, 8)  # the drawn distance of a small pulley from the ceiling, relative to `_span`
@@ -182,7 +182,7 @@ class Connections:
         return found
 
     def _arms(self) -> dict[Symbol, Expr]:
-        """Values of the distances of centres of mass from the centres of rims."""
+        """Values of the distances between centres of mass and centres of rims."""
         found = {}
         for placed in self.system.bodies:
             if placed.rim is not None:
@@ -818,8 +818,10 @@ class Connections:
 
 
 def _arrows_of_motion(start: Any, place: Location) -> Iterator[Mark]:
-    """Yield the arrow of a place with a prescribed motion: its velocity if it is constant, or its constant acceleration
-    from rest. For any other motion along a straight line, yield an arrow in both directions."""
+    """Yield the arrow of a place with a prescribed motion: the velocity if it is constant, or the acceleration if it is
+    constant and the place starts from rest. For any other motion along a straight line, yield an arrow in both
+    directions.
+    """
     rates = [ImmutableDenseMatrix([tidied(diff(c, TIME, n)) for c in place.components]) for n in (1, 2)]
     constant = next((each for each in rates if any(each) and not each.has(TIME)), None)
     if constant is rates[0] or constant is not None and not any(rates[0].subs(TIME, 0)):

@@ -79,7 +79,7 @@ def _on_a_plane(system: System, rolling: Rolling, contact: Location) -> Iterable
 
 
 def _cylinder(system: System, link: Link, rolling: Rolling) -> Iterable[Mark]:
-    """Yield the marks of a cylinder seen along its axis, of the contact, and of the angle of the contact."""
+    """Yield the marks of a cylinder seen along its axis, of the point of contact, and of the angle of this point."""
     centre, contact = column_of(link.start), column_of(link.end)
     outside = _is_outside(system, link, rolling)
     yield Circle(centre, ACROSS, link.length, outside, name="fixed_cylinder")

@@ -63,7 +63,7 @@ ALONG = 3.6  # distance between a surface and the arrow of a force along it, on 
 # and of its shortest arrow, in units of FORCE points. With these lengths the weight ends above the contact, and the
 # friction is visible.
 STANDING, SHORT, SHORTEST = 47.0, Rational(12, 25), Rational(7, 20)
-ROPE = 110.0  # the drawn length of a whole rope, whose pieces are drawn alone, in points
+ROPE = 110.0  # the drawn length of a whole rope, in points; each piece of the rope is drawn alone
 FOOT = 30.0  # half the length of the piece of a surface under a body, in points
 SLIGHT = 1e-6  # a number below this counts as zero
 NEAR = 0.3  # opposite arrows overlap if the gap between their tips is smaller than this part of an arrow

@@ -397,7 +397,7 @@ class Plot:
 
     @property
     def varies(self) -> set[Symbol]:
-        """Return the symbols that vary in the plot, which have no number."""
+        """Return the symbols that vary in the plot, and therefore have no number."""
         return {self.variable, *((self.levels.up,) if self.levels else ())}
 
     @property

@@ -166,7 +166,7 @@ def draw_modes(
 
     The name of a drawing is the key of the shape. The list is empty if a sketch cannot show the system. A mode is left
     out if the direction of a displacement depends on unknown numbers. Modes that are found together are also left out
-    if none of them is an oscillation or grows.
+    if none of them oscillates or grows.
     """
     shapes = [each for each in steps if each.step.rule == MODE_SHAPE.name]
     if not shapes or len(system.places[0].components) != 2:
@@ -464,7 +464,7 @@ class _InMode(_Displaced):
     """A system displaced in one mode.
 
     linear   the linear equations
-    shape    the step of the amplitudes
+    shape    the step that derives the mode shape
     """
 
     linear: Linear

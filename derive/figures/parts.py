@@ -100,7 +100,7 @@ class ConnectionMark(_Stretched):
 
 @dataclass(frozen=True)
 class SpringMark(_Stretched):
-    """A spring: a zigzag with straight ends, which is not drawn if both ends coincide.
+    """A spring: a zigzag with straight ends. It is not drawn if both ends coincide.
 
     covered   the lengths at its two ends that blocks cover, in points
     """
@@ -199,7 +199,7 @@ class RopeMark(_Piecewise):
 
 @dataclass(frozen=True)
 class RopeBelowMark(RopeMark):
-    """A string below a table, which hides the part of the string that is behind the table."""
+    """A string below a table. The table hides the part of the string behind it."""
 
     layer: ClassVar[int] = -3
 

@@ -16,7 +16,8 @@ __all__ = ["with_places"]
 
 def with_places(drawing: Recorded, steps: Sequence[Step]) -> Recorded:
     """Return a plot with the values that the steps find for its variable, each with its symbol. Such a symbol is the
-    variable with a subscript: r_0 for r. Any other drawing is unchanged."""
+    variable with a subscript: r_0 for r. A path, a bifurcation diagram and a drawing that is not a plot are returned
+    unchanged."""
     if not isinstance(drawing, Plot) or drawing.across is not None or drawing.diagram is not None:
         return drawing
     names = {name: explicit(value) for step in steps for name, value in step.names}

@@ -6,7 +6,8 @@ greatest moment, with the intermediate axis q and the third axis r, the two equa
 
     (1/I_p - 1/I_q) n_q^2 + (1/I_p - 1/I_r) n_r^2 = 1/I_p - e
 
-Here n is a unit vector, and e is the sum of n_i^2/I_i. So the projection of a curve along p is an ellipse.
+Here n is the unit vector along L, and e is the sum of n_i^2/I_i, which is constant on a curve. So the projection of a
+curve along p is an ellipse.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Strings over pulleys of negligible radius, which are drawn inside the corners of the string."""
+"""Strings over pulleys of negligible radius; the pulleys are drawn inside the corners of the string."""
 
 from __future__ import annotations
 

@@ -164,7 +164,7 @@ def arrow(
 
 
 def arc(a: Any, b: Any, label: Any = None, at: Any = ORIGIN, radius: Any = None) -> Mark:
-    """The arc from one direction to another, which is not drawn if the directions are parallel or opposite.
+    """The arc from one direction to another; it is not drawn if the directions are parallel or opposite.
 
     a, b     vectors (3) in the two directions
     label    the name of the angle, or a quantity

@@ -462,7 +462,9 @@ class _Scene:
 
     @property
     def _places(self) -> list[Location]:
-        """The places of masses, and other ends of strings, of rods and of the lines in place of rods."""
+        """The places of masses, the points at which bodies are placed, and the ends of strings, of rods and of lines
+        that are drawn in place of rods.
+        """
         masses = [*(at for _, at in self.system.masses), *(placed.at for placed in self.system.bodies)]
         links = [link for i, link in self.links.items() if not self._is_drawn(self.system.particles[i], link)]
         ends = [line.places[k] for line in self.connections.lines for k in (0, -1)]

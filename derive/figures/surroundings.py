@@ -321,7 +321,8 @@ class AngleBetween(Mark):
 
     a, b       vectors from the vertex along the lines
     dashed     whether the first line is drawn, as a dashed line
-    growing    the direction in which the end of b moves if the angle grows; then an arrowhead shows the positive sense
+    growing    the direction in which the end of b moves if the angle grows; if it is given, an arrowhead shows the
+               positive sense
     """
 
     vertex: Position

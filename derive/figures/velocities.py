@@ -215,7 +215,8 @@ def _from_the_joint(system: System, places: Sequence[Location], at: Location, hi
 
 def _met(system: System, at: Location, hinged: bool = False) -> Iterable[tuple[Any, Symbol]]:
     """Yield each body with a fixed point, and the symbol of the distance from this point to the point of impact. With
-    `hinged`, the point may also be a point of another body."""
+    `hinged`, the fixed point may instead be a hinge on another body.
+    """
     for placed in system.bodies:
         far = sqrt(tidied(Add(*(c**2 for c in (at - placed.at).components))))
         is_joint = is_fixed(system, placed.at) or hinged and isinstance(placed.at, PointOfBody)

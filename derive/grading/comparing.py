@@ -66,6 +66,8 @@ def aligned(value: Any, right: Any) -> Any:
 
 @dataclass
 class _Comparison:
+    """Compares one reading of a formula with an answer. A test returns None if it gives no verdict."""
+
     read: Read
     target: Target
     key: Key
@@ -126,7 +128,7 @@ class _Comparison:
             return None
         if results := sorted(used - self.key.allowed, key=str):
             names = ", ".join(f"`{shown(each, self.key)}`" for each in results)
-            return Verdict(Outcome.CONVENTION, f"with {names} as the solution defines it")
+            return Verdict(Outcome.CONVENTION, f"with {names} as defined in the solution")
         return Verdict(Outcome.EQUAL, "with the definitions of the problem" if used else "")
 
     def expanded(self, value: Any) -> Any:
@@ -388,7 +390,7 @@ class _Comparison:
         if value.shape != right.shape and value.shape[1] == 1 and right.shape[0] == right.shape[1] == value.shape[0]:
             value = sympy.diag(*value)
         if value.shape != right.shape:
-            return Verdict(Outcome.DIFFERENT, f"it has {_size(value)}, but {_size(right)} is asked for")
+            return Verdict(Outcome.DIFFERENT, f"it is {_size(value)}, but {_size(right)} is asked for")
         self.is_entry = True
         if self.target.scaled:
             return self.up_to_a_factor(value, right)

@@ -206,7 +206,7 @@ class _Grading:
         return replace(statement, read=replace(statement.read, sides=sides))
 
     def of_each_name(self, statement: _Statement) -> list[_Statement]:
-        """Return `x'' = a` and `y'' = -a` for the chain `x'' = -y'' = a`."""
+        """Return a chain and an equation for each name inside it: also `y'' = -a` for `x'' = -y'' = a`."""
         asked = [target.symbol for target in self.part.targets]
         found = [statement]
         if statement.read is None or not statement.is_equation:
@@ -351,7 +351,9 @@ class _Grading:
     def as_system(
         self, targets: list[Target], statements: list[_Statement]
     ) -> dict[str, tuple[Verdict, list[_Statement]]] | None:
-        """Judge equations of motion together: other equations are right if they give the same accelerations."""
+        """Judge equations of motion together: other equations are right if they give the same accelerations. Return
+        None if they do not, or if each answer is right on its own.
+        """
         if not 1 < len(targets) == len(statements) or not all(target.is_relation for target in targets):
             return None
         alone = [any(self.verdict(one, target).is_right for one in statements) for target in targets]
@@ -403,7 +405,9 @@ class _Grading:
         return replace(verdict_on_value(read, target, self.key), target=target.key), used
 
     def of_set(self, statements: list[_Statement], target: Target) -> tuple[Verdict, list[_Statement]] | None:
-        """Judge a set of values, such as the principal moments, that one or several statements give."""
+        """Judge a set of values, such as the principal moments, that one or several statements give; None if no
+        statement gives a value.
+        """
         names = {each: i for i, each in enumerate(target.symbol)}
         used, values = [], []
         for statement in statements:
@@ -496,7 +500,8 @@ class _Grading:
             return ""
         if edit is None:
             return ""
-        return f"it would be right with {edit.meant} instead of {edit.was}" if edit.meant else f"without {edit.was}"
+        change = f"with {edit.meant} instead of {edit.was}" if edit.meant else f"without {edit.was}"
+        return f"it would be right {change}"
 
     def text_at(self, span: Span) -> str:
         return self.text[span.start : span.end].strip()
@@ -560,7 +565,9 @@ class _Grading:
         return best_of(verdicts)
 
     def as_number(self, statement: _Statement, target: Target) -> Verdict | None:
-        """Judge a number, with or without a unit; None if the problem gives no number or none is typed."""
+        """Judge a number, with or without a unit; None if the problem gives no number, or if no number other than zero
+        is typed.
+        """
         if target.is_relation and (angle := angle_of(target, self.angle_in(statement, target))) is not None:
             target = angle
         if not statement.is_equation and not target.is_relation:
@@ -604,7 +611,9 @@ class _Grading:
         return statement.name
 
     def as_components(self, statement: _Statement, target: Target) -> Verdict | None:
-        """Judge a vector of decimals, with or without a unit; None if none is typed."""
+        """Judge a vector of decimals, with or without a unit; None if none is typed, or if all components are zero
+        without a unit.
+        """
         text = statement.texts[-1]
         number, unit = next(with_units(text), (text, None))
         components = components_of(number, len(target.numbers))

@@ -29,7 +29,7 @@ MOST_BITS = 3000  # the greatest number of bits of a number
 HIGHEST_POWER = 40
 MOST_TERMS = 3000  # the greatest number of terms of an expanded power of a sum
 MOST_READINGS = 6
-_SIGN = Symbol("±", real=True)  # the symbol that the reader of documents uses for ±
+_SIGN = Symbol("±", real=True)  # the symbol that `derive.documents` uses for ±
 
 
 @dataclass(frozen=True)

@@ -48,7 +48,7 @@ def verdict_on_relation(left: Read, mark: str, right: Read, target: Target, key:
         used = typed.free_symbols & set(key.definitions) - goal.free_symbols - key.allowed
         names = ", ".join(f"`{shown(each, key)}`" for each in sorted(used, key=str))
         if names:
-            return Verdict(Outcome.CONVENTION, f"with {names} as the solution defines it")
+            return Verdict(Outcome.CONVENTION, f"with {names} as defined in the solution")
         return Verdict(Outcome.EQUAL, "with the definitions of the problem")
     if (of_angles := _with_function(typed, goal)) is not None and _are_equivalent(of_angles, goal):
         return Verdict(Outcome.EQUAL, "")
@@ -110,8 +110,9 @@ def give_the_same(typed: list[Relation], goals: list[Relation]) -> bool:
 
 
 def _renamed(typed: Relation, goal: Relation, comparison: _Comparison) -> Verdict | None:
-    """Accept another name for one letter of the problem in an inequality; None if no name makes it
-    right."""
+    """Accept another name for one letter of the problem in an inequality; None if no letter of the problem makes it
+    right.
+    """
     unknown = [each for each in comparison.read.unknown if each in typed.free_symbols]
     if goal.operator == "=" or len(unknown) != 1 or len(goal.free_symbols) < 2:  # equations are compared term by term
         return None
@@ -229,8 +230,9 @@ def _inhomogeneous(comparison: _Comparison, typed: Relation) -> Verdict | None:
 
 
 def _scalings(given: Expr, wanted: Expr) -> list[Expr]:
-    """Multiply an equation by factors after which one of its terms equals a term of the right equation. Return at most
-    four results, first the results with the most equal terms."""
+    """Return at most four multiples of an equation in which at least one term equals a term of the right equation,
+    first the multiples with the most equal terms.
+    """
     terms = [sympy.Add.make_args(each) for each in (given, wanted)]
     found: dict[Expr, Expr] = {}
     for term in terms[0][:6]:

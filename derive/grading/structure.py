@@ -1,6 +1,7 @@
 """The slip in a wrong formula (a factor, a sign or a term), and special values for which the formula is right.
 
-Each possible slip is tested by `equal`. The values at a few points only exclude slips that the answer cannot have.
+Each possible slip is tested by `equal`. The values at a few points serve only to exclude slips that the answer cannot
+have.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 r"""The text of an answer, tidied: ASCII and Unicode become LaTeX, and the answer is split into statements.
 
-`7/24 M a^2 w^2`, `theta_ddot = -g/l sin(theta)` and `½mv²` become text that the reader of documents reads. Every change
+`7/24 M a^2 w^2`, `theta_ddot = -g/l sin(theta)` and `½mv²` become LaTeX that `derive.documents` parses. Every change
 keeps track of the place in the typed text.
 """
 
@@ -202,7 +202,7 @@ def with_points(entries: str) -> str:
 
 
 def _numbered(word: str, digits: str, names: Names) -> str:
-    """Return `m1` as the letter m_1, if the problem has this letter."""
+    """Return `m1` as the letter m_1, if the problem has this letter; otherwise an empty text."""
     base = GREEK_LETTERS.get(word, word)
     is_letter = len(base) == 1 or base in GREEK_WORDS
     known = is_letter and (names.has(base, digits) or names.has(INSTEAD.get(base, base), digits))

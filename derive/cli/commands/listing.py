@@ -42,7 +42,7 @@ def list_problems(arguments: argparse.Namespace) -> int:
 
 
 def _warn_of_sets(root: Path, names: Iterable[str]) -> None:
-    """Report the errors in the files of the sets, which the list itself does not need, as warnings."""
+    """Report errors in the files of the sets as warnings, because the list itself does not need these files."""
     from derive.course.problem_set import problem_set, set_ids
 
     found = list[Complaint]()

@@ -81,7 +81,7 @@ class Cited:
         return self.joined(sides, others, named)
 
     def section(self, number: str, place: Place) -> list[tuple[Letter | None, Formula]]:
-        """Return the displayed chains of a section, each with the letter that it begins with."""
+        """Return the displayed chains of a section, each with the letter that it begins with, or None."""
         headings = _numbers(self.document)
         if number not in headings:
             known = [each for each in headings if each]
@@ -170,7 +170,7 @@ class Cited:
         return scalar
 
     def without_unit(self, side: Side) -> tuple[int, int, Unit | None]:
-        """Return where the value of a side begins and ends, and the unit after it."""
+        """Return where the value of a side begins and ends, and the unit after it, or None."""
         start, end = side.span.start, side.span.end
         text = self.text[start:end]
         if found := _DEGREES.search(text):

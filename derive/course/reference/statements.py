@@ -463,7 +463,9 @@ class _EntryReader:
         return read
 
     def statement(self, entry: EntryKeys, put_in: tuple[str, ...], formula: Formula | None) -> Statement | None:
-        """Read the value of an entry from `states:` or `latex:`, or from the formula that the entry cites."""
+        """Read the value of an entry from `states:` or `latex:`, or from the formula that the entry cites; None if
+        there is no value that can be read.
+        """
         plain, printed, keys = entry.states, entry.latex, keys_of(EntryKeys)
         homogeneous = "erratum" not in entry.values_at and not put_in
         if plain is not None and printed is not None:
@@ -480,8 +482,9 @@ class _EntryReader:
         return self.one(plain, "`states`", False, True) if plain is not None else None
 
     def of_document(self, formula: Formula, homogeneous: bool, place: Place) -> Statement | None:
-        """Read a chain of the document. A first letter that cannot be read is left out, because it only names the
-        value."""
+        """Read a chain of the document; None if it cannot be read. A first letter that cannot be read is left out,
+        because it only names the value.
+        """
         named = bool(formula.head)
         if named:
             try:

@@ -163,8 +163,9 @@ def _extremum(
 
 
 def _letter_of(of: Quantity) -> str | None:
-    """Return the letter of a quantity, or of the vector whose length the quantity is; None if the symbol of the
-    quantity is a formula."""
+    """Return the letter of a quantity. For the length of a vector, return the letter of the vector; for another formula
+    as the symbol, None.
+    """
     symbol = of.symbol.args[0] if isinstance(of.symbol, Norm) else of.symbol
     return str(symbol.name) if isinstance(symbol, Symbol | MatrixSymbol) else None
 
@@ -183,7 +184,8 @@ def _not_one(of: Quantity, x: Symbol, verb: str, count: int, elsewhere: bool) ->
 def _range_as_interval(x: Symbol) -> Within | None:
     """Return the range of the symbol as an interval, by its numerical bounds or by assumed relations such as b < l.
 
-    None if the symbol has no bounded range and the relations do not give exactly one lower and one upper bound.
+    A positive symbol without a lower bound has the lower bound 0. Return None if the symbol has no bounded range and
+    the relations do not give exactly one lower and one upper bound.
     """
     known = range_of(x)
     if known is not None and known.least.is_finite and known.greatest.is_finite:

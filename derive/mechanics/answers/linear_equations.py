@@ -72,7 +72,7 @@ def solved_for(
         help_line = "one of the equations follows from the others, or they contradict each other"
         raise Rejected(Complaint("singular", message, help=help_line))
     values = eliminated(matrix, right)
-    below = [tidied(value).as_numer_denom()[1] for value in values]  # these may contain denominators of the equations
+    below = [tidied(value).as_numer_denom()[1] for value in values]  # each denominator must not vanish either
     excluded = may_vanish(determinant, *below)
     called = list(keys or [_key_of(unknown) for unknown in wanted])
     if len(called) != len(wanted):

@@ -435,8 +435,7 @@ def _name(of: Quantity, symbol: str | None) -> Any:
 
 
 def _means(name: Any, result: Any) -> dict[Any, Any]:
-    """Return a mapping from the symbol in the name of the result to the value of this symbol: from theta_dot, if the
-    name is theta_dot^2.
+    """Return the value of the symbol in the name of the result: of theta_dot for the name theta_dot^2.
 
     For the name |q_dot|, q_dot has the value of the result.
     """

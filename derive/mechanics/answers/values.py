@@ -262,11 +262,11 @@ def let(
     kind         the kind of the result, such as "force" or "time"; by default only the dimension of the result is known
     because      the reason, in the words of the script: "by Newton's second law"
 
-    If the quantities belong to only one body, the result belongs to this body, too. The same is true for the point and
-    the rotation.
-    The result varies in time if it contains a coordinate or the time. If the mass points and forces are known for every
-    quantity, the result is linked to all these mass points and forces. No check shows that the result has the meaning
-    of its letter, so the grade of the step is "definition".
+    If the quantities belong to only one body, the result belongs to this body, too. If they have only one reference
+    point, or only one angular velocity of a rotation, the result has it, too. The result varies in time if it contains
+    a coordinate or the time. If the mass points and forces are known for every quantity, the result is linked to all
+    these mass points and forces. No check shows that the result has the meaning of its letter, so the grade of the step
+    is "definition".
     Outcomes: generic, because (with the given reason), equation, equation_because.
     Errors: an unknown kind; an expression that is not a scalar; an equation for which a symbol or a kind is given; an
     equation that always or never holds.

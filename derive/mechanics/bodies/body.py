@@ -63,7 +63,7 @@ class Body(Placeable, OfParticles):
     mass: Expr
     filling: ClassVar[str] = "volume"
     reference: ClassVar[str] = "centre"  # the named point from which positions are measured by default
-    other_centre: ClassVar[str] = ""  # a point, not the centre of mass, that readers may call "centre"
+    other_centre: ClassVar[str] = ""  # a point that readers may call "centre", although it is not the centre of mass
     called: str = ""  # the name of the body on a page with several bodies: "upper rod"
     names_given: tuple[str, ...] = ()  # names that the author gave to points: such a name does not imply a position
     is_lopsided: ClassVar[bool] = False  # whether the body may lack the inversion symmetry that its particles have

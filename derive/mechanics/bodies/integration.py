@@ -3,7 +3,8 @@
 The integrand is a sum of products. Each product separates into integrals that share no variable: integrals of one
 variable if the limits are constant, nested integrals if a limit depends on an outer variable. The lines show the
 separated integrals, the innermost antiderivatives in brackets, the values of these brackets, and so on outwards. The
-last lines show the product of the values, then this product with the mass, density times volume, in one bracket.
+last lines show the product of the values, then this product with density times volume, which is the mass, in one
+bracket.
 
 The integral over a solid of revolution is first over the disc at each height, and then along the axis, if the radius
 varies with the height or the coordinates are Cartesian. In Cartesian coordinates the integral over the disc is along
@@ -291,8 +292,9 @@ def _with_power_bracket(part: Nested) -> Expr:
 
 
 def _mass_collected(region: Region, integrand: Expr, sign: int, rho: Expr, volume: Expr, is_sum: bool) -> list[Form]:
-    """The lines that group density times volume in a bracket, here for 13/3 M a^2: 13/3 (6 a^3 rho) a^2. The value with
-    the mass in place of the bracket follows as the result."""
+    """The lines that group density times volume in a bracket, for example 13/3 (6 a^3 rho) a^2, before the result 13/3
+    M a^2.
+    """
     whole = region.with_section_put_in()
     value = tidied(Integral(integrand, *reversed(whole.limits)))
     if value == 0:

@@ -114,7 +114,7 @@ class GeneralBody(Body):
 
     @property
     def measures(self) -> Mapping[str, Any]:
-        """Empty, because the position map defines the size of the body, not a set of named lengths."""
+        """Empty: the position map defines the size of the body, so there are no named lengths."""
         return {}
 
     @property

@@ -413,7 +413,9 @@ def volume(body: Cone) -> Quantity:
 
 
 def _by_pappus(body: Cone) -> Expr:
-    """Pappus: the triangle of apex, centre of the base and rim has the area R h/2 and its centroid at r = R/3."""
+    """Pappus: the triangle of the apex, the centre of the base and a point of the rim has the area R h/2 and its
+    centroid at r = R/3.
+    """
     corners = [(Integer(0), Integer(0)), (Integer(0), body.height), (body.radius, body.height)]
     (r1, z1), (r2, z2), (r3, z3) = corners
     area = ((r2 - r1) * (z3 - z1) - (r3 - r1) * (z2 - z1)) / 2

@@ -58,7 +58,8 @@ def poisson_bracket(
 ) -> Quantity:
     """Poisson bracket, {f, g} = sum of df/dq dg/dp - df/dp dg/dq.
 
-    f, g          functions of coordinates and momenta: steps, or formulas in `x` and `conjugate(x)`
+    f, g          functions of coordinates and momenta: steps, or formulas in coordinates `x` and their momenta
+                  `conjugate(x)`
     coordinates   all coordinates; not needed if f or g is a Hamiltonian, or a result derived from a Hamiltonian
     among         steps; if the bracket is a number times the value of such a step, the last line is written with the
                   symbol of this step

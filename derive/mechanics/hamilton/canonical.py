@@ -49,8 +49,8 @@ def hamiltonian(of: Quantity, symbol: str | None = None, key: str = "hamiltonian
     Separate steps derive the momenta, and the rates in terms of the momenta.
     Second route: H is T_2 - T_0 + U, where T_2 and T_0 are the parts of T of degree 2 and 0 in the rates. With the
     momenta as functions of the rates, dH/dp is q_dot, and -dH/dq is the sum of F . dr/dq + m v . d(dr/dq)/dt. Here F
-    are the magnetic forces and the forces with a potential energy. For charges e in magnetic fields, the time
-    derivative of the sum of e A . dr/dq is added to this sum for -dH/dq.
+    are the magnetic forces and the forces with a potential energy. For charges e in magnetic fields, -dH/dq also
+    contains the time derivative of the sum of e A . dr/dq.
     Check: for a given L, the sum of p dH/dp, minus H, is L again, and -dH/dq is the first-order change of L if q
     changes.
     Outcomes: energy (H is conserved and is T + U); conserved (H is conserved but is not T + U); changing_energy

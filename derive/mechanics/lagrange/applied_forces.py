@@ -379,7 +379,8 @@ def _functions_told(constraints: Sequence[Constraint]) -> dict[str, tuple[Relati
 
 def _multipliers_told(constraints: Sequence[Constraint]) -> dict[str, Symbol]:
     """Return the multiplier of each constraint whose force equals its multiplier. Only the first four constraints are
-    considered, because a sentence names at most four. The key `multiplier_2` belongs to `function_2`."""
+    considered, because a sentence names at most four. The keys are `multiplier_1`, `multiplier_2` and so on, by the
+    position of the constraint."""
     return {f"multiplier_{i}": each.force for i, each in enumerate(constraints[:4], 1) if each.gradient == 1}
 
 
@@ -403,8 +404,9 @@ def _sides(found: Relation, moving: Sequence[Symbol], constraints: Sequence[Cons
 
 
 def _times_forces(coefficients: Mapping[Symbol, Expr]) -> Expr:
-    """Write a common factor of the constraint forces in front of them, if this is shorter: R (S_1 - S_2), not R S_1 -
-    R S_2; but S_1/sqrt(A) - S_2/sqrt(B)."""
+    """Write a common factor of the constraint forces in front of them, if this is shorter: R (S_1 - S_2), not R S_1 - R
+    S_2. A sum such as S_1/sqrt(A) - S_2/sqrt(B) stays unchanged.
+    """
     acting = {letter: each for letter, each in coefficients.items() if each != 0}
     common = common_factor(list(acting.values())) if len(acting) > 1 else Integer(1)
     common = -common if common.could_extract_minus_sign() else common

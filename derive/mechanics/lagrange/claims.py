@@ -372,8 +372,9 @@ def constraint_rate_in_rates(facts: Judged) -> bool:
 
 
 def constraint_rate_together(facts: Judged) -> bool:
-    """Whether the values that the constraints together fix satisfy these constraints, which are independent, and the
-    result belongs to one of these values."""
+    """Whether the constraints are independent and hold for the values that they fix together, and the result belongs to
+    one of these values.
+    """
     values = {told.left: told.right for told in facts.inputs["kept_together"]}
     kept = Matrix(facts.inputs["keeping"])
     if not values or not all(is_zero(f.xreplace(values)) for f in kept):

@@ -221,7 +221,7 @@ def multipliers(*equations: Quantity, keeping: Sequence[Coordinate] = ()) -> tup
 
 def _with_one_alone(left: Expr, wanted: Set[Symbol]) -> Relation:
     """Return the equation left = 0 solved for a symbol of `wanted` that is a term by itself:
-    y_ddot = R phi_ddot. If there is none, change all signs if all are negative."""
+    y_ddot = R phi_ddot. If there is no such symbol and all terms are negative, change all signs."""
     terms = Add.make_args(left)
     others = {term: [each for each in terms if each is not term] for term in terms}
     for term in reversed(terms) if len(terms) > 1 else ():
@@ -308,8 +308,8 @@ def constraint_rate(of: Quantity, number: int = 0, key: str | None = None) -> Qu
     of       the Lagrangian of a system with constraints
     number   the index of the constraint, 0 for the first
 
-    Outcomes: in_rates, in_coordinates, constant (the constraint is y = a, with one coordinate), together (this
-    constraint and others together are equivalent to y = a and the like).
+    Outcomes: in_rates, in_coordinates, constant (the constraint is y = a, with one coordinate), together (several
+    constraints, including this one, are equivalent to relations such as y = a).
     Check: differentiate with each coordinate as its Taylor series in t.
     Errors: there is no constraint with this index.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4.

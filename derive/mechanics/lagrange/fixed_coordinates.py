@@ -76,7 +76,7 @@ def _next(residuals: Sequence[Expr], found: dict[Symbol, Expr], moving: Sequence
 
 
 def _combined(residuals: Sequence[Expr]) -> Iterator[Expr]:
-    """Yield the constraints without a root of a sum, and their sums and differences in pairs."""
+    """Yield the constraints, after a root of a sum is eliminated, and the sums and differences of each pair."""
     forms = [_without_root(f) for f in residuals]
     yield from forms
     for one, other in combinations(forms, 2):

@@ -59,8 +59,9 @@ def _foot(placed: PlacedBody, curve: Curve) -> tuple[Location, Expr]:
 
 
 def _feet(placed: PlacedBody, curve: Curve) -> Iterator[Location]:
-    """Yield places of the curve that a round body may touch: those whose horizontal distance is a coordinate, and the
-    place where the centre would be if its distance from the curve were zero."""
+    """Yield places of the curve that a round body may touch: places whose horizontal distance is a coordinate, and the
+    place where the centre would be if its distance from the curve were zero.
+    """
     moving = coordinates_in(column_of(placed.hub))
     yield from (curve.point(q) for q in moving)
     for length in (*moving, *radius_of(placed).free_symbols):

@@ -282,7 +282,9 @@ def _require_known_signs(lengths: Sequence[Expr]) -> None:
     """Reject a length whose sign is unknown where all coordinates are zero: the length of the rope would be a guess."""
     for each in map(_at_zero, lengths):
         if each != 0 and sign_for_all(each) is None:
-            message = f"a piece of the rope is |{each}| long where the coordinates are zero, and this sign is unknown"
+            message = (
+                f"if all coordinates are zero, a piece of the rope is |{each}| long, but the sign of {each} is unknown"
+            )
             help_line = "give the `length` of the rope, or a relation under `assume:` that decides the sign"
             raise Rejected(Complaint("sign", message, help=help_line))
 
@@ -381,7 +383,9 @@ def _is_on_rim(place: Location, ends: Sequence[Any]) -> bool:
 
 
 def _tangent(one: Any, other: Any) -> tuple[Location, Location]:
-    """Return the ends of the straight piece between two neighbours; a piece at a pulley must be parallel to an axis."""
+    """Return the ends of the straight piece between two neighbours along a string; a piece at a pulley must be parallel
+    to an axis.
+    """
     if not isinstance(one, Pulley) and not isinstance(other, Pulley):
         return end_of(one)[0], end_of(other)[0]
     found = [

@@ -476,8 +476,8 @@ def _with_branches(system: System) -> tuple[Part, ...]:
     """Return the parts. In a potential, a distance |u| is replaced by u or by -u if there is a natural choice.
 
     There is such a choice if the coordinates are displacements from an equilibrium, as for carts at x_1 and d + x_2:
-    the page then states that u keeps its sign. There is none for a cart at x with a spring to a wall at d: |x - d|
-    remains.
+    the page then states that u keeps its sign. There is no natural choice for a cart at x with a spring to a wall at d:
+    |x - d| remains.
     """
     sided = tuple(_near_rest(each) for each in system.between)
     balanced = all(each is not None for each in sided) and _is_balanced(system, [each for each in sided if each])

@@ -18,7 +18,7 @@ class Steady(Fact):
     """A steady motion: constant values of coordinates, constant rates of cyclic coordinates, and its conditions, which
     are expressions that vanish in this motion."""
 
-    missing = "is not a condition of a steady motion, which is a result of `steady_motion`"
+    missing = "is not a condition of a steady motion from `steady_motion`"
     lagrangian: Quantity
     values: Mapping[Symbol, Expr]
     rates: Mapping[Symbol, Expr]
@@ -59,7 +59,7 @@ class Arrival:
     begun      the start of the motion
     squared    the squared rate of the coordinate by conservation of energy, f(q)
     unknown    the coordinate, or a function of the coordinate such as cos(q)
-    place      the value of `unknown` at the place, which may be infinite
+    place      the value of `unknown` at the place; it may be infinite
     reached    the condition under which the motion reaches the place; None if the motion always reaches it
     is_found   whether the place was derived from this motion
     sense      the sign of the rate at the start, if the result contains the rate with this sign; otherwise 0

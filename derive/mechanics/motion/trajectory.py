@@ -16,7 +16,7 @@ from sympy import Expr, Rational, Symbol, lambdify
 from derive.algebra.equality import Grade, Verdict
 from derive.algebra.expressions import RATES, TIME, rate, scalar
 
-FIGURES = 10  # the change and the integral of the rate must agree to this number of figures, out of 15
+FIGURES = 10  # the change and the integral of the rate must agree to this number of figures; a float has 15
 STEPS = (4, 16, 64, 256)  # numbers of steps from t = 0 to t = 1, tried in turn until the change and the integral agree
 PARTS = range(2, 18, 2)  # numbers of parts into which a step is divided, for the extrapolation to zero length
 

@@ -39,7 +39,7 @@ def condition_to_reach(
     of        the result that refers to the place, for messages
     speed     the squared rate of a coordinate by conservation of energy, f(q)
     unknown   the coordinate q, or a function of q such as cos(q)
-    place     the value of `unknown` at the place, which may be infinite
+    place     the value of `unknown` at the place; it may be infinite
     there     the limit of f at the place, if f has no value there; by default f is evaluated at `place`
 
     The motion turns back where f = 0. The motion reaches the place if f is negative neither at the place nor between

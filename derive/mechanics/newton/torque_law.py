@@ -142,8 +142,9 @@ def _sum_of_torques(terms: Sequence[Expr], at_rest: bool) -> Expr:
 
 
 def _acting_at(body: Alone, point: About) -> dict[str, Symbol]:
-    """For a body at rest, the symbols of at most two unknown forces that act at the point of the law; the sentence
-    names these forces."""
+    """The symbols of at most two unknown forces that act at the point of the law; empty for an axis, a contact or a
+    centre of mass.
+    """
     if point.word != "point":
         return {}
     here = [f.letter for f in body.forces if f.at is not None and f.letter is not None and is_same(f.at, point.place)]

@@ -72,8 +72,9 @@ ORDER = Rule(
 
 
 def order(view: View) -> Observed:
-    """Constant accelerations for several special cases of one acceleration in the order of their size, if their ratios
-    are positive rational numbers."""
+    """Constant accelerations in several special cases of one acceleration, sorted by size, if their ratios are positive
+    rational numbers.
+    """
     cases = [
         q
         for q in view.values("acceleration")
@@ -92,7 +93,9 @@ def _parents(q: Quantity) -> tuple[str, ...]:
 
 
 def _kind_of_the_letter(view: View, cases: Sequence[Quantity]) -> str:
-    """Return the kind of the only symbol whose value distinguishes the cases; "" if there are several such symbols."""
+    """Return the kind of the symbol that has one value in each case; "" if the cases have values of several symbols, or
+    if a case has several values.
+    """
     told = [value for q in cases for role, value in q.step.roles if role.startswith("value_")]
     letters = {each.left for each in told}
     return view.letters.get(letters.pop(), "") if len(letters) == 1 and len(told) == len(cases) else ""

@@ -455,7 +455,9 @@ def one_sign(view: View) -> Observed:
 
 
 def _is_force_of(of: Quantity, *enforcers: str) -> bool:
-    """Whether the answer is the constraint force of such a part, or this force with other results substituted."""
+    """Whether the answer is a constraint force that one of these enforcers exerts, or this force with other results
+    substituted.
+    """
     facts = [q.fact(ForceOf) for q in of.ancestors() if q.symbol == of.symbol]
     return any(fact is not None and fact.constraint.enforcer in enforcers for fact in facts)
 
