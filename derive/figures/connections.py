@@ -58,6 +58,7 @@ from derive.figures.tops import euler_angles
 from derive.figures.turning import angle_marks, downwards, line_between, moving_end, on_the_axis
 from derive.mechanics.bodies.placed import PlacedBody
 from derive.mechanics.kinematics.places import Axes, Location
+from derive.mechanics.lagrange.fixed_coordinates import fixed_together
 from derive.mechanics.model.connection import Connection
 from derive.mechanics.model.constraint import Constraint
 from derive.mechanics.model.contacts import Contact, LandingSurface
@@ -134,6 +135,8 @@ class Connections:
         for each in self.contacts:
             if self.in_a_plane and isinstance(each.surface, Circle) and not each.is_kept:
                 found |= self._on_circle(each)
+        residuals = [each.residual for each in self.system.constraints if not each.in_rates]
+        found |= fixed_together(residuals, [*self.system.coordinates])
         for constraint in self.system.constraints:
             if not constraint.in_rates and (constraint.forces or not constraint.enforcer):
                 found |= self._solved(constraint, found)

@@ -19,7 +19,7 @@ from derive.algebra.derivatives import derivative
 from derive.algebra.expressions import as_expr, explicit, rate, scalar
 from derive.algebra.ranges import fulfilling, rational_in_range
 from derive.algebra.tidy import tidied
-from derive.figures.annotations import FORCE, ForceArrow, PointMark, PositiveDirection, PositiveRotation, RingedPoint
+from derive.figures.annotations import FORCE, ForceArrow, LargePoint, PointMark, PositiveDirection, PositiveRotation
 from derive.figures.connections import Connections, connections_of, distance_of
 from derive.figures.links import Link, angle_of_link, is_fixed, same
 from derive.figures.marks import Drawing, Mark
@@ -54,7 +54,7 @@ BODY, BODY_IN_SPACE = 32.0, 20.0
 LEAST = Rational(1, 4)  # length of the shortest arrow, relative to the longest arrow
 # All arrows are enlarged until the shortest arrow at a particle has the length VISIBLE, in units of FORCE points, but
 # at most by the factor LONGER.
-VISIBLE, LONGER = Rational(1, 2), Integer(2)
+VISIBLE, LONGER = Rational(5, 12), Rational(5, 4)
 ON_A_LINE = Rational(3, 5)  # least factor for all arrows if each drawing shows a particle with forces on one line
 OFF = Rational(1, 30)  # distance between a rod and the arrow of a force along it, relative to the length of the rod
 APART = 5.0  # the distance between the arrows of two forces on the same line, in points
@@ -545,7 +545,7 @@ def _outline(of: Any, is_pulley: bool = False) -> Iterator[Mark]:
         for mark in shown:
             plain = replace(mark, label=None)
             yield replace(plain, pointer=None) if isinstance(plain, WheelMark) else plain
-        sort = RingedPoint if any(isinstance(mark, BarMark) for mark in shown) else PointMark
+        sort = LargePoint if any(isinstance(mark, BarMark) for mark in shown) else PointMark
         yield sort(column_of(of.centre))
     elif isinstance(of, Pulley):
         yield WheelMark(column_of(of.at), of.radius)

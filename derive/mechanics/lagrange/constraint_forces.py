@@ -36,7 +36,7 @@ from derive.mechanics.kinematics.coordinates import Coordinate, OfCoordinate, by
 from derive.mechanics.lagrange import claims
 from derive.mechanics.lagrange.applied_forces import ForcedMotion
 from derive.mechanics.lagrange.facts import ForceOf, FromLagrangian
-from derive.mechanics.lagrange.fixed_coordinates import fixed_together, rates_at_rest
+from derive.mechanics.lagrange.fixed_coordinates import fixed_together, is_fixed_by, rates_at_rest
 from derive.mechanics.model.constraint import Constrained, Constraint
 from derive.mechanics.model.dalembert import Matter
 from derive.mechanics.model.description import description_behind
@@ -258,7 +258,7 @@ def _together(constraints: Sequence[Constraint], moving: Sequence[Symbol]) -> di
         i: each.residual for i, each in enumerate(constraints) if not each.in_rates and _fixed(each, moving) is None
     }
     values = fixed_together(list(residuals.values()), moving)
-    kept = [i for i, f in residuals.items() if not f.free_symbols.isdisjoint(values) and is_zero(f.xreplace(values))]
+    kept = [i for i, f in residuals.items() if is_fixed_by(f, values)]
     return {i: Relation(q, "=", value) for i, (q, value) in zip(kept, values.items(), strict=True)}
 
 
