@@ -36,7 +36,7 @@ from derive.mechanics.kinematics.coordinates import Coordinate, OfCoordinate, by
 from derive.mechanics.lagrange import claims
 from derive.mechanics.lagrange.applied_forces import ForcedMotion
 from derive.mechanics.lagrange.facts import ForceOf, FromLagrangian
-from derive.mechanics.lagrange.fixed_coordinates import fixed_together, is_fixed_by, rates_at_rest
+from derive.mechanics.lagrange.fixed_coordinates import KeptPositions, fixed_together, is_fixed_by, rates_at_rest
 from derive.mechanics.model.constraint import Constrained, Constraint
 from derive.mechanics.model.dalembert import Matter
 from derive.mechanics.model.description import description_behind
@@ -262,15 +262,17 @@ def _together(constraints: Sequence[Constraint], moving: Sequence[Symbol]) -> di
     return {i: Relation(q, "=", value) for i, (q, value) in zip(kept, values.items(), strict=True)}
 
 
-def positions_kept(motion: Quantity) -> dict[Symbol, Expr]:
-    """Return coordinate -> its constant value, for the coordinates that several constraints together keep constant.
+def positions_kept(motion: Quantity) -> KeptPositions:
+    """Return the coordinates that several constraints together keep constant.
 
     motion   one of the equations of motion
     """
     of = _lagrangian_of("positions_kept", motion)
     kept = of.fact(Constrained)
-    together = _together(kept.constraints, list(of.coordinates)) if kept else {}
-    return {told.left: told.right for told in together.values()}
+    constraints = kept.constraints if kept else ()
+    together = _together(constraints, list(of.coordinates))
+    values = {told.left: told.right for told in together.values()}
+    return KeptPositions(values, tuple(constraints[i].residual for i in together))
 
 
 def _fixed(of: Constraint, moving: Sequence[Symbol]) -> Relation | None:

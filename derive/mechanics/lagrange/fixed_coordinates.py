@@ -7,6 +7,7 @@ two. Two strings keep a particle at one place of a plane. Static friction in two
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from itertools import chain, combinations
 
 from sympy import Add, Expr, Integer, Matrix, Poly, Pow, Rational, S, Symbol, cos, linsolve, sin, sqrt
@@ -20,6 +21,14 @@ from derive.steps.step import is_zero
 
 ZERO = Integer(0)
 MOST = 4  # greatest number of constraints that are compared in pairs
+
+
+@dataclass(frozen=True)
+class KeptPositions:
+    """The constant values of coordinates, and f of each constraint f = 0 of those that together keep these values."""
+
+    values: dict[Symbol, Expr]
+    residuals: tuple[Expr, ...]
 
 
 def fixed_together(residuals: Sequence[Expr], moving: Sequence[Symbol]) -> dict[Symbol, Expr]:
@@ -93,8 +102,8 @@ def _combined(residuals: Sequence[Expr]) -> Iterator[Expr]:
 
 
 def _eliminated(residuals: Sequence[Expr], moving: Sequence[Symbol]) -> list[Expr]:
-    """Return the constraints that are left, without a root of a sum, if each constraint q = f(other coordinates) is used
-    to eliminate q."""
+    """Use each constraint q = f(other coordinates) to eliminate q, and return the other constraints, without a root of
+    a sum."""
     left = [*residuals]
     while solved := next(((f, q) for f in left for q in moving if derivative(f, q) in (1, -1)), None):
         f, q = solved
