@@ -799,12 +799,21 @@ def _solved(problem: _Problem) -> dict[Symbol, Expr]:
     if _has_no_inverse(whole[:, :count], names):
         raise _undetermined(problem, matrix)
     try:
-        solved = whole[:, :count].lu_solve(whole[:, count:]).to_Matrix()
+        solved = _solved_at_once(whole).to_Matrix()
     except DMError:
         raise _undetermined(problem, matrix) from None
     _check_short(solved, names)
     back = {dummy: f for f, dummy in names.items()}
     return {u: by_squares(value.xreplace(back)) for u, value in zip(unknowns, solved, strict=True)}
+
+
+def _solved_at_once(whole: DomainMatrix) -> DomainMatrix:
+    """Return the solution of linear equations, whose right sides are the last column. Fractions are cancelled only at
+    the end, because their cancellation takes most of the time."""
+    _, rows = whole.clear_denoms_rowwise(convert=True)
+    count = whole.shape[0]
+    solved, denominator = rows[:, :count].solve_den(rows[:, count:], method="charpoly")
+    return solved.convert_to(whole.domain) / whole.domain.convert_from(denominator, solved.domain)
 
 
 def _check_short(solved: Matrix, names: Mapping[Expr, Dummy]) -> None:
