@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from sympy import Expr, Integer, cos, pi, sin, symbols
+from sympy import Expr, Integer, Rational, Symbol, cos, pi, sin, symbols
 
 from derive.algebra.equality import equal
 from derive.algebra.expressions import TIME, Relation
@@ -94,6 +94,25 @@ statement: A shelf is held by a string.
 parts:
   - {ask: Find the forces., answer: equilibria}
 """
+STEP = """\
+title: A wheel at a step
+solve: system
+symbols: {m: mass, R: length, h: length, g: acceleration, F: positive force}
+given:
+  coordinates: {x: positive length, y: length}
+  bodies: {wheel: {shape: disc, radius: R, mass: m, centre: [-x, y], turned: 0}}
+  surfaces: {floor: {through: [0, 0], along: [1, 0]}}
+  contacts:
+    - {of: wheel, on: floor, normal: N}
+    - {of: [0, h], on: wheel, normal: K}
+  forces: {at: wheel, components: [F, 0]}
+  assume: [h < R]
+  gravity: g
+  results: {least: {where: rest_N, is: <=, for: F}}
+statement: A force F at its centre pulls a wheel against a step.
+parts:
+  - {ask: Find the forces that lift the wheel., answer: least}
+"""
 m, g, l, a, b, h, mu, Omega = symbols("m g l a b h mu Omega", positive=True)
 x, y = symbols("x y", real=True)
 
@@ -138,6 +157,13 @@ def test_a_shelf_rests_where_its_hinge_and_its_string_together_hold_it(tmp_path:
     beta = next(s for s in steps["rest_S"].value.free_symbols if s.name == "beta")
     assert equal(steps["rest_S"].value, m * g / (2 * sin(beta))) and equal(steps["rest_R_y"].value, m * g / 2)
     assert [steps[f"still_{q}"].step.words for q in ("x", "y", "theta")] == [(("fixed", "together"),), (), ()]
+
+
+def test_a_wheel_leaves_the_floor_at_a_step(tmp_path: Path) -> None:
+    """The torques about the edge of the step: F (R - h) = m g sqrt(R^2 - (R - h)^2)."""
+    R = Symbol("R", positive=True)
+    least = solved(tmp_path, STEP)["least"].value
+    assert least.operator == ">=" and equal(least.right.subs({R: 5, h: 2}), m * g * Rational(4, 3))
 
 
 def test_the_reason_for_a_position_must_fix_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -263,16 +263,18 @@ def _together(constraints: Sequence[Constraint], moving: Sequence[Symbol]) -> di
 
 
 def positions_kept(motion: Quantity) -> KeptPositions:
-    """Return the coordinates that several constraints together keep constant.
+    """Return the coordinates that several constraints together keep constant, also if some constraints alone do so.
 
     motion   one of the equations of motion
     """
     of = _lagrangian_of("positions_kept", motion)
     kept = of.fact(Constrained)
-    constraints = kept.constraints if kept else ()
-    together = _together(constraints, list(of.coordinates))
-    values = {told.left: told.right for told in together.values()}
-    return KeptPositions(values, tuple(constraints[i].residual for i in together))
+    constraints, moving = kept.constraints if kept else (), list(of.coordinates)
+    residuals = [each.residual for each in constraints if not each.in_rates]
+    values = fixed_together(residuals, moving) or {
+        told.left: told.right for told in _together(constraints, moving).values()
+    }
+    return KeptPositions(values, tuple(f for f in residuals if is_fixed_by(f, values)))
 
 
 def _fixed(of: Constraint, moving: Sequence[Symbol]) -> Relation | None:
