@@ -53,7 +53,7 @@ LONG = Rational(4, 5)  # approximate length of the arrow of the greatest force o
 BODY, BODY_IN_SPACE = 32.0, 20.0
 LEAST = Rational(1, 4)  # length of the shortest arrow, relative to the longest arrow
 # All arrows are enlarged until the shortest arrow at a particle has the length VISIBLE, in units of FORCE points, but
-# at most by the factor LONGER.
+# at most by the factor LONGER. Then each shorter arrow gets this length, so that no other arrow is too long.
 VISIBLE, LONGER = Rational(5, 12), Rational(5, 4)
 ON_A_LINE = Rational(3, 5)  # least factor for all arrows if each drawing shows a particle with forces on one line
 OFF = Rational(1, 30)  # distance between a rod and the arrow of a force along it, relative to the length of the rod
@@ -218,7 +218,7 @@ def draw_alone(system: System, bodies: Sequence[BodyAlone]) -> list[Drawing]:
     least = min((share for own in on_particles for share in own), default=1)
     at_least = ON_A_LINE if all(_is_on_a_line(each) for each in bodies) else Integer(1)
     longer = min(max(VISIBLE / least, at_least), LONGER) if scene.in_a_plane else Integer(1)
-    least = Integer(0)
+    least = VISIBLE if scene.in_a_plane else Integer(0)
     if any(_stands(scene, each) for each in bodies):
         longer, least = SHORT, SHORTEST
     return [
