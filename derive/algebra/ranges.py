@@ -160,13 +160,25 @@ def _fits(letter: Any, number: Expr) -> bool:
 
 
 def without_abs(value: Any) -> Any:
-    """Remove each absolute value if the ranges of symbols or the assumed relations determine the sign of its
-    argument."""
+    """Remove each absolute value if the ranges of symbols or the assumed relations determine the sign of its argument,
+    and write (sin(a)^3)^(2/3) as sin(a)^2 where sin(a) > 0."""
     known = _KNOWN.get()
     if not hasattr(value, "atoms") or not (value.free_symbols & known.keys() or known_order().touches(value)):
         return value
     sizes = {size: sign * size.args[0] for size in value.atoms(Abs) if (sign := sign_within(size.args[0]))}
-    return value.xreplace(sizes) if sizes else value
+    roots = [p for p in value.atoms(Pow) if p.exp.is_Rational and not p.exp.is_Integer]
+    powers = {root: whole for root in roots if (whole := _with_whole_powers_out(root)) != root}
+    return value.xreplace({**sizes, **powers}) if sizes or powers else value
+
+
+def _with_whole_powers_out(root: Pow) -> Expr:
+    outside = [
+        power
+        for power in Mul.make_args(root.base)
+        if power.is_Pow and (power.exp * root.exp).is_Integer and sign_within(power.base) == 1
+    ]
+    inside = Mul(*(factor for factor in Mul.make_args(root.base) if factor not in outside))
+    return Mul(Pow(inside, root.exp), *(Pow(power.base, power.exp * root.exp) for power in outside))
 
 
 def with_positive_factors_out(value: Expr) -> Expr:

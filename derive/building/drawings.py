@@ -8,9 +8,9 @@ from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from sympy import Symbol
+from sympy import Float, Symbol
 
-from derive.algebra.expressions import explicit
+from derive.algebra.expressions import Relation, explicit
 from derive.building.cache import Cache, digest, engine_digest
 from derive.building.own_figures import own_files
 from derive.course.placement import STATEMENT, Placement
@@ -26,6 +26,7 @@ from derive.render.drawing.camera import Numbers, stand_ins, with_coordinates
 from derive.render.notation.notation import Notation
 from derive.render.printing.text_page import inline_text
 from derive.render.rendered import Files
+from derive.steps.signs import SIGNS_OF
 
 if TYPE_CHECKING:
     from derive.render.drawing.lettering import Lettered
@@ -40,6 +41,7 @@ WIDE, LOW = 7.0, 0.4  # the width of a low drawing: at the width WIDTH, its heig
 # the position of a label is more than CROWDED, or if there are at least MANY labels and more than DENSE per square
 # centimetre. The larger drawing is kept unless its greatest cost is more than that of the smaller drawing plus SLIGHT.
 CROWDED, MANY, DENSE, SLIGHT = 5.5, 7, 0.45, 3.0
+EXACT = 1e-9  # a number below this counts as zero
 # the widths for the drawing of a normal mode of at most FEW masses; the second is for low drawings
 OF_MODES, FEW = (3.6, 4.7), 4
 
@@ -169,6 +171,28 @@ def _letters(cache: Cache, font: str, texts: Collection[str]) -> Mapping[str, Le
     return known
 
 
+def _as_assumed(problem: Problem, found: dict[Symbol, float], given: Collection[Symbol]) -> dict[Symbol, float]:
+    """Return the numbers, with some substitutes changed so that the numbers satisfy the assumed relations."""
+    relations = [each.relation for each in problem.assumed]
+    if all(_holds(each, found) for each in relations):
+        return found
+
+    def fits(letter: Any, number: Any) -> bool:
+        known = problem.ranges.get(letter)
+        return bool(known.holds(number) if known else number.is_positive or not letter.is_positive)
+
+    numbers = {letter: Float(number) for letter, number in found.items()}
+    changed = {letter: float(number) for letter, number in problem.order.at(numbers, fits).items()}
+    return changed | {letter: number for letter, number in found.items() if letter in given}
+
+
+def _holds(relation: Relation, numbers: Mapping[Symbol, float]) -> bool:
+    value = explicit(relation.residual).subs(numbers).evalf()
+    if not value.is_Float and not value.is_zero:
+        return True  # the relation contains a coordinate
+    return (0 if abs(value) < EXACT else 1 if value > 0 else -1) in SIGNS_OF[relation.operator]
+
+
 def numbers_of(problem: Problem, placement: Placement | None, drawing: Recorded | None = None) -> dict[Symbol, float]:
     """Return a number for each symbol of a problem and of a drawing: a number of the drawing, a given value, or a
     substitute."""
@@ -180,7 +204,7 @@ def numbers_of(problem: Problem, placement: Placement | None, drawing: Recorded 
     fixed = {letter: expr for letter, expr in said.items() if not expr.free_symbols}
     own = {letter: explicit(amount) for letter, amount in problem.amounts.items() if letter not in said}
     letters = [(declared.symbol, declared.kind) for declared in problem.symbols.values()]
-    found = stand_ins(letters, {**own, **fixed})
+    found = _as_assumed(problem, stand_ins(letters, {**own, **fixed}), {*own, *fixed})
     if isinstance(drawing, Drawing):
         free = {letter for letter, _ in (*drawing.coordinates, *drawing.values)} - {*own, *fixed}
         sizes = [found[letter] for letter, kind in letters if kind == "length" and letter not in free]

@@ -39,7 +39,7 @@ APPLIED = 26.0  # length of the arrow of a given force in the drawing of a syste
 ASIDE = 12.0  # distance between a body and its dimension line, in points
 SHORT = 3  # the components of a point are described only if they contain at most this many operations
 RING = 0.16  # radius of a rotation arrow round an axis, relative to the size of the body
-RINGED = 2.8  # radius of the blank ring around a point on a rod, in points
+DOT = 2.6  # radius of a point that is wider than a rod, in points
 HOLLOW = 2.3  # radius of the circle for a point on a body, in points
 NEAR_TIP = 0.72  # the place of a label beside the shaft of an arrow, in units of the length of the arrow
 EYE = 3.4  # radius of the circle for an axis along the line of sight, in points
@@ -578,9 +578,11 @@ def _round(u: Vector, v: Vector, degree: float) -> Vector:
 class PointMark(_Single):
     """A point."""
 
+    size: ClassVar[float] = 1.6  # radius in points
+
     def pieces(self, paper: Paper) -> list[Piece]:
         spot = paper.spot(paper.numbers.vector(self.at))
-        return [Bullet(spot), Tag(self.label, spot, (0.7, 0.7), 4.0)]
+        return [Bullet(spot, self.size), Tag(self.label, spot, (0.7, 0.7), 4.0)]
 
     def in_words(self) -> InWords | None:
         """Return the description of a point, with its components unless they are long or all zero; None for a point
@@ -591,12 +593,10 @@ class PointMark(_Single):
 
 
 @dataclass(frozen=True)
-class RingedPoint(PointMark):
-    """A point with a blank ring, so that the point is visible on a rod too."""
+class LargePoint(PointMark):
+    """A point as a dot that is wider than a rod."""
 
-    def pieces(self, paper: Paper) -> list[Piece]:
-        spot = paper.spot(paper.numbers.vector(self.at))
-        return [Bullet(spot, RINGED, "blank"), *super().pieces(paper)]
+    size: ClassVar[float] = DOT
 
 
 @dataclass(frozen=True)
@@ -609,7 +609,7 @@ class HollowPoint(PointMark):
 
 
 @dataclass(frozen=True)
-class CentreMark(RingedPoint):
+class CentreMark(LargePoint):
     """A centre of mass that the problem asks for, so its position is drawn but not described."""
 
     def in_words(self) -> InWords | None:

@@ -58,6 +58,7 @@ from derive.figures.tops import euler_angles
 from derive.figures.turning import angle_marks, downwards, line_between, moving_end, on_the_axis
 from derive.mechanics.bodies.placed import PlacedBody
 from derive.mechanics.kinematics.places import Axes, Location
+from derive.mechanics.lagrange.fixed_coordinates import fixed_together
 from derive.mechanics.model.connection import Connection
 from derive.mechanics.model.constraint import Constraint
 from derive.mechanics.model.contacts import Contact, LandingSurface
@@ -134,6 +135,8 @@ class Connections:
         for each in self.contacts:
             if self.in_a_plane and isinstance(each.surface, Circle) and not each.is_kept:
                 found |= self._on_circle(each)
+        residuals = [each.residual for each in self.system.constraints if not each.in_rates]
+        found |= fixed_together(residuals, [*self.system.coordinates])
         for constraint in self.system.constraints:
             if not constraint.in_rates and (constraint.forces or not constraint.enforcer):
                 found |= self._solved(constraint, found)
@@ -375,8 +378,9 @@ class Connections:
         return max(arms, key=numeric, default=ONE)
 
     def _carries(self, of: Any) -> bool:
-        """Whether `of` carries a surface of a contact, as a wedge or a plank does."""
-        return of is not None and any(each.surface.of == of for each in self.contacts)
+        """Whether `of` carries a surface of a contact, as a wedge or a plank does, and not only its own round rim."""
+        carried = [each.surface for each in self.contacts if each.surface.of == of]
+        return of is not None and any(not (isinstance(each, Circle) and isinstance(of, PlacedBody)) for each in carried)
 
     def _plane(self, plane: Plane, low: Location, high: Location, contacts: Sequence[Contact]) -> Iterable[Mark]:
         if plane.is_two_sided:
@@ -484,12 +488,18 @@ class Connections:
         return plane.through + low * along, plane.through + high * along
 
     def _corner(self, touch: Contact) -> Iterable[Mark]:
-        """Yield the top and the side of a table with its edge at a fixed corner, below the higher part of the body."""
-        x, y = (self.number(c) for c in touch.tangent.components)
-        level = Location((ONE if x * y > 0 else -ONE, ZERO))
+        """Yield the top and the side of a table or a step with its edge at a fixed corner, below the higher part of the
+        body. The side of a step ends at the floor."""
+        slope = explicit(touch.tangent.components[0] * touch.tangent.components[1]).subs(self.values)
+        sign = sign_known(slope)
+        level = Location((ONE if (self.number(slope) if sign is None else sign) > 0 else -ONE, ZERO))
         down = Location((ZERO, -ONE))
-        for along, inwards in ((level, down), (down, level)):
-            end = touch.at + self.size * Rational(4, 5) * along
+        heights = [
+            tidied(touch.at.components[1] - each.through.components[1]) for each in self._planes if each.of is None
+        ]
+        side = next((each for each in heights if sign_known(each) == 1), self.size * Rational(4, 5))
+        for along, inwards, far in ((level, down, self.size * Rational(4, 5)), (down, level, side)):
+            end = touch.at + far * along
             yield GroundMark(column_of(touch.at), column_of(end), column_of(inwards))
 
     @property

@@ -19,7 +19,7 @@ from derive.algebra.derivatives import derivative
 from derive.algebra.expressions import as_expr, explicit, rate, scalar
 from derive.algebra.ranges import fulfilling, rational_in_range
 from derive.algebra.tidy import tidied
-from derive.figures.annotations import FORCE, ForceArrow, PointMark, PositiveDirection, PositiveRotation, RingedPoint
+from derive.figures.annotations import FORCE, ForceArrow, LargePoint, PointMark, PositiveDirection, PositiveRotation
 from derive.figures.connections import Connections, connections_of, distance_of
 from derive.figures.links import Link, angle_of_link, is_fixed, same
 from derive.figures.marks import Drawing, Mark
@@ -52,9 +52,9 @@ LONG = Rational(4, 5)  # approximate length of the arrow of the greatest force o
 # The drawn size of a body that is not a rod, in a plane and in space, in points.
 BODY, BODY_IN_SPACE = 32.0, 20.0
 LEAST = Rational(1, 4)  # length of the shortest arrow, relative to the longest arrow
-# All arrows are enlarged until the shortest arrow at a particle has the length VISIBLE, in units of FORCE points, but
-# at most by the factor LONGER.
-VISIBLE, LONGER = Rational(1, 2), Integer(2)
+# In a plane, all arrows are enlarged until the shortest arrow has the length VISIBLE, in units of FORCE points, but at
+# most by the factor LONGER. An arrow of the length LEAST then has the length VISIBLE.
+VISIBLE, LONGER = Rational(3, 8), Rational(3, 2)
 ON_A_LINE = Rational(3, 5)  # least factor for all arrows if each drawing shows a particle with forces on one line
 OFF = Rational(1, 30)  # distance between a rod and the arrow of a force along it, relative to the length of the rod
 APART = 5.0  # the distance between the arrows of two forces on the same line, in points
@@ -213,9 +213,7 @@ def draw_alone(system: System, bodies: Sequence[BodyAlone]) -> list[Drawing]:
     the same scale of forces, except that small forces are drawn larger."""
     scene = Connections(system)
     shares = [[_share(size) for size in own] for own in _sizes([each.forces for each in bodies], scene)]
-    # All forces are drawn longer if a force on a particle is so small that the particle would cover its arrow.
-    on_particles = [own for each, own in zip(bodies, shares, strict=True) if not isinstance(each.of, PlacedBody)]
-    least = min((share for own in on_particles for share in own), default=1)
+    least = min((share for own in shares for share in own), default=1)
     at_least = ON_A_LINE if all(_is_on_a_line(each) for each in bodies) else Integer(1)
     longer = min(max(VISIBLE / least, at_least), LONGER) if scene.in_a_plane else Integer(1)
     least = Integer(0)
@@ -545,7 +543,7 @@ def _outline(of: Any, is_pulley: bool = False) -> Iterator[Mark]:
         for mark in shown:
             plain = replace(mark, label=None)
             yield replace(plain, pointer=None) if isinstance(plain, WheelMark) else plain
-        sort = RingedPoint if any(isinstance(mark, BarMark) for mark in shown) else PointMark
+        sort = LargePoint if any(isinstance(mark, BarMark) for mark in shown) else PointMark
         yield sort(column_of(of.centre))
     elif isinstance(of, Pulley):
         yield WheelMark(column_of(of.at), of.radius)

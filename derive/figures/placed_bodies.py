@@ -12,7 +12,7 @@ from sympy import Add, Expr, ImmutableDenseMatrix, Integer, Rational, cos, diff,
 from derive.algebra.expressions import TIME, column
 from derive.algebra.normal_form import vanishes
 from derive.algebra.tidy import tidied
-from derive.figures.annotations import Line, PointMark, RingedPoint, Support
+from derive.figures.annotations import LargePoint, Line, PointMark, Support
 from derive.figures.bodies import EDGE, ORIGIN, Pose, X, Y, Z, in_space, round_outline, widest_of, words_of
 from derive.figures.links import Link, is_fixed, links_about_fixed, moving_in, same
 from derive.figures.marks import Mark, Position, Surface
@@ -80,7 +80,7 @@ def placed_marks(system: System, placed: Any) -> Iterable[Mark]:
     square = tidied(Add(*(c**2 for c in (centre - placed.at).components)))
     if outline or square == 0:
         named = not in_space and any(isinstance(mark, ThickBar) for mark in outline)
-        sort = RingedPoint if any(isinstance(mark, ThickBar | ThinRod) for mark in outline) else PointMark
+        sort = LargePoint if any(isinstance(mark, ThickBar | ThinRod) for mark in outline) else PointMark
         yield sort(column_of(centre), label=placed.body.mass if named and placed.body.mass.is_Symbol else None)
     else:
         yield from _axis_to(centre, placed)

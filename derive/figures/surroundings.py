@@ -23,6 +23,7 @@ SLIDER, RAIL = (16.0, 9.0), 22.0  # width and height of a slider, and half the l
 # Half the length of the double arrow at a moving support, and distance of this arrow from the rail.
 MOVES, BESIDE_RAIL = 14.0, 12.0
 ARC = (11.0, 30.0)  # least and greatest radius of an arc, unless its angle is small
+SMALLEST = 0.02  # smallest angle that is drawn, in radians
 FREE = 16.0  # distance between all other marks and the arrow of gravity or of a field
 ARROW = 24.0  # length of the arrow of gravity or of a field
 ROOM = 26.0  # distance from the centre of a body on a floor to the end of the floor
@@ -344,7 +345,7 @@ class AngleBetween(Mark):
     def pieces(self, paper: Paper) -> list[Piece]:
         vertex, a, b = (paper.numbers.vector(each) for each in (self.vertex, self.a, self.b))
         size, far = angle_of(a, b), size_of(b) * paper.scale
-        if not size_of(a) or not size_of(b) or size > pi - 1e-6:
+        if not size_of(a) or not size_of(b) or not SMALLEST < size < pi - 1e-6:
             return []
         reach = far if self.dashed else min(far, size_of(a) * paper.scale)
         # The arc of a small angle has a larger radius, so that the arc is visible.
@@ -358,8 +359,6 @@ class AngleBetween(Mark):
         if self.dashed:
             end = plus(vertex, along, max(points + 7.0, min(0.65 * far, 62.0)) / paper.scale)
             pieces.append(Stroke(paper.spots(vertex, end), "trace"))
-        if size < 0.02:
-            return pieces
         spots = paper.spots(*places)
         onwards = plus(plus(NOUGHT, along, -sin(size)), across, cos(size))
         grows = 0.0 if self.growing is None else dot(paper.numbers.vector(self.growing), onwards)

@@ -20,6 +20,7 @@ from derive.steps.signs import sign_for_all
 ZERO = Integer(0)
 MOST = 5  # greatest number of equations that are solved together
 LONGEST_IN_WORDS = 8  # greatest length of the value of an unknown in a sentence
+LONGEST_DETERMINANT = 1500  # greatest length of a determinant, not simplified, whose sign is examined
 LONGEST = 20  # greatest length of the value of an unknown that is written in terms of earlier unknowns
 
 
@@ -136,6 +137,7 @@ def _are_coupled(slopes: Sequence[dict[Symbol, Expr]], several: Sequence[int], n
 
 
 def _is_regular(slopes: Sequence[dict[Symbol, Expr]], several: Sequence[int], new: Sequence[Symbol]) -> bool:
-    """Whether the determinant of the equations is known not to vanish."""
+    """Whether the determinant of the equations is known not to vanish. A long determinant is not examined."""
     matrix = ImmutableDenseMatrix([[slopes[i].get(u, ZERO) for u in new] for i in several])
-    return sign_for_all(tidied(matrix.det(method="berkowitz"))) in (1, -1)
+    det = matrix.det(method="berkowitz")
+    return length(det) <= LONGEST_DETERMINANT and sign_for_all(tidied(det)) in (1, -1)

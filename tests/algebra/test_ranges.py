@@ -100,6 +100,14 @@ def test_an_absolute_value_goes_where_its_sign_is_settled() -> None:
     assert tidied(sqrt(1 - cos(alpha) ** 2)) == sin(alpha)
 
 
+def test_a_root_of_a_power_of_a_positive_quantity_is_a_power() -> None:
+    third = Rational(1, 3)
+    assert without_abs((sin(alpha) ** 3) ** (2 * third) + (sin(beta) ** 3) ** third) == (
+        sin(alpha) ** 2 + (sin(beta) ** 3) ** third
+    )
+    assert without_abs((sin(alpha) ** 3 * cos(beta)) ** -third) == cos(beta) ** -third / sin(alpha)
+
+
 def test_what_is_equal_in_the_range_is_equal() -> None:
     assert equal(sqrt(sin(alpha) ** 2), sin(alpha))
     assert not equal(sqrt(sin(beta) ** 2), sin(beta))

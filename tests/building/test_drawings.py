@@ -67,14 +67,14 @@ def numbers(problem: Any, *values: tuple[Any, Any]) -> dict[str, float]:
 
 def test_a_letter_has_its_own_number_or_a_stand_in_of_its_kind() -> None:
     declared = letters(a="length", b="length", m="mass")
-    known = SimpleNamespace(symbols=declared, amounts={declared["m"].symbol: 7})
+    known = SimpleNamespace(symbols=declared, assumed=(), amounts={declared["m"].symbol: 7})
     assert numbers(known) == {"a": 1.0, "b": 1.5, "m": 7.0}
 
 
 def test_what_a_drawing_says_of_its_letters_goes_before() -> None:
     declared = letters(a="length", b="length", c="length")
     a, b, c = (each.symbol for each in declared.values())
-    known = SimpleNamespace(symbols=declared, amounts={a: 7, b: 2})
+    known = SimpleNamespace(symbols=declared, assumed=(), amounts={a: 7, b: 2})
     assert numbers(known, (a, a - a + 4)) == {"a": 4.0, "b": 2.0, "c": 3.0}
     assert numbers(known, (c, 2 * b + a)) == {"a": 7.0, "b": 2.0, "c": 11.0}
 

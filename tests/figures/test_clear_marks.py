@@ -8,12 +8,13 @@ import pytest
 from sympy import Symbol
 
 from derive.algebra.expressions import column
-from derive.figures.annotations import Cone, PositiveRotation, RingedPoint, Support, letter_of_angle
+from derive.figures.annotations import Cone, LargePoint, PositiveRotation, Support, letter_of_angle
 from derive.figures.marks import Mark
 from derive.figures.pieces import Bullet, Paper, Patch, Stroke
 from derive.figures.space import Spot, Vector
 from derive.figures.surroundings import OriginMark
 from derive.render.drawing.camera import FLAT, Numbers, stance_from
+from derive.render.drawing.canvas import PENS
 from derive.render.drawing.hidden_lines import OnPaper
 from derive.render.drawing.labels import placed
 
@@ -72,13 +73,12 @@ def test_a_support_that_a_body_could_strike_is_broken(far: float, is_broken: boo
     assert any(isinstance(piece, Patch) for piece in pieces) is is_broken
 
 
-def test_an_origin_is_on_the_line_and_a_point_of_a_rod_has_a_blank_ring() -> None:
+def test_an_origin_is_on_the_line_and_a_point_of_a_rod_is_a_dot_on_the_uncut_rod() -> None:
     (mark,) = lines(OriginMark(column(2, 0, 0), 5.0), paper())
     (x, low), (u, high) = mark.spots
     assert (x, u, low + high) == (2.0, 2.0, -10.0)
-    ring, point, *_ = RingedPoint(column(0, 0, 0)).pieces(paper())
-    assert isinstance(ring, Bullet) and isinstance(point, Bullet)
-    assert ring.fill == "blank" and ring.size > point.size
+    (dot,) = (piece for piece in LargePoint(column(0, 0, 0)).pieces(paper()) if isinstance(piece, Bullet))
+    assert dot.fill == "line" and 2 * dot.size > PENS["rod"].width
 
 
 @pytest.mark.parametrize("counterclockwise", [True, False])

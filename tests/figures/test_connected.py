@@ -10,6 +10,7 @@ import pytest
 import sympy
 from sympy import symbols as symbols_of
 
+from derive.building.drawings import numbers_of
 from derive.building.solution import rendered
 from derive.course.problem import run_solve
 from derive.figures.annotations import AppliedForce, Arrow, LengthMark, Line, PointMark
@@ -43,6 +44,7 @@ from derive.steps.record import Run
 from tests.courses import library_drawings
 from tests.mechanics.test_connections import ON_ITS_SIDE, ROPE
 from tests.stock.described import course_with, edited, loaded
+from tests.stock.test_fixed_coordinates import STEP
 
 BALL = """\
 title: A ball that rolls down an incline
@@ -442,6 +444,18 @@ def test_a_dashpot_beside_a_spring_is_above_it_and_below_the_dimension_lines(end
 def test_a_horizontal_displacement_on_a_slope_is_above_the_body(tmp_path: Path) -> None:
     across = next(mark for mark in of_class(drawings(tmp_path, BALL)["system"], LengthMark) if str(mark.label) == "x")
     assert list(across.aside) == [0, 1]
+
+
+def test_a_step_is_drawn_on_the_floor_in_front_of_a_wheel(tmp_path: Path) -> None:
+    """The wheel is to the left of its edge. The numbers of the drawing satisfy h < R."""
+    problem, run = loaded(tmp_path, STEP), Run()
+    run_solve(problem, run)
+    (drawn,) = (each for each in run.drawings if isinstance(each, Drawing) and each.key == "system")
+    numbers = Numbers(numbers_of(problem, None, drawn))
+    grounds = [tuple(numbers.vector(end)[:2] for end in (mark.start, mark.end)) for mark in of_class(drawn, GroundMark)]
+    R, h = (numbers.of(symbols_of(name, positive=True)) for name in ["R", "h"])
+    assert h < R and ((0, h), (pytest.approx(0.8 * R), h)) in grounds and ((0, h), (0, 0)) in grounds
+    assert any(start[1] == end[1] == 0 for start, end in grounds)
 
 
 def library(name: str) -> str:

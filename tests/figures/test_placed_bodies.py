@@ -12,7 +12,7 @@ from sympy import cos as cosine
 from sympy import sin as sine
 
 from derive.figures import drawing, sketch
-from derive.figures.annotations import RingedPoint
+from derive.figures.annotations import LargePoint
 from derive.figures.marks import Mark
 from derive.figures.parts import ConnectionMark, WheelMark
 from derive.figures.placed_bodies import SilhouetteMark, ThickBar, placed_marks, placed_outline
@@ -134,7 +134,7 @@ def test_a_physical_pendulum_hangs_on_a_pivot_at_its_angle() -> None:
         marks = list(placed_marks(system, Placed(rod, end, point(0, 0), angle.symbol, 0)))
         found = drawing("one", *marks)
     kinds: list[type[Mark]] = [type(mark) for mark in marks]
-    assert kinds == [ThickBar, RingedPoint, FixedEnd, AngleBetween]
+    assert kinds == [ThickBar, LargePoint, FixedEnd, AngleBetween]
     turned = marks[-1]
     assert isinstance(turned, AngleBetween)
     assert turned.label == angle.symbol

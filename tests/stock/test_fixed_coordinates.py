@@ -5,11 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from sympy import Expr, Integer, cos, pi, sin, symbols
+from sympy import Expr, Integer, Rational, Symbol, cos, pi, sin, symbols
 
 from derive.algebra.equality import equal
 from derive.algebra.expressions import TIME, Relation
 from derive.mechanics.lagrange import constraint_forces
+from derive.mechanics.lagrange.fixed_coordinates import KeptPositions
+from derive.stock.answering import equilibria_with_forces
 from tests.stock.described import edited, messages, solved
 
 PLANK = """\
@@ -78,6 +80,39 @@ statement: A coin lies on a turntable.
 parts:
   - {ask: Find the friction., answer: F_x}
 """
+SHELF = """\
+title: A shelf on a hinge and a string
+solve: system
+symbols: {m: mass, l: length, g: acceleration, beta: 'angle in (0, pi/2)'}
+given:
+  coordinates: {x: length, y: length, theta: 'angle in (-pi/2, pi/2)'}
+  bodies: {shelf: {shape: rod, length: l, mass: m, centre: [x, y], along: [cos(theta), sin(theta)]}}
+  joints: {of: shelf.end, to: [0, 0], force: R}
+  strings: {from: shelf.far_end, to: [0, l*tan(beta)], length: l/cos(beta), tension: S}
+  gravity: g
+statement: A shelf is held by a string.
+parts:
+  - {ask: Find the forces., answer: equilibria}
+"""
+STEP = """\
+title: A wheel at a step
+solve: system
+symbols: {m: mass, R: length, h: length, g: acceleration, F: positive force}
+given:
+  coordinates: {x: positive length, y: length}
+  bodies: {wheel: {shape: disc, radius: R, mass: m, centre: [-x, y], turned: 0}}
+  surfaces: {floor: {through: [0, 0], along: [1, 0]}}
+  contacts:
+    - {of: wheel, on: floor, normal: N}
+    - {of: [0, h], on: wheel, normal: K}
+  forces: {at: wheel, components: [F, 0]}
+  assume: [h < R]
+  gravity: g
+  results: {least: {where: rest_N, is: <=, for: F}}
+statement: A force F at its centre pulls a wheel against a step.
+parts:
+  - {ask: Find the forces that lift the wheel., answer: least}
+"""
 m, g, l, a, b, h, mu, Omega = symbols("m g l a b h mu Omega", positive=True)
 x, y = symbols("x y", real=True)
 
@@ -114,6 +149,27 @@ def test_static_friction_in_two_directions_keeps_the_rates_zero(tmp_path: Path) 
     steps = solved(tmp_path, COIN)
     wt = Omega * TIME
     assert equal(steps["F_x"].value, -m * Omega**2 * (x * cos(wt) - y * sin(wt)))
+
+
+def test_a_shelf_rests_where_its_hinge_and_its_string_together_hold_it(tmp_path: Path) -> None:
+    """The torques about the hinge: S l sin(beta) = m g l/2. The first equation at rest gives the reason."""
+    steps = solved(tmp_path, SHELF)
+    beta = next(s for s in steps["rest_S"].value.free_symbols if s.name == "beta")
+    assert equal(steps["rest_S"].value, m * g / (2 * sin(beta))) and equal(steps["rest_R_y"].value, m * g / 2)
+    assert [steps[f"still_{q}"].step.words for q in ("x", "y", "theta")] == [(("fixed", "together"),), (), ()]
+
+
+def test_a_wheel_leaves_the_floor_at_a_step(tmp_path: Path) -> None:
+    """The torques about the edge of the step: F (R - h) = m g sqrt(R^2 - (R - h)^2)."""
+    R = Symbol("R", positive=True)
+    least = solved(tmp_path, STEP)["least"].value
+    assert least.operator == ">=" and equal(least.right.subs({R: 5, h: 2}), m * g * Rational(4, 3))
+
+
+def test_the_reason_for_a_position_must_fix_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    wrong = KeptPositions({x: l / 2, y: Integer(0)}, (x - l / 2,))
+    monkeypatch.setattr(equilibria_with_forces, "positions_kept", lambda _: wrong)
+    assert any("could not be confirmed" in said for said in messages(tmp_path, SHELF))
 
 
 @pytest.mark.parametrize(("height", "angle"), [(l, Integer(0)), (Integer(0), pi / 2)])

@@ -10,6 +10,7 @@ from sympy import (
     Dummy,
     Expr,
     Integer,
+    Matrix,
     MatrixBase,
     Mul,
     Poly,
@@ -571,6 +572,20 @@ def goes_where_it_is_said(facts: Judged, outcome: str) -> bool:
 
 
 put_in_zero: Predicate = both(put_in(True), vanishes)
+
+
+def fixed_as_told(facts: Judged, outcome: str) -> bool:
+    """Whether the constraints that are named as the reason hold at the values that they fix, and at no other values
+    close to these, and each substituted value of such a coordinate is the fixed value."""
+    kept = facts.inputs["fixed_by"]
+    if kept is None:
+        return "fixed" not in facts.words
+    told = {v.left: v.right for role, v in facts.inputs.items() if role.rpartition("_")[0] == "value"}
+    constraints = Matrix(kept.residuals)
+    slopes = constraints.jacobian(list(kept.values)).xreplace(kept.values)
+    is_own = any(q in told for q in kept.values) and all(told.get(q, at) == at for q, at in kept.values.items())
+    is_held = all(is_zero(tidied(f.xreplace(kept.values))) for f in constraints)
+    return is_own and is_held and slopes.is_square and not is_zero(slopes.det())
 
 
 def put_in_again(facts: Judged) -> bool:

@@ -32,6 +32,7 @@ from derive.mechanics.hamilton.facts import Constant, SeenWith
 from derive.mechanics.in_results import Values, in_results
 from derive.mechanics.kinematics.coordinates import AtOneMoment, Coordinate, OfCoordinate
 from derive.mechanics.lagrange.facts import FromLagrangian, KeptMomentum, WithMomenta
+from derive.mechanics.lagrange.fixed_coordinates import KeptPositions
 from derive.mechanics.motion.claims import arrives_as_told, comes_there, turned_first
 from derive.mechanics.motion.turning_points import arrivals, common_condition, words_of
 from derive.solving.defined_values import check_defined
@@ -63,7 +64,7 @@ PUT_IN = Rule(
         "turned": turned_first,
     },
     evidence={"at_once": CHECK, "found_before": CHECK},
-    statements=[arrives_as_told],
+    statements=[arrives_as_told, claims.fixed_as_told],
     named={"value": claims.names_put_in, "place": comes_there},
     shown=Shown(names_formula=True),
 )
@@ -75,6 +76,7 @@ def put_in(
     key: str | None = None,
     symbol: str | None = None,
     again: Quantity | None = None,
+    fixed_by: KeptPositions | None = None,
     **values: Any,
 ) -> Quantity:
     """A value or an equation after other results or the values of letters are substituted: f(x) with x = g is f(g).
@@ -84,6 +86,7 @@ def put_in(
              power, sine, cosine or tangent of such a letter; mappings of letters or coordinates to values
     values   values of letters at one instant, by the names of the letters: `theta=0`
     again    an earlier result that this substitution must reproduce
+    fixed_by the constraints that together fix the substituted values of coordinates; the sentence gives this reason
 
     The results are substituted one after another, in the given order; the values follow. If a result gives a coordinate
     as a function of other coordinates or of the time, the rates of this coordinate are substituted too. If the value of
@@ -139,7 +142,7 @@ def put_in(
             key=key or _key_for(of, rests, there),
             kind=of.step.kind,
             phrase_data=PhraseData(
-                words=words_of(come),
+                words=words_of(come) | ({"fixed": "together"} if fixed_by else {}),
                 formulas=conditions_told(reached=common_condition(of, come)),
                 named={
                     **{f"value_{i + 1}": Relation(target, "=", at) for i, (target, at) in enumerate(there)},
@@ -148,6 +151,7 @@ def put_in(
                 outcome_data={
                     "replaced": [letter_of(target) for target, _ in told],
                     "arrivals": come,
+                    "fixed_by": fixed_by,
                     **({"found": again.value} if again is not None else {}),
                 },
                 points_to={"found": again} if again is not None else {},

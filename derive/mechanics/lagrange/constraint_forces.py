@@ -36,7 +36,7 @@ from derive.mechanics.kinematics.coordinates import Coordinate, OfCoordinate, by
 from derive.mechanics.lagrange import claims
 from derive.mechanics.lagrange.applied_forces import ForcedMotion
 from derive.mechanics.lagrange.facts import ForceOf, FromLagrangian
-from derive.mechanics.lagrange.fixed_coordinates import fixed_together, rates_at_rest
+from derive.mechanics.lagrange.fixed_coordinates import KeptPositions, fixed_together, is_fixed_by, rates_at_rest
 from derive.mechanics.model.constraint import Constrained, Constraint
 from derive.mechanics.model.dalembert import Matter
 from derive.mechanics.model.description import description_behind
@@ -258,19 +258,23 @@ def _together(constraints: Sequence[Constraint], moving: Sequence[Symbol]) -> di
         i: each.residual for i, each in enumerate(constraints) if not each.in_rates and _fixed(each, moving) is None
     }
     values = fixed_together(list(residuals.values()), moving)
-    kept = [i for i, f in residuals.items() if not f.free_symbols.isdisjoint(values) and is_zero(f.xreplace(values))]
+    kept = [i for i, f in residuals.items() if is_fixed_by(f, values)]
     return {i: Relation(q, "=", value) for i, (q, value) in zip(kept, values.items(), strict=True)}
 
 
-def positions_kept(motion: Quantity) -> dict[Symbol, Expr]:
-    """Return coordinate -> its constant value, for the coordinates that several constraints together keep constant.
+def positions_kept(motion: Quantity) -> KeptPositions:
+    """Return the coordinates that several constraints together keep constant, also if some constraints alone do so.
 
     motion   one of the equations of motion
     """
     of = _lagrangian_of("positions_kept", motion)
     kept = of.fact(Constrained)
-    together = _together(kept.constraints, list(of.coordinates)) if kept else {}
-    return {told.left: told.right for told in together.values()}
+    constraints, moving = kept.constraints if kept else (), list(of.coordinates)
+    residuals = [each.residual for each in constraints if not each.in_rates]
+    values = fixed_together(residuals, moving) or {
+        told.left: told.right for told in _together(constraints, moving).values()
+    }
+    return KeptPositions(values, tuple(f for f in residuals if is_fixed_by(f, values)))
 
 
 def _fixed(of: Constraint, moving: Sequence[Symbol]) -> Relation | None:
@@ -797,12 +801,21 @@ def _solved(problem: _Problem) -> dict[Symbol, Expr]:
     if _has_no_inverse(whole[:, :count], names):
         raise _undetermined(problem, matrix)
     try:
-        solved = whole[:, :count].lu_solve(whole[:, count:]).to_Matrix()
+        solved = _solved_at_once(whole).to_Matrix()
     except DMError:
         raise _undetermined(problem, matrix) from None
     _check_short(solved, names)
     back = {dummy: f for f, dummy in names.items()}
     return {u: by_squares(value.xreplace(back)) for u, value in zip(unknowns, solved, strict=True)}
+
+
+def _solved_at_once(whole: DomainMatrix) -> DomainMatrix:
+    """Return the solution of linear equations, whose right sides are the last column. Fractions are cancelled only at
+    the end, because their cancellation takes most of the time."""
+    _, rows = whole.clear_denoms_rowwise(convert=True)
+    count = whole.shape[0]
+    solved, denominator = rows[:, :count].solve_den(rows[:, count:], method="charpoly")
+    return solved.convert_to(whole.domain) / whole.domain.convert_from(denominator, solved.domain)
 
 
 def _check_short(solved: Matrix, names: Mapping[Expr, Dummy]) -> None:

@@ -6,8 +6,9 @@ two. Two strings keep a particle at one place of a plane. Static friction in two
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from itertools import combinations
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import chain, combinations
 
 from sympy import Add, Expr, Integer, Matrix, Poly, Pow, Rational, S, Symbol, cos, linsolve, sin, sqrt
 from sympy.polys.polyerrors import PolynomialError
@@ -22,6 +23,14 @@ ZERO = Integer(0)
 MOST = 4  # greatest number of constraints that are compared in pairs
 
 
+@dataclass(frozen=True)
+class KeptPositions:
+    """The constant values of coordinates, and f of each constraint f = 0 of those that together keep these values."""
+
+    values: dict[Symbol, Expr]
+    residuals: tuple[Expr, ...]
+
+
 def fixed_together(residuals: Sequence[Expr], moving: Sequence[Symbol]) -> dict[Symbol, Expr]:
     """Return coordinate -> its constant value, for coordinates that at least two of the constraints fix together.
 
@@ -29,10 +38,10 @@ def fixed_together(residuals: Sequence[Expr], moving: Sequence[Symbol]) -> dict[
     moving      all coordinates
 
     If the constraints hold where as many coordinates as constraints are zero, and are independent there, these
-    coordinates are zero. Otherwise sums and differences of two constraints are examined, because they may contain a
-    single coordinate. If this coordinate has a single admissible value, it is fixed; an angle whose sine vanishes is
-    taken to be zero. The result is then empty unless the values satisfy exactly as many constraints as there are
-    values.
+    coordinates are zero. Otherwise sums and differences of two constraints are examined, and constraints from which
+    coordinates are eliminated, because they may contain a single coordinate. If this coordinate has a single admissible
+    value, it is fixed; an angle whose sine vanishes is taken to be zero. The result is then empty unless the values
+    satisfy exactly as many constraints as there are values.
     """
     if not 1 < len(residuals) <= MOST or any(map(depends_on_time, residuals)):
         return {}
@@ -41,8 +50,13 @@ def fixed_together(residuals: Sequence[Expr], moving: Sequence[Symbol]) -> dict[
     found: dict[Symbol, Expr] = {}
     while (new := _next(residuals, found, moving)) is not None:
         found[new[0]] = new[1]
-    satisfied = [f for f in residuals if is_zero(f.xreplace(found)) and not f.free_symbols.isdisjoint(found)]
+    satisfied = [f for f in residuals if is_fixed_by(f, found)]
     return found if len(satisfied) == len(found) > 1 else {}
+
+
+def is_fixed_by(residual: Expr, values: Mapping[Symbol, Expr]) -> bool:
+    """Return whether a constraint contains some of these coordinates and holds for their values."""
+    return not residual.free_symbols.isdisjoint(values) and is_zero(tidied(residual.xreplace(values)))
 
 
 def _all_zero(residuals: Sequence[Expr], moving: Sequence[Symbol]) -> dict[Symbol, Expr]:
@@ -67,8 +81,11 @@ def rates_at_rest(residuals: Sequence[Expr], moving: Sequence[Symbol]) -> dict[S
     return dict.fromkeys(rates, ZERO) if solved and all(is_zero(value) for value in solved) else {}
 
 
-def _next(residuals: Sequence[Expr], found: dict[Symbol, Expr], moving: Sequence[Symbol]) -> tuple[Symbol, Expr] | None:
-    for f in _combined([each.xreplace(found) for each in residuals]):
+def _next(
+    residuals: Sequence[Expr], found: Mapping[Symbol, Expr], moving: Sequence[Symbol]
+) -> tuple[Symbol, Expr] | None:
+    left = [each.xreplace(found) for each in residuals]
+    for f in chain(_combined(left), _eliminated(left, moving)):
         inside = [q for q in moving if f.has(q)]
         if len(inside) == 1 and (value := _only_root(f, inside[0])) is not None:
             return inside[0], value
@@ -82,6 +99,17 @@ def _combined(residuals: Sequence[Expr]) -> Iterator[Expr]:
     for one, other in combinations(forms, 2):
         yield tidied((one - other).expand())
         yield tidied((one + other).expand())
+
+
+def _eliminated(residuals: Sequence[Expr], moving: Sequence[Symbol]) -> list[Expr]:
+    """Use each constraint q = f(other coordinates) to eliminate q, and return the other constraints, without a root of
+    a sum."""
+    left = [*residuals]
+    while solved := next(((f, q) for f in left for q in moving if derivative(f, q) in (1, -1)), None):
+        f, q = solved
+        value = q - f / derivative(f, q)
+        left = [tidied(each.xreplace({q: value})) for each in left if each is not f]
+    return [tidied(_without_root(f)) for f in left]
 
 
 def _without_root(f: Expr) -> Expr:

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from sympy import Expr, Integer, Symbol
+from sympy import Integer, Symbol
 
 from derive.algebra.expressions import explicit
 from derive.errors import Complaint, Rejected
 from derive.mechanics import Coordinate, put_in, solved_for
 from derive.mechanics.lagrange.constraint_forces import positions_kept
+from derive.mechanics.lagrange.fixed_coordinates import KeptPositions
 from derive.steps.step import Quantity
 
 
@@ -27,7 +28,11 @@ def rest_with_forces(
     Errors: the static equations do not determine the unknowns.
     """
     kept = positions_kept(motions[0])
-    still = [_still(name, motion, coordinates, kept) for name, motion in zip(coordinates, motions, strict=True)]
+    concerned = [motion for motion in motions if not explicit(motion.value).free_symbols.isdisjoint(kept.values)]
+    still = [
+        _still(name, motion, coordinates, kept, motion in concerned[:1])
+        for name, motion in zip(coordinates, motions, strict=True)
+    ]
     present = {s for each in still for s in explicit(each.value).free_symbols}
     unknown = [s for s in forces if s in present]
     if len(unknown) > len(still):
@@ -45,8 +50,11 @@ def rest_with_forces(
     return solved_for(tuple(still), *unknown, keys=[f"rest_{s.name}" for s in unknown])
 
 
-def _still(name: str, motion: Quantity, coordinates: Mapping[str, Coordinate], kept: Mapping[Symbol, Expr]) -> Quantity:
+def _still(
+    name: str, motion: Quantity, coordinates: Mapping[str, Coordinate], kept: KeptPositions, gives_reason: bool
+) -> Quantity:
     held = {s.name for s in explicit(motion.value).free_symbols}
     moving = [s for q in coordinates.values() for s in (q.rate, q.acceleration) if s.name in held]
-    values = {s.name: Integer(0) for s in moving} | {q.name: value for q, value in kept.items() if q.name in held}
-    return put_in(motion, key=f"still_{name}", **values) if values else motion
+    values = {s.name: Integer(0) for s in moving} | {q.name: at for q, at in kept.values.items() if q.name in held}
+    fixed_by = kept if gives_reason else None
+    return put_in(motion, key=f"still_{name}", fixed_by=fixed_by, **values) if values else motion
