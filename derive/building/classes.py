@@ -33,7 +33,7 @@ from derive.building.set_names import set_folder
 from derive.building.staleness import MOST, Asked, staleness
 from derive.building.template_line import own_templates
 from derive.building.tex import Engine, chosen_engine, typeset
-from derive.building.workers import Bug, Crew, Job, done
+from derive.building.workers import Bug, Crew, Ended, Job, done
 from derive.course.names import CLASS, INDEX, KEY, LOGO, NAME, SHEET, SOLUTIONS, STUDENTS
 from derive.course.problem_set import ProblemSet, problem_set
 from derive.errors import Complaint, DeriveError, Faults, Misused, Place, Rejected
@@ -176,6 +176,12 @@ class Made:
     student: Student
     complaints: tuple[Complaint, ...] = ()
     warnings: tuple[Complaint, ...] = ()
+    seconds: float = 0.0
+
+    @property
+    def ended(self) -> Ended:
+        how = "failed" if self.complaints else "made"
+        return Ended(how, f"{self.student.name} ({self.student.code})", self.seconds)
 
 
 def made_class(
@@ -189,6 +195,7 @@ def made_class(
     tell: Callable[[str], None] = lambda _: None,
     scheduler: str = "",
     reseed: bool = False,
+    ended: Callable[[Ended], None] = lambda _: None,
 ) -> ClassReport:
     """Make the documents of the students, except documents that are up to date. An error in the variant of one student
     does not stop the work for other students.
@@ -197,6 +204,7 @@ def made_class(
     reseed      whether `seed` may differ from the seed with which the class was made before
     scheduler   the address of a Dask scheduler, whose workers do the jobs; by default, processes of this machine do the
                 jobs
+    ended       is called for each student whose documents were made or failed
     """
     root = root.resolve()
     begun, chosen = time.monotonic(), chosen_engine(engine)
@@ -239,6 +247,7 @@ def made_class(
                 elif outcome.error:
                     report.bugs.append(outcome.error)
                 for made in outcome.value or ():
+                    ended(made.ended)
                     known = {(each.code, each.message, each.place) for each in report.complaints}
                     report.complaints += [
                         each for each in made.complaints if (each.code, each.message, each.place) not in known
@@ -331,7 +340,11 @@ def _inputs(root: Path, set_id: str, heading: ProblemSet, engine: Engine, seed: 
 
 
 def _documents_of(shared: ClassDocuments, students: Sequence[Student]) -> list[Made]:
-    return [_documents_of_one(shared, student) for student in students]
+    made = []
+    for student in students:
+        begun = time.monotonic()
+        made.append(replace(_documents_of_one(shared, student), seconds=time.monotonic() - begun))
+    return made
 
 
 def _documents_of_one(shared: ClassDocuments, student: Student) -> Made:

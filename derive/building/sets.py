@@ -49,7 +49,7 @@ from derive.building.tex import (
     prepare,
     typeset,
 )
-from derive.building.workers import TIME_LIMIT, Bug, Crew, Job, Outcome, done, job_of, under_way
+from derive.building.workers import TIME_LIMIT, Bug, Crew, Ended, Job, Outcome, done, job_of, under_way
 from derive.course.names import (
     INDEX,
     LOGO,
@@ -94,15 +94,6 @@ class Edits:
 
     edited: Callable[[], bool]  # whether there were edits since this build began
     wrote: Callable[[Path], None]  # called with the PDF of a problem as soon as the PDF has changed
-
-
-@dataclass(frozen=True)
-class Ended:
-    """A finished piece of work: how it ended (`derived`, `kept`, `typeset` or `failed`), its name, and its time."""
-
-    how: str
-    of: str
-    seconds: float = 0.0
 
 
 @dataclass

@@ -16,8 +16,9 @@ from derive import FOLDER
 from derive.building.cache import folder_digest
 from derive.building.preload import preload
 from derive.building.set_names import check_asked
-from derive.building.sets import Edits, Ended, Options, Report, Superseded, built_set
+from derive.building.sets import Edits, Options, Report, Superseded, built_set
 from derive.building.tex import chosen_engine
+from derive.building.workers import Ended
 from derive.course.problem_set import COURSE
 from derive.errors import BuildFailed, Complaint, DeriveError
 

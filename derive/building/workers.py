@@ -91,6 +91,18 @@ class Outcome:
     seconds: float
 
 
+@dataclass(frozen=True)
+class Ended:
+    """A finished piece of work: how it ended, its name, and its time.
+
+    how   `derived`, `kept`, `typeset`, `made` or `failed`
+    """
+
+    how: str
+    of: str
+    seconds: float = 0.0
+
+
 @dataclass
 class _Worker:
     job: Job

@@ -136,11 +136,13 @@ def _line(node: Tree, name: str, faults: Faults) -> Word | None:
 
 
 def refuse_comment(node: Scalar, faults: Faults) -> None:
-    """Report a comment after a text that is to be printed: `#` may be a part of the text."""
-    comment = re.match(r"[ \t]+#", node.source.text[node.end :])
+    """Report a text that YAML ends before a `#` that is a part of it: `Homework #3`, `Homework # 3`.
+
+    A space and a word after the `#` show that the author meant a comment."""
+    comment = re.match(r"[ \t]+#(?=[^\s#]|[ \t]+\d)", node.source.text[node.end :])
     if comment and node.style == "" and not node.empty:
         place = node.source.place(node.end + comment.end() - 1)
-        help_line = "put the whole text in quotes"
+        help_line = "put the whole text in quotes, or, in a comment, a space after the `#`"
         faults.error("comment-in-text", "`#` begins a comment, so the text ends before it", place, help=help_line)
 
 

@@ -30,8 +30,12 @@ def _path(name: str) -> str:
     return name.replace("/", "//")  # in Moodle, a single slash separates a category from its subcategory
 
 
+def is_for_stack(part: Part) -> bool:
+    return bool(part.answers) and all(answer.letters and answer.value is None for answer in part.answers)
+
+
 def _question(question: Question, part: Part, stack: bool) -> str:
-    if stack and part.answers and all(answer.letters and answer.value is None for answer in part.answers):
+    if stack and is_for_stack(part):
         return _typed("stack", question, part, _stack(part.answers), _inputs(part.answers))
     if not part.is_numerical:
         return _typed("essay", question, part, _ESSAY)
@@ -109,8 +113,8 @@ def _stack(answers: Sequence[Answer]) -> str:
             "<questionnote><text></text></questionnote>",
             # With positive letters, STACK simplifies sqrt(x^2) to x. This would be wrong for a negative letter.
             f"<questionsimplify>1</questionsimplify><assumepositive>{int(positive)}</assumepositive><assumereal>1</assumereal>",
-            *(_input(number) for number, _ in numbered),
-            *(_comparison(number, len(numbered)) for number, _ in numbered),
+            *(_input(number, answer) for number, answer in numbered),
+            *(_comparison(number, len(numbered), answer) for number, answer in numbered),
         ]
     )
 
@@ -120,17 +124,22 @@ def maxima(sympy: str) -> str:
     return re.sub(r"\bpi\b", "%pi", sympy.replace("**", "^"))
 
 
-def _input(number: int) -> str:
+def _input(number: int, answer: Answer) -> str:
+    names = ", ".join(name for name, _ in answer.names)
     return (
         f"<input><name>ans{number}</name><type>algebraic</type><tans>ta{number}</tans><boxsize>30</boxsize>"
         "<strictsyntax>0</strictsyntax><insertstars>1</insertstars><syntaxhint></syntaxhint>"
-        "<syntaxattribute>0</syntaxattribute><forbidwords></forbidwords><allowwords></allowwords>"
+        "<syntaxattribute>0</syntaxattribute><forbidwords></forbidwords>"
+        f"<allowwords>{names}</allowwords>"
         "<forbidfloat>0</forbidfloat><requirelowestterms>0</requirelowestterms><checkanswertype>0</checkanswertype>"
         "<mustverify>1</mustverify><showvalidation>1</showvalidation><options></options></input>"
     )
 
 
-def _comparison(number: int, count: int) -> str:
+def _comparison(number: int, count: int, answer: Answer) -> str:
+    names = ", ".join(f"{name}={maxima(of)}" for name, of in answer.names)
+    given = f"sa{number}: subst([{names}], ans{number});" if names else ""
+    compared = f"sa{number}" if names else f"ans{number}"
     results = "".join(
         f"<{sort}scoremode>=</{sort}scoremode><{sort}score>{score}</{sort}score><{sort}penalty></{sort}penalty>"
         f"<{sort}nextnode>-1</{sort}nextnode><{sort}answernote>prt{number}-1-{sort[0].upper()}</{sort}answernote>"
@@ -139,8 +148,8 @@ def _comparison(number: int, count: int) -> str:
     )
     return (
         f"<prt><name>prt{number}</name><value>{1 / count:.7f}</value><autosimplify>1</autosimplify>"
-        "<feedbackstyle>1</feedbackstyle><feedbackvariables><text></text></feedbackvariables>"
-        f"<node><name>0</name><answertest>AlgEquiv</answertest><sans>ans{number}</sans><tans>ta{number}</tans>"
+        f"<feedbackstyle>1</feedbackstyle><feedbackvariables>{_text(given)}</feedbackvariables>"
+        f"<node><name>0</name><answertest>AlgEquiv</answertest><sans>{compared}</sans><tans>ta{number}</tans>"
         f"<testoptions></testoptions><quiet>0</quiet>{results}</node></prt>"
     )
 

@@ -13,6 +13,7 @@ from derive.render.rendered import Rendered
 
 # the functions that learning platforms know
 FUNCTIONS = {"sin", "cos", "tan", "asin", "acos", "atan", "exp", "log", "sqrt"}
+CONSTANTS = {"e", "i", "j"}  # letters that learning platforms read as numbers
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 
 
@@ -20,7 +21,8 @@ _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 class Answer:
     """One answer of a part, or one component of an answer that is a vector.
 
-    sympy    the formula in plain SymPy text
+    sympy    the formula in plain SymPy text, in the letters of the problem
+    names    the quantities that the formula has on the page, such as mu, each with its formula
     latex    the formula in TeX
     value    the number, or None; `unit` is its unit, and `figures` is the number of its significant figures
     """
@@ -33,6 +35,7 @@ class Answer:
     unit: str
     figures: int | None
     is_of_positive_letters: bool = False
+    names: tuple[tuple[str, str], ...] = ()
     components: str = ""  # the formulas of all components of the vector in plain SymPy text
 
     @property
@@ -49,7 +52,7 @@ class Answer:
         other formulas."""
         text = self.components or self.sympy
         names = set(_NAME.findall(text))
-        if not re.fullmatch(r"[A-Za-z0-9_+\-*/(). ]+", text) or names & {"t", "Eq"}:
+        if not re.fullmatch(r"[A-Za-z0-9_+\-*/(). ]+", text) or names & {"t", "Eq", *CONSTANTS}:
             return None
         letters = names - FUNCTIONS - {"pi"}
         called = {name for name in letters if re.search(rf"\b{name}\(", text)}
@@ -133,6 +136,7 @@ def _answers(told: dict[str, Any]) -> list[Answer]:
         unit,
         number.get("figures"),
         told["positive"],
+        tuple(told.get("names", {}).items()),
     )
     entries = re.findall(r"\[([^\[\]]+)\]", told["sympy"])
     values = [float(each) for each in value] if isinstance(value, list) else [None] * len(entries)

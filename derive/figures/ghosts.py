@@ -26,7 +26,7 @@ class Ghost(Surface):
     """The dashed outline of a surface for another value of a coordinate.
 
     of              the surface at the other value
-    letter, value   the coordinate and its other value
+    letter, value   the coordinate and its other value; None if several coordinates differ
     """
 
     of: Surface = None  # type: ignore[assignment]

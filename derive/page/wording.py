@@ -266,6 +266,10 @@ class Phrases:
         forms: Mapping[str, str] = told or self.labels["own_name"]
         return Forms.of({name: filled(form, {**AXIS_NAMES, "name": Text(word)}) for name, form in forms.items()})
 
+    def shape(self, id: str) -> str:
+        """Return the text for the shape of a body in prose: "cuboid"; in a language with genders, with an article."""
+        return self.body(id) if self.labels["language"].get("genders") else id.replace("_", " ")
+
     def body(self, id: str) -> str:
         """Return the text for a kind of body: "a hollow ball" for `thick_shell`; by default the id of the kind with an
         article."""
@@ -530,7 +534,8 @@ def in_turn(step: Step, following: Iterable[Step], words: Phrases) -> dict[str, 
 def given_words(given: Given, measured: Iterable[Measured], words: Phrases) -> tuple[Inline, ...]:
     """Return an input as the statement shows it: `a, 2a and 3a`, `M = 1.5 kg`, `a long diagonal`."""
     if given.word is not None:
-        return words.term(given.word)
+        is_shape = given.name.rpartition(".")[2] == "shape"
+        return (Text(words.shape(given.word)),) if is_shape else words.term(given.word)
     if given.written is not None:
         return (Math(given.written),)
     if isinstance(given.value, Direction) and given.value.components:

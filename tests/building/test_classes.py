@@ -13,6 +13,7 @@ from pypdf import PdfReader
 from derive.building import classes
 from derive.building.class_record import ClassRecord, class_to_grade
 from derive.building.classes import Student, code_of, made_class, plain, read_roster, why_of_class
+from derive.building.workers import Ended
 from derive.cli.options import main
 from derive.course.variants import chosen_for
 from derive.errors import Misused, Rejected
@@ -146,8 +147,11 @@ def test_an_error_in_one_variant_stops_no_other_student(tmp_path: Path) -> None:
     with pytest.raises(Rejected):
         bead(tmp_path, "{b: [20 cm, 3 s]}")
     students = [Student(f"Student {number}", f"S{number}") for number in range(4)]
-    report = made_class(tmp_path, "week1", students, jobs=1)
+    ended: list[Ended] = []
+    report = made_class(tmp_path, "week1", students, jobs=1, ended=ended.append)
     assert report.failed and 0 < report.made < 4
+    assert [each.of for each in ended] == [f"{each.name} ({each.code})" for each in students]
+    assert [each.how for each in ended].count("made") == report.made
     assert any(note.startswith("in the variant of Student ") for note in report.complaints[0].notes)
     sheets = tmp_path / "build" / "week1" / "students"
     assert len(list(sheets.glob("*.pdf"))) == report.made

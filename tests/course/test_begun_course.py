@@ -71,6 +71,10 @@ def test_a_workflow_publishes_the_sheets_only(tmp_path: Path, path: str) -> None
             step["with"]["path"] for step in steps["jobs"]["build"]["steps"] if "pages" in step.get("uses", "")
         ]
         assert published == ["public"]
+        versions = dict(re.findall(r"uses: actions/(\S+)@v(\d+)", text))
+        least = {"checkout": 5, "setup-python": 6, "upload-artifact": 6, "upload-pages-artifact": 5, "deploy-pages": 5}
+        assert versions.keys() == least.keys(), "GitHub removed Node 20, which earlier versions of these actions need"
+        assert all(int(versions[action]) >= least[action] for action in least)
     else:
         assert steps["pages"]["artifacts"]["paths"] == ["public"]
         assert steps["build"]["artifacts"]["access"] == "developer"
@@ -82,6 +86,8 @@ def test_the_image_runs_as_a_plain_user(tmp_path: Path) -> None:
     lines = begin(tmp_path)["Containerfile"].splitlines()
     first = {line.partition(" ")[0]: number for number, line in reversed(list(enumerate(lines))) if line[:1].isupper()}
     assert first["FROM"] < first["USER"] < first["ENTRYPOINT"]
-    assert "instructor" in lines[first["USER"]]
+    (user,) = re.findall(r"useradd .*--uid (\d+)", "\n".join(lines))
+    assert lines[first["USER"]] == f"USER {user}"
+    assert f"--userns=keep-id:uid={user},gid={user} " in lines[first["FROM"] - 2], "the user can write in the course"
     name = re.search(r'^name = "(.+)"', (ROOT / "pyproject.toml").read_text(), re.MULTILINE)
     assert name and f"pip install --no-cache-dir {name[1]}" in "\n".join(lines)

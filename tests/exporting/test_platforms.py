@@ -289,6 +289,7 @@ def test_a_folder_of_prairielearn_has_its_three_files_and_right_answers(question
         ("sqrt(g/b)", {"g", "b"}),
         ("2*pi*sqrt(b)/sqrt(g)", {"b", "g"}),
         ("M*a**2*omega**2*sin(2*theta)/4", {"M", "a", "omega", "theta"}),
+        ("m*v*(1 - e)", None),
         ("Eq(a, b)", None),
         ("f(t)*a", None),
         ("x.y__class__[0]", None),
@@ -325,6 +326,28 @@ def test_a_formula_in_letters_is_a_question_of_stack(questions: list[Question]) 
     )
     (_, stack) = ElementTree.fromstring(moodle_xml("A", "B", [signed], stack=True).encode())
     assert stack.findtext("assumepositive") == "0", "sqrt(x^2) is not x for a coordinate x"
+
+
+def test_an_export_for_stack_without_a_formula_says_so(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    with_week1(tmp_path)
+    assert main(["--root", str(tmp_path), "export", "week1", "--format", "stack"]) == 0
+    assert "no answer is a formula that STACK can compare" in capsys.readouterr().out
+
+
+def test_a_formula_with_a_defined_quantity_is_compared_in_the_letters_of_the_problem(tmp_path: Path) -> None:
+    folder = with_week1(tmp_path)
+    changed = "".join(line for line in PROBLEM.splitlines(True) if "values:" not in line and "form:" not in line)
+    (folder / "bead.yaml").write_text(changed.replace("given:\n", "define: {kappa: g/b}\ngiven:\n"))
+    asked = questions_of([rendered(tmp_path, "week1/bead", draws=True, only=("questions",))])
+    quiz = ElementTree.fromstring(moodle_xml("A", "B", asked, stack=True).encode())
+    stack = quiz[2]
+    assert r"\sqrt{\kappa}" in (stack.findtext("generalfeedback/text") or ""), "the page has the defined quantity"
+    assert stack.findtext("questionvariables/text") == "ta1: sqrt(g)/sqrt(b);"
+    assert stack.findtext("input/allowwords") == "kappa"
+    assert stack.findtext("prt/feedbackvariables/text") == "sa1: subst([kappa=g/b], ans1);"
+    assert stack.findtext("prt/node/sans") == "sa1"
+    package = zipfile.ZipFile(io.BytesIO(prairielearn_package("week1", "A", asked)))
+    assert 'variables="b, g"' in package.read("questions/week1/bead-b/question.html").decode()
 
 
 PLATE = """\

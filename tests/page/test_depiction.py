@@ -55,6 +55,11 @@ def test_the_words_are_made_of_the_derived_values(block: Rendered) -> None:
     assert "the angle θ of 21.6°" in told
 
 
+def test_a_body_that_is_dashed_at_other_values_of_several_coordinates_is_described_without_them() -> None:
+    ball = rendered_once(ROOT, "library/cue_ball")
+    assert "a ball dashed, the angle φ" in drawings(ball)["system"]["alt"]
+
+
 def test_a_caption_may_mention_the_letters_beside_the_marks(tmp_path: Path) -> None:
     cone = rendered_once(ROOT, "hw9/cone")
     assert "its centre of mass C, and a slice" in drawings(cone)["from_apex"]["caption"]

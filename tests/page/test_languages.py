@@ -103,6 +103,12 @@ def test_a_word_has_the_form_that_a_phrase_asks_for() -> None:
         text_of("<<part.gender>>", part=words.term("rod"))
 
 
+def test_the_shape_of_a_body_has_its_name_in_the_language_of_the_page() -> None:
+    """`A <<body.shape>>` is English; other languages have genders, so the article is a part of the name."""
+    shown = {name: phrases(templates_of(ROOT), Language(name)).shape("half_disc") for name in ("en", "de", "fr")}
+    assert shown == {"en": "half disc", "de": "eine Halbscheibe", "fr": "un demi-disque"}
+
+
 def test_points_and_numbers_in_text_have_the_decimal_sign() -> None:
     words = phrases(templates_of(ROOT), GERMAN)
     assert [words.worth(Fraction(n)) for n in ("1", "5/2")] == ["1 Punkt", "2,5 Punkte"]

@@ -15,7 +15,8 @@ from derive.cli.terminal import complain, note, tell
 from derive.errors import Complaint, Misused
 
 if TYPE_CHECKING:
-    from derive.building.sets import Ended, Options, Report
+    from derive.building.sets import Options, Report
+    from derive.building.workers import Ended
 
 
 @dataclass(frozen=True)

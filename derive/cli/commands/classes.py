@@ -23,7 +23,17 @@ def make_class(arguments: argparse.Namespace) -> int:
     voice = Voice(arguments.quiet, arguments.verbose)
     seed, engine, limit = arguments.seed, arguments.engine, arguments.time_limit
     report = made_class(
-        root, set_id, students, seed, engine, arguments.jobs, limit, voice.tell, arguments.scheduler, arguments.reseed
+        root,
+        set_id,
+        students,
+        seed,
+        engine,
+        arguments.jobs,
+        limit,
+        voice.tell,
+        arguments.scheduler,
+        arguments.reseed,
+        voice.ended,
     )
     voice.tell("")
     complain([*report.warnings, *report.complaints])

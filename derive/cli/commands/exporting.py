@@ -47,7 +47,7 @@ def export(arguments: argparse.Namespace) -> int:
     complain(warning for page in pages for warning in page.warnings)
     questions = questions_of(pages)
     if arguments.format in ("moodle", "stack"):
-        from derive.exporting.moodle import moodle_xml
+        from derive.exporting.moodle import is_for_stack, moodle_xml
 
         content = moodle_xml(heading.course, heading.title, questions, arguments.format == "stack").encode()
     elif arguments.format == "prairielearn":
@@ -78,6 +78,8 @@ def export(arguments: argparse.Namespace) -> int:
         separate = arguments.format == "canvas"  # in Canvas each number is a question
         count = sum(len(part.answers) if separate and part.is_numerical else 1 for part in parts)
         print(f"wrote {shown_path(root / output)}: {count} question{'s' if count != 1 else ''}")
+        if arguments.format == "stack" and not any(is_for_stack(part) for part in parts):
+            print("no answer is a formula that STACK can compare, so the file is the same as with `--format moodle`")
         if any(load_problem(root, page.id).variations for page in pages):
             print("the questions have the values of the problems themselves, not those under `variants:`")
     return 0

@@ -2,24 +2,29 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from derive.render.formats import Format, Solution
 
 if TYPE_CHECKING:
+    from sympy import Symbol
+
     from derive.render.notation.notation import Notation
+    from derive.render.printing.chain_names import StepNames
     from derive.steps.step import Step
 
 
 def _rendered(solution: Solution) -> str:
     import json
 
+    from derive.render.printing.chain_names import Page
     from derive.render.printing.contract import contract
     from derive.render.printing.tex_in_html import TexInHtml
 
     page, document = TexInHtml(solution.document, solution.words, solution.notation), solution.document
     derivation = solution.derivation
-    known = json.loads(contract(solution))
+    known, names = json.loads(contract(solution)), Page(derivation.steps)
+    letters = {declared.symbol for declared in solution.problem.letters}
     parts = [
         {
             "label": part.label,
@@ -33,6 +38,7 @@ def _rendered(solution: Solution) -> str:
                     "positive": _is_of_positive_letters(step),
                     "components": _components(step, solution.notation),
                     **known["answers"][step.key],
+                    **_in_letters(names.names_of(step), letters),
                 }
                 for step in derivation.answering(asked.answers)
             ],
@@ -51,7 +57,29 @@ def _rendered(solution: Solution) -> str:
 
 def _is_of_positive_letters(step: Step) -> bool:
     """Return whether all letters of an answer are positive: a platform may then take sqrt(x^2) for x."""
-    return all(letter.is_positive for letter in getattr(step.result, "free_symbols", ()))
+    values = [of for name, of in step.names if name in getattr(step.result, "free_symbols", ())]
+    letters = (getattr(each, "free_symbols", ()) for each in (step.result, *values))
+    return all(letter.is_positive for found in letters for letter in found)
+
+
+def _in_letters(named: StepNames, letters: set[Symbol]) -> dict[str, Any]:
+    """Return an answer in the letters of the problem, and the quantities, such as mu, that its formula on the page has;
+    an empty mapping if there are none. A platform that compares formulas does not know these quantities."""
+    from sympy import Expr, Symbol
+
+    from derive.algebra.node import explicit
+
+    step = named.step
+    used: set[Any] = getattr(explicit(step.result), "free_symbols", set()) - letters
+    values = {
+        name: explicit(of)
+        for name, of in step.names
+        if isinstance(name, Symbol) and isinstance(of, Expr) and name in used
+    }
+    if not values:
+        return {}
+    names = {str(named.text_of_value(name)): named.text_of_value(of) for name, of in values.items()}
+    return {"sympy": named.text_of_value(explicit(step.result).xreplace(values)), "names": names}
 
 
 def _components(step: Step, notation: Notation) -> list[str]:
