@@ -6,7 +6,7 @@ import re
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import islice, pairwise, product
 from time import process_time
 
@@ -174,6 +174,7 @@ def audited(
             progress(claim.row.line, len(claims) - done)
         auditor.decide(claim)
     auditor.blame_earlier_rows()
+    auditor.blame_formulas()
     auditor.blame_odd_dimensions()
     scopes = [scope_of(document, claim.row) for claim in claims]
     found = compared(claims, scopes, auditor.scopes, facts, auditor.meaning_of, expected) if expected else []
@@ -289,7 +290,7 @@ class _Auditor:
                 plain = isinstance(value, MatrixBase) or value.as_coeff_Mul()[1].is_Symbol or not value.free_symbols
                 if isinstance(letter, Symbol) and not plain and self.known.latest(letter) is None:
                     self.explained.add(each.number)
-                    self.known.define(letter, value, each.number, part=each.row.block.part, chain=each.number)
+                    self.known.define(letter, value, each.number, row=each.row, chain=each.number)
 
     def of_constant(self, claim: Claim) -> Verdict:
         """Return the verdict on `v = const`; the row is wrong if only the length of a vector is constant."""
@@ -624,6 +625,26 @@ class _Auditor:
                     fix.claim.verdict.or_lines += (earlier.row.line,)
                     fix.claim.verdict.because += f"; or the slip is in line {earlier.row.line}: {meant}"
 
+    def blame_formulas(self) -> None:
+        """If a formula and the value below it differ, blame the formula if later rows follow only from the value."""
+        for claim in self.claims:
+            verdict = claim.verdict
+            if verdict is None or verdict.outcome is not Outcome.DIFFERS or verdict.contradicts is None:
+                continue
+            formula, line = self.claims[verdict.contradicts], self.claims[verdict.contradicts].row.line
+            later = [each for each in self.claims if each.verdict and each.verdict.inherits == claim.number]
+            if later:
+                because = f"line {claim.row.line} gives another value, and later rows follow only from that value"
+                formula.verdict = replace(
+                    verdict, because=because, suggestion="", span=None, or_lines=(claim.row.line,)
+                )
+                claim.verdict = Verdict(Outcome.HOLDS, "later rows follow from this value")
+                for each in later:
+                    each.verdict = Verdict(Outcome.HOLDS, "it follows from an earlier row", (claim.number,))
+            elif line not in verdict.or_lines:
+                verdict.or_lines += (line,)
+                verdict.because += f"; or the slip is in line {line}"
+
     def blame_odd_dimensions(self) -> None:
         """Report in each problem or section the row whose terms contradict the dimensions that all other rows give."""
         by_scope: dict[int, list[Claim]] = {}
@@ -763,7 +784,7 @@ class _Auditor:
         self, claim: Claim, left: Value, right: Value, meaning: Meaning, cues: frozenset[Cue], thorough: bool = True
     ) -> Verdict:
         verdict = Decision(claim, left, right, meaning, self.known, cues, thorough).verdict()
-        if verdict.outcome in GOOD:
+        if verdict.outcome in (Outcome.HOLDS, Outcome.APPROXIMATES):
             return verdict
         if claim.before is not None and claim.before.verdict is not None and claim.before.values is not None:
             wrong = claim.before
@@ -847,7 +868,7 @@ class _Auditor:
         if verdict.outcome is not Outcome.DEFINES or claim.values is None:
             return True
         letter, value = claim.values
-        if not isinstance(letter, Symbol) or isinstance(value, MatrixBase) or value.is_number:
+        if not isinstance(letter, Symbol) or isinstance(value, MatrixBase) or value.is_number or value.is_Symbol:
             return True
         return any(letter in equation.free_symbols for equation, _ in self.known.equations)
 
@@ -884,7 +905,7 @@ class _Auditor:
             if isinstance(symbol, Symbol) and wrong:
                 self.known.slips[symbol] = Definition(symbol, value, number)
             elif isinstance(symbol, Symbol) and claim.verdict.inherits is None:
-                self.known.define(symbol, value, number, part=claim.row.block.part, chain=first.number)
+                self.known.define(symbol, value, number, row=claim.row, chain=first.number)
                 self.known.slips.pop(symbol, None)
         if wrong or isinstance(head, MatrixBase):
             return

@@ -17,7 +17,7 @@ import sympy
 from sympy import Abs, Expr, Integer, Integral, MatrixBase, Rational, Symbol
 
 from derive.algebra.equality import Grade, equal
-from derive.audit.claims import Claim, Outcome, Verdict
+from derive.audit.claims import Claim, Definition, Outcome, Verdict
 from derive.audit.fingerprint import differ, fingerprint
 from derive.audit.knowledge import Known
 from derive.audit.systems import (
@@ -95,7 +95,9 @@ class Decision:
         ):
             if (found := test()) is not None:
                 return found
-        return self.otherwise()
+        found = self.otherwise()
+        found.contradicts = self.formula_above.claim if self.formula_above is not None else None
+        return found
 
     # Sides
 
@@ -548,7 +550,8 @@ class Decision:
 
     def otherwise(self) -> Verdict:
         left, right = self.expansions[-1][0] if self.expansions else (self.left, self.right)
-        computed = isinstance(self.left, Symbol) and self.known.is_kinematic(self.left)
+        above = self.formula_above
+        computed = above is not None or self.is_computed()
         display = self.claim.row.block.display
         if not self.claim.is_step and (not computed or (not display and self.cues & {Cue.GIVEN, Cue.PUT_IN})):
             return self.stated()
@@ -564,6 +567,9 @@ class Decision:
             return Verdict(Outcome.UNDECIDED, f"nothing is known about {', '.join(sorted(map(_word, opaque)))}")
         new = (right.free_symbols - left.free_symbols) & (self.right.free_symbols - self.left.free_symbols)
         new |= {each for each in right.free_symbols - left.free_symbols if each not in self.left.free_symbols}
+        if above is not None and (lost := self.lost_letter(left, right)) is not None:
+            because = f"the row above gives another value of {_word(above.symbol)}"
+            return Verdict(Outcome.DIFFERS, because, why_plausible=f"the term {_word(lost)} was lost in the row above")
         if new - self.left.free_symbols:
             return Verdict(Outcome.UNDECIDED, f"only the right side contains {', '.join(sorted(map(_word, new)))}")
         if left.has(Integral) or right.has(Integral):
@@ -580,10 +586,46 @@ class Decision:
             left, right = (expanded(self.known, each, sure=True)[0] for each in (self.left, self.right))
             if not self.claim.is_step or (left.free_symbols ^ right.free_symbols):
                 return Verdict(Outcome.UNDECIDED, "it contains a letter that has its value in one case only")
+        if above is not None and any(map(self.is_place, left.free_symbols - right.free_symbols)):
+            return Verdict(Outcome.UNDECIDED, "this may be the value at one place or instant")
         example = counterexample(left, right)
         if not example:
             return Verdict(Outcome.UNDECIDED, "no numbers show whether the two sides are equal")
+        if above is not None:
+            because = f"the row above gives another value of {_word(above.symbol)}"
+            return Verdict(Outcome.DIFFERS, because, counterexample=example)
         return Verdict(Outcome.DIFFERS, "the two sides are not equal", counterexample=example)
+
+    def is_computed(self) -> bool:
+        """Whether the left side is a rate or derivative whose value follows from a definition that always holds."""
+        if not isinstance(self.left, Symbol) or not self.known.is_kinematic(self.left):
+            return False
+        found = self.known.computed(self.left)
+        return found is not None and found.claim not in self.known.conditions
+
+    def lost_letter(self, left: Expr, right: Expr) -> Symbol | None:
+        """Return the letter whose value, with either sign, is the difference of two sides, or None."""
+        for letter in self.known.definitions:
+            value, _ = expanded(self.known, letter, sure=True)
+            if letter != self.left and value.free_symbols <= right.free_symbols - {letter}:
+                if not value.is_Symbol and any(same(right - left, sign * value) for sign in (1, -1)):
+                    return letter
+        return None
+
+    def is_place(self, symbol: Symbol) -> bool:
+        return bool(changing_letters({symbol}, self.meaning))
+
+    @cached_property
+    def formula_above(self) -> Definition | None:
+        """Return the value that the row above gives to the left side by a formula, if this row evaluates the formula:
+        some letters of the formula have values, and this row does not contain them."""
+        if self.claim.is_step or not isinstance(self.left, Symbol) or not self.known.is_defined(self.left):
+            return None
+        found = self.known.definitions[self.left][-1]
+        if found.row is None or found.row is not self.claim.row_above:
+            return None
+        evaluated = found.value.free_symbols - self.right.free_symbols
+        return found if any(self.known.latest(each) is not None for each in evaluated) else None
 
     def shows_the_terms(self, left: Expr, right: Expr) -> bool:
         """Whether the error is of a lower order than the terms that are left out."""

@@ -10,6 +10,7 @@ import sympy
 from sympy import Expr, Integral, MatrixBase, Symbol
 
 from derive.audit.claims import Definition
+from derive.documents.layout import Row
 from derive.documents.meaning import Meaning, Value
 from derive.documents.syntax import Letter
 
@@ -37,7 +38,7 @@ class Known:
     kept: dict[object, Any] = field(default_factory=dict)  # results that were computed from this knowledge
 
     def define(
-        self, symbol: Symbol, value: Expr, claim: int, implied: bool = False, part: int = -1, chain: int = -1
+        self, symbol: Symbol, value: Expr, claim: int, implied: bool = False, row: Row | None = None, chain: int = -1
     ) -> None:
         if symbol in value.free_symbols or value.has(Integral):
             return
@@ -54,9 +55,10 @@ class Known:
         letter = self.meaning.symbols.get(symbol)
         component = letter is not None and letter.sub[-1:] in ("1", "2", "3")
         where = self.definitions if value.free_symbols or component else self.numbers
-        if (earlier := where.get(symbol)) and earlier[-1].part != part and earlier[-1].value != value:
+        new = Definition(symbol, value, claim, implied, row, chain)
+        if (earlier := where.get(symbol)) and earlier[-1].part != new.part and earlier[-1].value != value:
             self.forget_derivatives(symbol)
-        where.setdefault(symbol, []).append(Definition(symbol, value, claim, implied, part, chain))
+        where.setdefault(symbol, []).append(new)
 
     def forget(self, claim: int) -> None:
         """Forget the value that a claim gives to a letter; used before this claim itself is judged."""

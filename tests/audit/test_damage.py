@@ -170,6 +170,24 @@ def test_a_law_is_blamed_if_a_later_row_shows_its_slip() -> None:
     assert [each.row.line for each in wrong(text)] == [3]
 
 
+VALUE_BELOW_FORMULA = (
+    "The point has the speed $v = l \\dot\\theta$. The energies are\n"
+    "$$ T = \\frac12 m v^2 \\qquad U = m g l \\theta^2 $$\n"
+    "$$\n\\begin{aligned}\nE &= T + U \\\\\nE &= \\frac12 m l^2 \\dot\\theta^2 + m g l \\theta^2\n"
+    "\\end{aligned}\n$$\nSo the power is\n"
+    "$$ \\dot E = m l^2 \\dot\\theta \\ddot\\theta + 2 m g l \\theta \\dot\\theta $$"
+)
+
+
+@pytest.mark.parametrize(
+    ("right", "slip", "line"), [("E &= T + U", "E &= T", 5), ("+ m g l \\theta^2\n", "+ m g l \\theta^3\n", 6)]
+)
+def test_a_formula_and_the_value_below_it_agree(right: str, slip: str, line: int) -> None:
+    assert wrong(VALUE_BELOW_FORMULA) == []
+    (claim,) = wrong(VALUE_BELOW_FORMULA.replace(right, slip))
+    assert claim.row.line == line
+
+
 def test_a_row_with_other_dimensions_than_the_rest_is_blamed() -> None:
     text = (
         "A pendulum has the length $l$ and the mass $m$.\n\n$$ T = \\frac12 m l^3 \\dot\\theta^2 $$\n\n"
@@ -189,6 +207,10 @@ def test_a_row_with_other_dimensions_than_the_rest_is_blamed() -> None:
         "For the disc $I = \\frac12 M R^2$ and for the ring $I = M R^2$.",
         "At first $x = 0$ and $\\dot x = v$. Later $x = v t$.",
         "If $b = l$, then\n$$ \\dot\\theta = 2 b = 2 l $$\nA blow at $b = 0$ gives $\\dot\\theta = 0$.",
+        "At $\\theta = \\phi = 0$ the momenta are\n$$ 3 \\dot\\theta + 2 \\dot\\phi = J $$\n"
+        "$$ 2 \\dot\\theta + 5 \\dot\\phi = 0 $$\n"
+        "If the rod is held, then $\\dot\\phi = 2 J$ and $\\dot\\theta = 3 J$.",
+        LAGRANGIAN + "$$\n\\begin{aligned}\nU &= \\frac12 k x^2 \\\\\nU &= \\frac12 k b^2\n\\end{aligned}\n$$",
         ATWOOD + "If the masses are equal, $m_1 = m_2$, then\n$$ \\ddot x = 0 $$",
         LAGRANGIAN + "With friction $F$ the equation of motion is\n$$ m \\ddot x = -k x - F $$",
     ],
