@@ -243,6 +243,8 @@ class _Auditor:
         if scope != self.scope:
             self.begin(scope)
         self.explain(claim)
+        self.known.sentence = self.claims_of_sentence(claim)
+        self.known.here = self.conditions_here(claim)
         if claim.right is None or (claim.left is None and claim.before is None):
             claim.verdict = Verdict(Outcome.UNREADABLE, claim.fault or "this is not read")
             return
@@ -277,6 +279,29 @@ class _Auditor:
             self.remark(claim, claim.verdict)
             self.remember(claim)
         self.late += max(0.0, process_time() - begun - USUAL_SECONDS)
+
+    def claims_of_sentence(self, claim: Claim) -> frozenset[int]:
+        """Return the claims in the sentence before a display that are not known to be wrong."""
+        found: list[int] = []
+        block = claim.row.block
+        for each in reversed(self.claims[:-1]) if block.display else ():
+            if each.row.block is block:
+                continue
+            if each.row.block.display or _ENDS_SENTENCE.search(self.shown(Span(each.row.span.end, block.span.start))):
+                break
+            if each.verdict is not None and each.verdict.outcome in GOOD:
+                found.append(each.number)
+        return frozenset(found)
+
+    def conditions_here(self, claim: Claim) -> frozenset[int]:
+        """Return the conditions of the sentence before a display that hold in a row: "with `r = l`, this becomes".
+
+        A row that contains the letter is about other instants: "the energy at `x = 0` is conserved"."""
+        written = {each.identity for each in letters_in(claim.left, claim.right)}
+        conditions = [self.claims[each] for each in self.known.sentence & self.known.conditions]
+        return frozenset(each.number for each in conditions if written.isdisjoint(
+            letter.identity for letter in letters_in(each.left)
+        ))  # fmt: skip
 
     def explain(self, claim: Claim) -> None:
         """Remember the values of letters that the sentence after this display gives."""
@@ -447,11 +472,14 @@ class _Auditor:
             return
         if any(isinstance(each, Int) for side in sides for each in side.walk()):
             return  # a letter of an integrand may depend on the variable of integration
-        strange = self.strange_letters(claim)
-        if not claim.is_step and not claim.row.block.display and not strange:
-            return  # an equation in a sentence may hold only in the case that the sentence describes
+        in_sentence = not claim.is_step and not claim.row.block.display
+        strange = self.strange_letters(claim) if in_sentence else set()
+        if in_sentence and not strange and claim.values[1].is_Atom:
+            return
         edit = self.near_edit(claim, self.known)
-        if edit is not None and not claim.is_step and not claim.row.block.display and edit.was not in strange:
+        if edit is not None and in_sentence and edit.was not in strange:
+            verdict.outcome = Outcome.UNDECIDED
+            verdict.because = f"it would follow from earlier rows with {suggestion_of(edit)}, but may be a special case"
             return
         if edit is not None and edit.kind == "index" and not ("_" in edit.was and "_" in edit.meant):
             return  # r and r_0 are names of one quantity, in general and in a special case
@@ -539,9 +567,9 @@ class _Auditor:
         return found
 
     def may_be_changed(self, claim: Claim) -> bool:
-        if claim.verdict is None or claim.verdict.outcome is not Outcome.DEFINES or claim.relation not in ("=", ":="):
+        if claim.verdict is None or claim.verdict.outcome not in (Outcome.DEFINES, Outcome.UNDECIDED) or claim.is_step:
             return False
-        if claim.left is None or claim.right is None or claim.values is None:
+        if claim.relation not in ("=", ":=") or claim.left is None or claim.right is None or claim.values is None:
             return False
         return not any(isinstance(each, MatrixBase) for each in claim.values)
 
@@ -626,13 +654,18 @@ class _Auditor:
                     fix.claim.verdict.because += f"; or the slip is in line {earlier.row.line}: {meant}"
 
     def blame_formulas(self) -> None:
-        """If a formula and the value below it differ, blame the formula if later rows follow only from the value."""
+        """If two rows give different values of a letter, blame the first if later rows follow only from the second."""
         for claim in self.claims:
             verdict = claim.verdict
             if verdict is None or verdict.outcome is not Outcome.DIFFERS or verdict.contradicts is None:
                 continue
             formula, line = self.claims[verdict.contradicts], self.claims[verdict.contradicts].row.line
+            if formula.verdict is None or formula.verdict.outcome is Outcome.DIFFERS:
+                continue
             later = [each for each in self.claims if each.verdict and each.verdict.inherits == claim.number]
+            between = self.claims[formula.number + 1 : claim.number]
+            if any(each.verdict and formula.number in each.verdict.given for each in between):
+                later = []
             if later:
                 because = f"line {claim.row.line} gives another value, and later rows follow only from that value"
                 formula.verdict = replace(

@@ -96,7 +96,8 @@ class Decision:
             if (found := test()) is not None:
                 return found
         found = self.otherwise()
-        found.contradicts = self.formula_above.claim if self.formula_above is not None else None
+        earlier = self.known.latest(self.left) if isinstance(self.left, Symbol) and not self.claim.is_step else None
+        found.contradicts = earlier.claim if earlier is not None and earlier.claim >= 0 else None
         return found
 
     # Sides
@@ -111,7 +112,7 @@ class Decision:
             return None
         if isinstance(left, MatrixBase) == isinstance(right, MatrixBase):
             if isinstance(left, MatrixBase) and left.shape != right.shape:
-                return Verdict(Outcome.UNDECIDED, "the two sides are matrices of different shapes")
+                raise Meaningless("the two sides are matrices of different shapes", self.claim.right_span)
             return None
         matrix, number = (left, right) if isinstance(left, MatrixBase) else (right, left)
         if isinstance(number, Symbol):
@@ -568,8 +569,8 @@ class Decision:
         new = (right.free_symbols - left.free_symbols) & (self.right.free_symbols - self.left.free_symbols)
         new |= {each for each in right.free_symbols - left.free_symbols if each not in self.left.free_symbols}
         if above is not None and (lost := self.lost_letter(left, right)) is not None:
-            because = f"the row above gives another value of {_word(above.symbol)}"
-            return Verdict(Outcome.DIFFERS, because, why_plausible=f"the term {_word(lost)} was lost in the row above")
+            because = f"the formula before it gives another value of {_word(above.symbol)}"
+            return Verdict(Outcome.DIFFERS, because, why_plausible=f"the term {_word(lost)} was lost in that formula")
         if new - self.left.free_symbols:
             return Verdict(Outcome.UNDECIDED, f"only the right side contains {', '.join(sorted(map(_word, new)))}")
         if left.has(Integral) or right.has(Integral):
@@ -582,7 +583,7 @@ class Decision:
             return Verdict(Outcome.UNDECIDED, f"{_word(several)} has several values in the rows before")
         if self.meaning.left_out is not None and not self.shows_the_terms(left, right):
             return Verdict(Outcome.UNDECIDED, "the order of the terms that are left out is not compared")
-        if self.expansions and self.known.conditions & set(self.expansions[-1][1]):
+        if self.expansions and (self.known.conditions - self.known.here) & set(self.expansions[-1][1]):
             left, right = (expanded(self.known, each, sure=True)[0] for each in (self.left, self.right))
             if not self.claim.is_step or (left.free_symbols ^ right.free_symbols):
                 return Verdict(Outcome.UNDECIDED, "it contains a letter that has its value in one case only")
@@ -592,7 +593,7 @@ class Decision:
         if not example:
             return Verdict(Outcome.UNDECIDED, "no numbers show whether the two sides are equal")
         if above is not None:
-            because = f"the row above gives another value of {_word(above.symbol)}"
+            because = f"the formula before it gives another value of {_word(above.symbol)}"
             return Verdict(Outcome.DIFFERS, because, counterexample=example)
         return Verdict(Outcome.DIFFERS, "the two sides are not equal", counterexample=example)
 
@@ -617,12 +618,13 @@ class Decision:
 
     @cached_property
     def formula_above(self) -> Definition | None:
-        """Return the value that the row above gives to the left side by a formula, if this row evaluates the formula:
-        some letters of the formula have values, and this row does not contain them."""
+        """Return the value that the row above, or the sentence before the display, gives to the left side by a formula,
+        if this row evaluates the formula: some letters of the formula have values, and this row does not contain them.
+        """
         if self.claim.is_step or not isinstance(self.left, Symbol) or not self.known.is_defined(self.left):
             return None
         found = self.known.definitions[self.left][-1]
-        if found.row is None or found.row is not self.claim.row_above:
+        if found.claim not in self.known.sentence and (found.row is None or found.row is not self.claim.row_above):
             return None
         evaluated = found.value.free_symbols - self.right.free_symbols
         return found if any(self.known.latest(each) is not None for each in evaluated) else None
@@ -635,14 +637,17 @@ class Decision:
         return found is not None and found[1] < wanted
 
     def unknown_entries(self, left: Value, right: Value) -> list[Symbol]:
-        """Return letters that name entries of matrices, such as I_12, if the sides are matrices."""
-        if not isinstance(left, MatrixBase) or not isinstance(right, MatrixBase) or left.shape[1] == 1:
-            return []
+        """Return letters that name entries of matrices or tensors, such as I_12."""
+        matrices = isinstance(left, MatrixBase) and isinstance(right, MatrixBase) and left.shape[1] > 1
+        tensors = {base for base, *_ in self.meaning.facts.tensors}
         letters = self.meaning.symbols
         return [
             each
             for each in sorted(left.free_symbols | right.free_symbols, key=str)
-            if (letter := letters.get(each)) is not None and letter.sub[-2:].isdigit() and len(letter.sub) >= 2
+            if (letter := letters.get(each)) is not None
+            and letter.sub[-2:].isdigit()
+            and len(letter.sub) >= 2
+            and (matrices or letter.base in tensors)
         ]
 
     def with_several_values(self) -> Symbol | None:

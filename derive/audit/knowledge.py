@@ -34,6 +34,8 @@ class Known:
     slips: dict[Symbol, Definition] = field(default_factory=dict)  # the values that wrong rows give
     seen: set[Symbol] = field(default_factory=set)  # the letters of earlier claims
     conditions: set[int] = field(default_factory=set)  # claims that may hold in one case or at one instant only
+    sentence: frozenset[int] = frozenset()  # claims in the sentence before the current display
+    here: frozenset[int] = frozenset()  # its conditions for letters that the current row no longer contains
     named: set[Symbol] = field(default_factory=set)  # letters to which a display gave a value
     kept: dict[object, Any] = field(default_factory=dict)  # results that were computed from this knowledge
 
@@ -120,6 +122,14 @@ class Known:
     def latest(self, symbol: Symbol) -> Definition | None:
         found = self.definitions.get(symbol)
         return found[-1] if found else self.computed(symbol)
+
+    def surely(self, symbol: Symbol) -> Definition | None:
+        """Return the value of a letter that holds in the current row; None if it may hold elsewhere only."""
+        found = self.latest(symbol)
+        if found is None or found.claim in self.conditions:
+            at = [*self.numbers.get(symbol, ()), *self.definitions.get(symbol, ())]
+            return next((each for each in reversed(at) if each.claim in self.here), None)
+        return found
 
     def computed(self, symbol: Symbol) -> Definition | None:
         """Return the value of a rate, of a derivative or of a function at a place, computed from the definition of its
