@@ -463,8 +463,6 @@ class _Auditor:
             return
         if claim.values[0] in self.meaning.evaluations:
             return  # the value at one place says nothing about another place
-        if verdict.outcome is Outcome.DEFINES and claim.values[0] in self.known.definitions:
-            return  # the letter has another value in another part or case
         if any(isinstance(each, MatrixBase) for each in claim.values):
             return
         sides = [side for side in (claim.left, claim.right) if side is not None]
@@ -473,13 +471,15 @@ class _Auditor:
         if any(isinstance(each, Int) for side in sides for each in side.walk()):
             return  # a letter of an integrand may depend on the variable of integration
         in_sentence = not claim.is_step and not claim.row.block.display
+        if verdict.outcome is Outcome.DEFINES and claim.values[0] in self.known.definitions:
+            self.doubt(verdict, self.change_of_value(claim))  # it may have another value in another part or case
+            return
         strange = self.strange_letters(claim) if in_sentence else set()
         if in_sentence and not strange and claim.values[1].is_Atom:
             return
         edit = self.near_edit(claim, self.known)
         if edit is not None and in_sentence and edit.was not in strange:
-            verdict.outcome = Outcome.UNDECIDED
-            verdict.because = f"it would follow from earlier rows with {suggestion_of(edit)}, but may be a special case"
+            self.doubt(verdict, edit)
             return
         if edit is not None and edit.kind == "index" and not ("_" in edit.was and "_" in edit.meant):
             return  # r and r_0 are names of one quantity, in general and in a special case
@@ -499,6 +499,20 @@ class _Auditor:
         verdict.because = f"it does not follow from {because}, but would with one change"
         verdict.suggestion = suggestion_of(edit)
         verdict.why_plausible, verdict.span = WHY[edit.kind], edit.span
+
+    def doubt(self, verdict: Verdict, edit: Edit | None) -> None:
+        """Leave a row undecided that may be a special case, or may contain a slip."""
+        if edit is not None:
+            verdict.outcome = Outcome.UNDECIDED
+            verdict.because = f"it would follow from earlier rows with {suggestion_of(edit)}, but may be a special case"
+
+    def change_of_value(self, claim: Claim) -> Edit | None:
+        """Return one change of the right side after which a letter would have its earlier value."""
+        assert claim.values is not None and claim.right is not None
+        value, right_node = self.known.definitions[claim.values[0]][-1].value, readings(claim.right, self.facts)[0][0]
+        if claim.values[1].is_Atom:
+            return None
+        return Nearness(self.meaning, self.known, letters_in(right_node), self.shown).of_value(right_node, value)
 
     def with_other_indices(self, letters: list[Letter]) -> list[Letter]:
         """Return these letters and letters of the document that differ from them only in the index."""

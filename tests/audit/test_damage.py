@@ -222,6 +222,15 @@ def test_a_condition_of_a_sentence_holds_in_the_display_after_it() -> None:
     assert claim.row.line == 4
 
 
+def test_a_value_in_another_part_is_doubted_if_one_change_gives_the_earlier_value() -> None:
+    text = LAGRANGIAN + "(a) The period is\n$$ \\tau = 2\\pi \\sqrt{m/k} $$\n(b) So\n$$ \\tau = 2\\pi \\sqrt{m/k} $$"
+    first, second = text.rsplit("2\\pi", 1)
+    outcomes = [str(each.verdict.outcome) for each in audit(first + "3\\pi" + second).claims if each.verdict]
+    assert outcomes[-1] == "undecided"
+    outcomes = [str(each.verdict.outcome) for each in audit(first + "\\frac{b}{g}" + second).claims if each.verdict]
+    assert outcomes[-1] == "defines"
+
+
 def test_a_row_with_other_dimensions_than_the_rest_is_blamed() -> None:
     text = (
         "A pendulum has the length $l$ and the mass $m$.\n\n$$ T = \\frac12 m l^3 \\dot\\theta^2 $$\n\n"
