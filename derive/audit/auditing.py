@@ -15,7 +15,7 @@ from sympy import MatrixBase, Symbol
 
 from derive.audit.assumptions import Assumed
 from derive.audit.claims import Claim, Definition, Outcome, Verdict
-from derive.audit.deciding import Decision, counterexample, same
+from derive.audit.deciding import Decision, counterexample, entries_of, same
 from derive.audit.dimensions import odd_claim
 from derive.audit.expected import Compared, Expected, compared
 from derive.audit.knowledge import ASSUMED, Known
@@ -560,7 +560,7 @@ class _Auditor:
             verdict.because, verdict.counterexample = "it does not follow from the row above it", example
 
     def fixes_before(self, claim: Claim) -> list[Fix]:
-        if claim.values is None or any(isinstance(each, MatrixBase) for each in claim.values):
+        if claim.values is None:
             return []
         found: list[Fix] = []
         wanted = self.letters_behind(claim)
@@ -589,8 +589,9 @@ class _Auditor:
 
     def letters_behind(self, claim: Claim) -> set[Symbol]:
         assert claim.values is not None
-        value = claim.values[0] - claim.values[1]
-        found: set[Symbol] = value.free_symbols | expanded(self.known, value, sure=True)[0].free_symbols
+        found: set[Symbol] = set()
+        for value in entries_of(claim.values[0]) + entries_of(claim.values[1]):
+            found |= value.free_symbols | expanded(self.known, value, sure=True)[0].free_symbols
         return found
 
     def known_without(self, earlier: Claim, claim: Claim) -> Known:
@@ -954,9 +955,9 @@ class _Auditor:
             elif isinstance(symbol, Symbol) and claim.verdict.inherits is None:
                 self.known.define(symbol, value, number, row=claim.row, chain=first.number)
                 self.known.slips.pop(symbol, None)
-        if wrong or isinstance(head, MatrixBase):
-            return
-        if isinstance(left, MatrixBase) or isinstance(right, MatrixBase):
+        if believed and isinstance(left, MatrixBase) and isinstance(right, MatrixBase) and left.shape == right.shape:
+            self.known.state(left - right, number)
+        if wrong or any(isinstance(each, MatrixBase) for each in (head, left, right)):
             return
         if claim.verdict.outcome is Outcome.HOLDS and not claim.verdict.given and not isinstance(left, Symbol):
             return  # an identity gives nothing new

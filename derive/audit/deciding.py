@@ -61,7 +61,7 @@ def same(left: Value, right: Value) -> bool:
 def _equal(left: Value, right: Value) -> bool:
     if left == right:
         return True
-    if any(differ(one, other) for one, other in zip(_entries(left), _entries(right), strict=True)):
+    if any(differ(one, other) for one, other in zip(entries_of(left), entries_of(right), strict=True)):
         return False
     return equal(left, right).grade in (Grade.PROVED, Grade.SAMPLED)
 
@@ -338,7 +338,7 @@ class Decision:
         for (left, right), used in pairs:
             errors = [
                 _relative_error(one, other)
-                for one, other in zip(_entries(left), _entries(right), strict=False)
+                for one, other in zip(entries_of(left), entries_of(right), strict=False)
                 if one != 0 or other != 0
             ]
             if not errors or any(each is None for each in errors):
@@ -755,7 +755,7 @@ def _names(meaning: Meaning) -> set[str]:
     return {each.name for each in meaning.symbols}
 
 
-def _entries(value: Value) -> list[Expr]:
+def entries_of(value: Value) -> list[Expr]:
     return list(value) if isinstance(value, MatrixBase) else [value]
 
 
@@ -898,7 +898,7 @@ def counterexample(left: Value, right: Value) -> str:
     """Return an example with numbers, as text, in which two sides differ; an empty text if none is found."""
     symbols = sorted(left.free_symbols | right.free_symbols, key=str)
     for point in _simple_points(symbols):
-        for one, other in zip(_entries(left), _entries(right), strict=False):
+        for one, other in zip(entries_of(left), entries_of(right), strict=False):
             numbers = [sympy.N(each.subs(point), 12) for each in (one, other)]
             if not all(each.is_number and each.is_finite and each.is_real for each in numbers):
                 continue
@@ -925,4 +925,4 @@ def _number(value: Expr) -> str:
     return f"{float(value):.6g}"
 
 
-__all__ = ["Decision", "Sequence", "counterexample", "is_multiple", "order_of_error", "same"]
+__all__ = ["Decision", "Sequence", "counterexample", "entries_of", "is_multiple", "order_of_error", "same"]

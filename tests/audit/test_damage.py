@@ -198,8 +198,9 @@ PLATE = (
 
 def test_a_bold_letter_before_a_vector_is_a_tensor_with_the_entries_of_the_text() -> None:
     assert [str(each.verdict.outcome) for each in audit(PLATE).claims if each.verdict][-1] == "holds"
-    (claim,) = wrong(PLATE.replace("4 \\end", "3 \\end"))
-    assert claim.row.line == 8
+    for right, slip, line in (("4 \\end", "3 \\end", 8), ("R^2 $$", "R $$", 2)):
+        (claim,) = wrong(PLATE.replace(right, slip))
+        assert claim.row.line == line
 
 
 def test_a_formula_of_a_sentence_and_the_display_after_it_agree() -> None:
