@@ -916,8 +916,10 @@ class _Auditor:
         if verdict.outcome is not Outcome.DEFINES or claim.values is None:
             return True
         letter, value = claim.values
-        if not isinstance(letter, Symbol) or isinstance(value, MatrixBase) or value.is_number or value.is_Symbol:
+        if not isinstance(letter, Symbol) or isinstance(value, MatrixBase) or value.is_number:
             return True
+        if value.is_Symbol and claim.index + 1 < len(claim.statement.relations):
+            return True  # `theta = phi = 0`
         return any(letter in equation.free_symbols for equation, _ in self.known.equations)
 
     def remember(self, claim: Claim, believed: bool = False) -> None:
