@@ -122,6 +122,7 @@ def test_the_sentence_after_a_display_explains_its_letters() -> None:
     assert [str(each.verdict.outcome) for each in audit(EXPLAINED).claims if each.verdict][:2] == ["defines", "holds"]
     (claim,) = wrong(EXPLAINED.replace("{3}", "{4}"))
     assert claim.number == 1
+    assert len(wrong(EXPLAINED.replace("{3}", "{4}").replace(" = $M/l$", " ={~}$M/l$"))) == 1
 
 
 def test_the_motion_or_its_velocity_is_wrong() -> None:
