@@ -58,6 +58,11 @@ $$ m \ddot x + k x = 0. $$
             r"$$ T = \frac{1}{2} m v^2 = \frac{1}{2} m l \dot\theta^2 $$",
         ),
         (
+            "The kinetic energy is\n",
+            r"$$ T = \frac12 m v^2 (1 - \cos^2\theta) = \frac12 m v^2 \sin^2\theta $$",
+            r"$$ T = \frac12 m v^2 (1 - \cos^2\theta) = \frac12 m v^2 \sin\theta $$",
+        ),
+        (
             "$$\n\\begin{aligned}\n2 m l \\ddot\\theta + m g \\theta &= 0 \\\\\n",
             "\\ddot\\theta + \\frac{g}{2 l} \\theta &= 0\n\\end{aligned}\n$$",
             "\\ddot\\theta + \\frac{g}{l} \\theta &= 0\n\\end{aligned}\n$$",
@@ -102,7 +107,7 @@ $$ m \ddot x + k x = 0. $$
         ),
     ],
     ids=[
-        "Lagrange", "Lagrange, solved", "a system", "a force", "a root", "a square", "the row above", "a Lagrangian",
+        "Lagrange", "Lagrange, solved", "a system", "a force", "a root", "a square", "a power of a sine", "the row above", "a Lagrangian",
         "a letter twice", "a lost term", "an approximation", "an index", "a period", "a frequency", "an oscillation",
         "a motion", "a linear equation", "T - U", "a lost letter", "a differential", "a strange letter",
     ],
