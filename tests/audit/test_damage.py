@@ -107,7 +107,8 @@ $$ m \ddot x + k x = 0. $$
         ),
     ],
     ids=[
-        "Lagrange", "Lagrange, solved", "a system", "a force", "a root", "a square", "a power of a sine", "the row above",
+        "Lagrange", "Lagrange, solved", "a system", "a force", "a root", "a square", "a power of a sine",
+        "the row above",
         "a Lagrangian",
         "a letter twice", "a lost term", "an approximation", "an index", "a period", "a frequency", "an oscillation",
         "a motion", "a linear equation", "T - U", "a lost letter", "a differential", "a strange letter",
