@@ -679,7 +679,9 @@ class _Auditor:
                 continue
             later = [each for each in self.claims if each.verdict and each.verdict.inherits == claim.number]
             between = self.claims[formula.number + 1 : claim.number]
-            if any(each.verdict and formula.number in each.verdict.given for each in between):
+            used = any(each.verdict and formula.number in each.verdict.given for each in between)
+            of_same = formula.values is not None and claim.values is not None and formula.values[0] == claim.values[0]
+            if used or not of_same:
                 later = []
             if later:
                 because = f"line {claim.row.line} gives another value, and later rows follow only from that value"
@@ -689,7 +691,7 @@ class _Auditor:
                 claim.verdict = Verdict(Outcome.HOLDS, "later rows follow from this value")
                 for each in later:
                     each.verdict = Verdict(Outcome.HOLDS, "it follows from an earlier row", (claim.number,))
-            elif line not in verdict.or_lines:
+            elif line not in (claim.row.line, *verdict.or_lines):
                 verdict.or_lines += (line,)
                 verdict.because += f"; or the slip is in line {line}"
 
