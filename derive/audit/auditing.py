@@ -44,6 +44,7 @@ SECONDS_OF_SEARCH = 2.0  # seconds of processor time for the search for a change
 MOST_INDICES = 12
 MOST_LOST = 6  # number of letters of earlier rows that a row may lack
 MOST_ROWS = 10  # number of the last claims in displays whose terms may be missing in a row
+FEWEST_OPERATIONS = 3  # in a value that a later row may repeat with a slip
 MOST_FIXED = 5  # number of earlier rows that are searched for a slip
 SPECIAL = frozenset({Cue.GIVEN, Cue.PUT_IN, Cue.ZERO, Cue.APPROXIMATE})  # cues that explain why a row has fewer terms
 MOST_READINGS = 8
@@ -510,8 +511,8 @@ class _Auditor:
         """Return one change of the right side after which a letter would have its earlier value."""
         assert claim.values is not None and claim.right is not None
         value, right_node = self.known.definitions[claim.values[0]][-1].value, readings(claim.right, self.facts)[0][0]
-        if claim.values[1].is_Atom:
-            return None
+        if sympy.count_ops(value) < FEWEST_OPERATIONS:
+            return None  # each short value is one change away from other values
         return Nearness(self.meaning, self.known, letters_in(right_node), self.shown).of_value(right_node, value)
 
     def with_other_indices(self, letters: list[Letter]) -> list[Letter]:
