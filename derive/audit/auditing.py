@@ -6,7 +6,7 @@ import re
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import islice, pairwise, product
 from time import process_time
 
@@ -15,7 +15,7 @@ from sympy import MatrixBase, Symbol
 
 from derive.audit.assumptions import Assumed
 from derive.audit.claims import Claim, Definition, Outcome, Verdict
-from derive.audit.deciding import Decision, counterexample, same
+from derive.audit.deciding import Decision, counterexample, entries_of, same
 from derive.audit.dimensions import odd_claim
 from derive.audit.expected import Compared, Expected, compared
 from derive.audit.knowledge import ASSUMED, Known
@@ -44,6 +44,7 @@ SECONDS_OF_SEARCH = 2.0  # seconds of processor time for the search for a change
 MOST_INDICES = 12
 MOST_LOST = 6  # number of missing letters that are tried as corrections of a row
 MOST_ROWS = 10  # number of the last equations, or claims in displays, that are searched for what a row lacks
+FEWEST_OPERATIONS = 3  # in a value that a later row may repeat with a slip
 MOST_FIXED = 5  # number of earlier rows that are searched for a slip
 SPECIAL = frozenset({Cue.GIVEN, Cue.PUT_IN, Cue.ZERO, Cue.APPROXIMATE})  # cues that explain why a row has fewer terms
 MOST_READINGS = 8
@@ -174,6 +175,7 @@ def audited(
             progress(claim.row.line, len(claims) - done)
         auditor.decide(claim)
     auditor.blame_earlier_rows()
+    auditor.blame_formulas()
     auditor.blame_odd_dimensions()
     scopes = [scope_of(document, claim.row) for claim in claims]
     found = compared(claims, scopes, auditor.scopes, facts, auditor.meaning_of, expected) if expected else []
@@ -242,6 +244,8 @@ class _Auditor:
         if scope != self.scope:
             self.begin(scope)
         self.explain(claim)
+        self.known.sentence = self.claims_of_sentence(claim)
+        self.known.here = self.conditions_here(claim)
         if claim.right is None or (claim.left is None and claim.before is None):
             claim.verdict = Verdict(Outcome.UNREADABLE, claim.fault or "this is not read")
             return
@@ -277,6 +281,29 @@ class _Auditor:
             self.remember(claim)
         self.late += max(0.0, process_time() - begun - USUAL_SECONDS)
 
+    def claims_of_sentence(self, claim: Claim) -> frozenset[int]:
+        """Return the claims in the sentence before a display that are not known to be wrong."""
+        found: list[int] = []
+        block = claim.row.block
+        for each in reversed(self.claims[:-1]) if block.display else ():
+            if each.row.block is block:
+                continue
+            if each.row.block.display or _ENDS_SENTENCE.search(self.shown(Span(each.row.span.end, block.span.start))):
+                break
+            if each.verdict is not None and each.verdict.outcome in GOOD:
+                found.append(each.number)
+        return frozenset(found)
+
+    def conditions_here(self, claim: Claim) -> frozenset[int]:
+        """Return the conditions of the sentence before a display that hold in a row: "with `r = l`, this becomes".
+
+        A row that contains the letter is about other instants: "the energy at `x = 0` is conserved"."""
+        written = {each.identity for each in letters_in(claim.left, claim.right)}
+        conditions = [self.claims[each] for each in self.known.sentence & self.known.conditions]
+        return frozenset(each.number for each in conditions if written.isdisjoint(
+            letter.identity for letter in letters_in(each.left)
+        ))  # fmt: skip
+
     def explain(self, claim: Claim) -> None:
         """Remember the values of letters that the sentence after this display gives."""
         if claim.number in self.explained:
@@ -289,7 +316,7 @@ class _Auditor:
                 plain = isinstance(value, MatrixBase) or value.as_coeff_Mul()[1].is_Symbol or not value.free_symbols
                 if isinstance(letter, Symbol) and not plain and self.known.latest(letter) is None:
                     self.explained.add(each.number)
-                    self.known.define(letter, value, each.number, part=each.row.block.part, chain=each.number)
+                    self.known.define(letter, value, each.number, row=each.row, chain=each.number)
 
     def of_constant(self, claim: Claim) -> Verdict:
         """Return the verdict on `v = const`; the row is wrong if only the length of a vector is constant."""
@@ -437,8 +464,6 @@ class _Auditor:
             return
         if claim.values[0] in self.meaning.evaluations:
             return  # the value at one place says nothing about another place
-        if verdict.outcome is Outcome.DEFINES and claim.values[0] in self.known.definitions:
-            return  # the letter has another value in another part or case
         if any(isinstance(each, MatrixBase) for each in claim.values):
             return
         sides = [side for side in (claim.left, claim.right) if side is not None]
@@ -446,11 +471,16 @@ class _Auditor:
             return
         if any(isinstance(each, Int) for side in sides for each in side.walk()):
             return  # a letter of an integrand may depend on the variable of integration
-        strange = self.strange_letters(claim)
-        if not claim.is_step and not claim.row.block.display and not strange:
-            return  # an equation in a sentence may hold only in the case that the sentence describes
+        in_sentence = not claim.is_step and not claim.row.block.display
+        if verdict.outcome is Outcome.DEFINES and claim.values[0] in self.known.definitions:
+            self.doubt(verdict, self.change_of_value(claim))  # it may have another value in another part or case
+            return
+        strange = self.strange_letters(claim) if in_sentence else set()
+        if in_sentence and not strange and claim.values[1].is_Atom:
+            return
         edit = self.near_edit(claim, self.known)
-        if edit is not None and not claim.is_step and not claim.row.block.display and edit.was not in strange:
+        if edit is not None and in_sentence and edit.was not in strange:
+            self.doubt(verdict, edit)
             return
         if edit is not None and edit.kind == "index" and not ("_" in edit.was and "_" in edit.meant):
             return  # r and r_0 are names of one quantity, in general and in a special case
@@ -470,6 +500,20 @@ class _Auditor:
         verdict.because = f"it does not follow from {because}, but would with one change"
         verdict.suggestion = suggestion_of(edit)
         verdict.why_plausible, verdict.span = WHY[edit.kind], edit.span
+
+    def doubt(self, verdict: Verdict, edit: Edit | None) -> None:
+        """Leave a row undecided that may be a special case, or may contain a slip."""
+        if edit is not None:
+            verdict.outcome = Outcome.UNDECIDED
+            verdict.because = f"it would follow from earlier rows with {suggestion_of(edit)}, but may be a special case"
+
+    def change_of_value(self, claim: Claim) -> Edit | None:
+        """Return one change of the right side after which a letter would have its earlier value."""
+        assert claim.values is not None and claim.right is not None
+        value, right_node = self.known.definitions[claim.values[0]][-1].value, readings(claim.right, self.facts)[0][0]
+        if sympy.count_ops(value) < FEWEST_OPERATIONS:
+            return None  # each short value is one change away from other values
+        return Nearness(self.meaning, self.known, letters_in(right_node), self.shown).of_value(right_node, value)
 
     def with_other_indices(self, letters: list[Letter]) -> list[Letter]:
         """Return these letters and letters of the document that differ from them only in the index."""
@@ -517,7 +561,7 @@ class _Auditor:
             verdict.because, verdict.counterexample = "it does not follow from the row above it", example
 
     def fixes_before(self, claim: Claim) -> list[Fix]:
-        if claim.values is None or any(isinstance(each, MatrixBase) for each in claim.values):
+        if claim.values is None:
             return []
         found: list[Fix] = []
         wanted = self.letters_behind(claim)
@@ -538,16 +582,17 @@ class _Auditor:
         return found
 
     def may_be_changed(self, claim: Claim) -> bool:
-        if claim.verdict is None or claim.verdict.outcome is not Outcome.DEFINES or claim.relation not in ("=", ":="):
+        if claim.verdict is None or claim.verdict.outcome not in (Outcome.DEFINES, Outcome.UNDECIDED) or claim.is_step:
             return False
-        if claim.left is None or claim.right is None or claim.values is None:
+        if claim.relation not in ("=", ":=") or claim.left is None or claim.right is None or claim.values is None:
             return False
         return not any(isinstance(each, MatrixBase) for each in claim.values)
 
     def letters_behind(self, claim: Claim) -> set[Symbol]:
         assert claim.values is not None
-        value = claim.values[0] - claim.values[1]
-        found: set[Symbol] = value.free_symbols | expanded(self.known, value, sure=True)[0].free_symbols
+        found: set[Symbol] = set()
+        for value in entries_of(claim.values[0]) + entries_of(claim.values[1]):
+            found |= value.free_symbols | expanded(self.known, value, sure=True)[0].free_symbols
         return found
 
     def known_without(self, earlier: Claim, claim: Claim) -> Known:
@@ -623,6 +668,33 @@ class _Auditor:
                 if fix.claim.verdict is not None and fix.claim.verdict.outcome is Outcome.DIFFERS:
                     fix.claim.verdict.or_lines += (earlier.row.line,)
                     fix.claim.verdict.because += f"; or the slip is in line {earlier.row.line}: {meant}"
+
+    def blame_formulas(self) -> None:
+        """If two rows give different values of a letter, blame the first if later rows follow only from the second."""
+        for claim in self.claims:
+            verdict = claim.verdict
+            if verdict is None or verdict.outcome is not Outcome.DIFFERS or verdict.contradicts is None:
+                continue
+            formula, line = self.claims[verdict.contradicts], self.claims[verdict.contradicts].row.line
+            if formula.verdict is None or formula.verdict.outcome is Outcome.DIFFERS:
+                continue
+            later = [each for each in self.claims if each.verdict and each.verdict.inherits == claim.number]
+            between = self.claims[formula.number + 1 : claim.number]
+            used = any(each.verdict and formula.number in each.verdict.given for each in between)
+            of_same = formula.values is not None and claim.values is not None and formula.values[0] == claim.values[0]
+            if used or not of_same:
+                later = []
+            if later:
+                because = f"line {claim.row.line} gives another value, and later rows follow only from that value"
+                formula.verdict = replace(
+                    verdict, because=because, suggestion="", span=None, or_lines=(claim.row.line,)
+                )
+                claim.verdict = Verdict(Outcome.HOLDS, "later rows follow from this value")
+                for each in later:
+                    each.verdict = Verdict(Outcome.HOLDS, "it follows from an earlier row", (claim.number,))
+            elif line not in (claim.row.line, *verdict.or_lines):
+                verdict.or_lines += (line,)
+                verdict.because += f"; or the slip is in line {line}"
 
     def blame_odd_dimensions(self) -> None:
         """Report in each problem or section the row whose terms contradict the dimensions that all other rows give."""
@@ -763,7 +835,7 @@ class _Auditor:
         self, claim: Claim, left: Value, right: Value, meaning: Meaning, cues: frozenset[Cue], thorough: bool = True
     ) -> Verdict:
         verdict = Decision(claim, left, right, meaning, self.known, cues, thorough).verdict()
-        if verdict.outcome in GOOD:
+        if verdict.outcome in (Outcome.HOLDS, Outcome.APPROXIMATES):
             return verdict
         if claim.before is not None and claim.before.verdict is not None and claim.before.values is not None:
             wrong = claim.before
@@ -849,6 +921,8 @@ class _Auditor:
         letter, value = claim.values
         if not isinstance(letter, Symbol) or isinstance(value, MatrixBase) or value.is_number:
             return True
+        if value.is_Symbol and claim.index + 1 < len(claim.statement.relations):
+            return True  # `theta = phi = 0`
         return any(letter in equation.free_symbols for equation, _ in self.known.equations)
 
     def remember(self, claim: Claim, believed: bool = False) -> None:
@@ -884,11 +958,11 @@ class _Auditor:
             if isinstance(symbol, Symbol) and wrong:
                 self.known.slips[symbol] = Definition(symbol, value, number)
             elif isinstance(symbol, Symbol) and claim.verdict.inherits is None:
-                self.known.define(symbol, value, number, part=claim.row.block.part, chain=first.number)
+                self.known.define(symbol, value, number, row=claim.row, chain=first.number)
                 self.known.slips.pop(symbol, None)
-        if wrong or isinstance(head, MatrixBase):
-            return
-        if isinstance(left, MatrixBase) or isinstance(right, MatrixBase):
+        if believed and isinstance(left, MatrixBase) and isinstance(right, MatrixBase) and left.shape == right.shape:
+            self.known.state(left - right, number)
+        if wrong or any(isinstance(each, MatrixBase) for each in (head, left, right)):
             return
         if claim.verdict.outcome is Outcome.HOLDS and not claim.verdict.given and not isinstance(left, Symbol):
             return  # an identity gives nothing new

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from enum import StrEnum
+from itertools import pairwise
 
 from sympy import Expr, Symbol
 
@@ -22,8 +23,13 @@ class Definition:
     value: Expr
     claim: int
     implied: bool = False  # the document does not state this definition, but a step needs it
-    part: int = -1  # the part of the document in which the letter got this value
+    row: Row | None = None  # the row in which the letter got this value
     chain: int = -1  # the number of the first claim of the chain
+
+    @property
+    def part(self) -> int:
+        """The part of the document in which the letter got this value."""
+        return self.row.block.part if self.row is not None else -1
 
 
 class Outcome(StrEnum):
@@ -49,6 +55,7 @@ class Verdict:
     choices: tuple[Choice, ...] = ()
     span: Span | None = None
     repeated: Definition | None = None  # the earlier value that this row claims to repeat
+    contradicts: int | None = None  # the number of an earlier claim that gives another value
     or_lines: tuple[int, ...] = ()  # lines of earlier rows that may contain the slip instead
 
 
@@ -73,6 +80,12 @@ class Claim:
     # whether the left side is the first side of the chain, because the sides between have no value
     from_head: bool = False
     tags: tuple[str, ...] = field(default_factory=tuple)
+
+    @property
+    def row_above(self) -> Row | None:
+        """The row above in the same display, or None."""
+        rows = self.row.block.rows
+        return next((above for above, row in pairwise(rows) if row is self.row), None)
 
     @property
     def is_step(self) -> bool:

@@ -17,7 +17,7 @@ import sympy
 from sympy import Abs, Expr, Integer, Integral, MatrixBase, Rational, Symbol
 
 from derive.algebra.equality import Grade, equal
-from derive.audit.claims import Claim, Outcome, Verdict
+from derive.audit.claims import Claim, Definition, Outcome, Verdict
 from derive.audit.fingerprint import differ, fingerprint
 from derive.audit.knowledge import Known
 from derive.audit.systems import (
@@ -61,7 +61,7 @@ def same(left: Value, right: Value) -> bool:
 def _equal(left: Value, right: Value) -> bool:
     if left == right:
         return True
-    if any(differ(one, other) for one, other in zip(_entries(left), _entries(right), strict=True)):
+    if any(differ(one, other) for one, other in zip(entries_of(left), entries_of(right), strict=True)):
         return False
     return equal(left, right).grade in (Grade.PROVED, Grade.SAMPLED)
 
@@ -95,7 +95,10 @@ class Decision:
         ):
             if (found := test()) is not None:
                 return found
-        return self.otherwise()
+        found = self.otherwise()
+        earlier = self.known.latest(self.left) if isinstance(self.left, Symbol) and not self.claim.is_step else None
+        found.contradicts = earlier.claim if earlier is not None and earlier.claim >= 0 else None
+        return found
 
     # Sides
 
@@ -109,7 +112,7 @@ class Decision:
             return None
         if isinstance(left, MatrixBase) == isinstance(right, MatrixBase):
             if isinstance(left, MatrixBase) and left.shape != right.shape:
-                return Verdict(Outcome.UNDECIDED, "the two sides are matrices of different shapes")
+                raise Meaningless("the two sides are matrices of different shapes", self.claim.right_span)
             return None
         matrix, number = (left, right) if isinstance(left, MatrixBase) else (right, left)
         if isinstance(number, Symbol):
@@ -335,7 +338,7 @@ class Decision:
         for (left, right), used in pairs:
             errors = [
                 _relative_error(one, other)
-                for one, other in zip(_entries(left), _entries(right), strict=False)
+                for one, other in zip(entries_of(left), entries_of(right), strict=False)
                 if one != 0 or other != 0
             ]
             if not errors or any(each is None for each in errors):
@@ -548,7 +551,8 @@ class Decision:
 
     def otherwise(self) -> Verdict:
         left, right = self.expansions[-1][0] if self.expansions else (self.left, self.right)
-        computed = isinstance(self.left, Symbol) and self.known.is_kinematic(self.left)
+        above = self.formula_above
+        computed = above is not None or self.is_computed()
         display = self.claim.row.block.display
         if not self.claim.is_step and (not computed or (not display and self.cues & {Cue.GIVEN, Cue.PUT_IN})):
             return self.stated()
@@ -564,6 +568,9 @@ class Decision:
             return Verdict(Outcome.UNDECIDED, f"nothing is known about {', '.join(sorted(map(_word, opaque)))}")
         new = (right.free_symbols - left.free_symbols) & (self.right.free_symbols - self.left.free_symbols)
         new |= {each for each in right.free_symbols - left.free_symbols if each not in self.left.free_symbols}
+        if above is not None and (lost := self.lost_letter(left, right)) is not None:
+            because = f"the formula before it gives another value of {_word(above.symbol)}"
+            return Verdict(Outcome.DIFFERS, because, why_plausible=f"the term {_word(lost)} was lost in that formula")
         if new - self.left.free_symbols:
             return Verdict(Outcome.UNDECIDED, f"only the right side contains {', '.join(sorted(map(_word, new)))}")
         if left.has(Integral) or right.has(Integral):
@@ -576,14 +583,51 @@ class Decision:
             return Verdict(Outcome.UNDECIDED, f"{_word(several)} has several values in the rows before")
         if self.meaning.left_out is not None and not self.shows_the_terms(left, right):
             return Verdict(Outcome.UNDECIDED, "the order of the terms that are left out is not compared")
-        if self.expansions and self.known.conditions & set(self.expansions[-1][1]):
+        if self.expansions and (self.known.conditions - self.known.here) & set(self.expansions[-1][1]):
             left, right = (expanded(self.known, each, sure=True)[0] for each in (self.left, self.right))
             if not self.claim.is_step or (left.free_symbols ^ right.free_symbols):
                 return Verdict(Outcome.UNDECIDED, "it contains a letter that has its value in one case only")
+        if above is not None and any(map(self.is_place, left.free_symbols - right.free_symbols)):
+            return Verdict(Outcome.UNDECIDED, "this may be the value at one place or instant")
         example = counterexample(left, right)
         if not example:
             return Verdict(Outcome.UNDECIDED, "no numbers show whether the two sides are equal")
+        if above is not None:
+            because = f"the formula before it gives another value of {_word(above.symbol)}"
+            return Verdict(Outcome.DIFFERS, because, counterexample=example)
         return Verdict(Outcome.DIFFERS, "the two sides are not equal", counterexample=example)
+
+    def is_computed(self) -> bool:
+        """Whether the left side is a rate or derivative whose value follows from a definition that always holds."""
+        if not isinstance(self.left, Symbol) or not self.known.is_kinematic(self.left):
+            return False
+        found = self.known.computed(self.left)
+        return found is not None and found.claim not in self.known.conditions
+
+    def lost_letter(self, left: Expr, right: Expr) -> Symbol | None:
+        """Return the letter whose value, with either sign, is the difference of two sides, or None."""
+        for letter in self.known.definitions:
+            value, _ = expanded(self.known, letter, sure=True)
+            if letter != self.left and value.free_symbols <= right.free_symbols - {letter}:
+                if not value.is_Symbol and any(same(right - left, sign * value) for sign in (1, -1)):
+                    return letter
+        return None
+
+    def is_place(self, symbol: Symbol) -> bool:
+        return bool(changing_letters({symbol}, self.meaning))
+
+    @cached_property
+    def formula_above(self) -> Definition | None:
+        """Return the value that the row above, or the sentence before the display, gives to the left side by a formula,
+        if this row evaluates the formula: some letters of the formula have values, and this row does not contain them.
+        """
+        if self.claim.is_step or not isinstance(self.left, Symbol) or not self.known.is_defined(self.left):
+            return None
+        found = self.known.definitions[self.left][-1]
+        if found.claim not in self.known.sentence and (found.row is None or found.row is not self.claim.row_above):
+            return None
+        evaluated = found.value.free_symbols - self.right.free_symbols
+        return found if any(self.known.latest(each) is not None for each in evaluated) else None
 
     def shows_the_terms(self, left: Expr, right: Expr) -> bool:
         """Whether the error is of a lower order than the terms that are left out."""
@@ -593,14 +637,17 @@ class Decision:
         return found is not None and found[1] < wanted
 
     def unknown_entries(self, left: Value, right: Value) -> list[Symbol]:
-        """Return letters that name entries of matrices, such as I_12, if the sides are matrices."""
-        if not isinstance(left, MatrixBase) or not isinstance(right, MatrixBase) or left.shape[1] == 1:
-            return []
+        """Return letters that name entries of matrices or tensors, such as I_12."""
+        matrices = isinstance(left, MatrixBase) and isinstance(right, MatrixBase) and left.shape[1] > 1
+        tensors = {base for base, *_ in self.meaning.facts.tensors}
         letters = self.meaning.symbols
         return [
             each
             for each in sorted(left.free_symbols | right.free_symbols, key=str)
-            if (letter := letters.get(each)) is not None and letter.sub[-2:].isdigit() and len(letter.sub) >= 2
+            if (letter := letters.get(each)) is not None
+            and letter.sub[-2:].isdigit()
+            and len(letter.sub) >= 2
+            and (matrices or letter.base in tensors)
         ]
 
     def with_several_values(self) -> Symbol | None:
@@ -708,7 +755,7 @@ def _names(meaning: Meaning) -> set[str]:
     return {each.name for each in meaning.symbols}
 
 
-def _entries(value: Value) -> list[Expr]:
+def entries_of(value: Value) -> list[Expr]:
     return list(value) if isinstance(value, MatrixBase) else [value]
 
 
@@ -851,7 +898,7 @@ def counterexample(left: Value, right: Value) -> str:
     """Return an example with numbers, as text, in which two sides differ; an empty text if none is found."""
     symbols = sorted(left.free_symbols | right.free_symbols, key=str)
     for point in _simple_points(symbols):
-        for one, other in zip(_entries(left), _entries(right), strict=False):
+        for one, other in zip(entries_of(left), entries_of(right), strict=False):
             numbers = [sympy.N(each.subs(point), 12) for each in (one, other)]
             if not all(each.is_number and each.is_finite and each.is_real for each in numbers):
                 continue
@@ -878,4 +925,4 @@ def _number(value: Expr) -> str:
     return f"{float(value):.6g}"
 
 
-__all__ = ["Decision", "Sequence", "counterexample", "is_multiple", "order_of_error", "same"]
+__all__ = ["Decision", "Sequence", "counterexample", "entries_of", "is_multiple", "order_of_error", "same"]

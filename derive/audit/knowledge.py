@@ -10,6 +10,7 @@ import sympy
 from sympy import Expr, Integral, MatrixBase, Symbol
 
 from derive.audit.claims import Definition
+from derive.documents.layout import Row
 from derive.documents.meaning import Meaning, Value
 from derive.documents.syntax import Letter
 
@@ -33,11 +34,13 @@ class Known:
     slips: dict[Symbol, Definition] = field(default_factory=dict)  # the values that wrong rows give
     seen: set[Symbol] = field(default_factory=set)  # the letters of earlier claims
     conditions: set[int] = field(default_factory=set)  # claims that may hold in one case or at one instant only
+    sentence: frozenset[int] = frozenset()  # claims in the sentence before the current display
+    here: frozenset[int] = frozenset()  # its conditions for letters that the current row no longer contains
     named: set[Symbol] = field(default_factory=set)  # letters to which a display gave a value
     kept: dict[object, Any] = field(default_factory=dict)  # results that were computed from this knowledge
 
     def define(
-        self, symbol: Symbol, value: Expr, claim: int, implied: bool = False, part: int = -1, chain: int = -1
+        self, symbol: Symbol, value: Expr, claim: int, implied: bool = False, row: Row | None = None, chain: int = -1
     ) -> None:
         if symbol in value.free_symbols or value.has(Integral):
             return
@@ -54,9 +57,10 @@ class Known:
         letter = self.meaning.symbols.get(symbol)
         component = letter is not None and letter.sub[-1:] in ("1", "2", "3")
         where = self.definitions if value.free_symbols or component else self.numbers
-        if (earlier := where.get(symbol)) and earlier[-1].part != part and earlier[-1].value != value:
+        new = Definition(symbol, value, claim, implied, row, chain)
+        if (earlier := where.get(symbol)) and earlier[-1].part != new.part and earlier[-1].value != value:
             self.forget_derivatives(symbol)
-        where.setdefault(symbol, []).append(Definition(symbol, value, claim, implied, part, chain))
+        where.setdefault(symbol, []).append(new)
 
     def forget(self, claim: int) -> None:
         """Forget the value that a claim gives to a letter; used before this claim itself is judged."""
@@ -118,6 +122,14 @@ class Known:
     def latest(self, symbol: Symbol) -> Definition | None:
         found = self.definitions.get(symbol)
         return found[-1] if found else self.computed(symbol)
+
+    def surely(self, symbol: Symbol) -> Definition | None:
+        """Return the value of a letter that holds in the current row; None if it may hold elsewhere only."""
+        found = self.latest(symbol)
+        if found is None or found.claim in self.conditions:
+            at = [*self.numbers.get(symbol, ()), *self.definitions.get(symbol, ())]
+            return next((each for each in reversed(at) if each.claim in self.here), None)
+        return found
 
     def computed(self, symbol: Symbol) -> Definition | None:
         """Return the value of a rate, of a derivative or of a function at a place, computed from the definition of its

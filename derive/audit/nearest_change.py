@@ -119,6 +119,16 @@ class Nearness:
                 return None if is_other_root(edit, left if first else right) else edit
         return None
 
+    def of_value(self, side: Node, value: Expr) -> Edit | None:
+        """Return the cheapest change after which a side would have a value; None if no change is found."""
+        with suppress(*FAULTS, NoNumber, Meaningless):
+            wanted = [(point, point.of(value)) for point in self.points()]
+            for edit in self.edits(side) if len(wanted) > 1 else ():
+                with suppress(*FAULTS, NoNumber, Meaningless):
+                    if all(close(point.of_node(edit.node), number) for point, number in wanted):
+                        return edit
+        return None
+
     def lost_term(self, difference: Expr) -> Expr | None:
         """Return the missing term with which an equation would be a multiple of an earlier equation; None if no such
         term is found."""

@@ -19,6 +19,7 @@ from derive.documents.meaning import Meaning
 
 STEPS = 12  # the greatest number of steps of Newton's method
 TRIED = 8  # the greatest number of starting points of Newton's method
+OTHER_STARTS = 2  # further starting points for an equation that has no solution near the first one
 SLOPE = 1e-6  # the relative change of a letter with which a slope is computed
 SMALL = 1e-10  # an equation with a smaller residual, relative to its terms, counts as satisfied
 DAMPING = 1e-9  # the relative increase of the diagonal of the linear system
@@ -41,7 +42,9 @@ class Surface:
     def find(self, count: int) -> Surface:
         here = self.begin(0)
         for each in self.equations:
-            found = self.moved(here, [*self.kept, each])
+            starts = (here, *map(self.begin, range(1, OTHER_STARTS + 1)))
+            tried = (self.moved(start, [*self.kept, each]) for start in starts)
+            found = next((there for there in tried if there is not None), None)
             if found is not None:
                 here = found
                 self.kept.append(each)

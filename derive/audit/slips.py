@@ -130,9 +130,8 @@ def _here(node: Node, letters: Sequence[Letter], shown: Callable[[Span], str]) -
     elif isinstance(node, Frac):
         turned = f"\\frac{{{shown(node.bottom.span)}}}{{{shown(node.top.span)}}}"
         yield Edit(replace(node, top=node.bottom, bottom=node.top), node.span, was, turned, "fraction", 2.2)
-    elif isinstance(node, Fun) and node.name in OTHER_FUNCTION:
-        name = OTHER_FUNCTION[node.name]
-        yield Edit(replace(node, name=name), node.span, was, f"\\{name}", "function", 1.3)
+    elif isinstance(node, Fun):
+        yield from _of_function(node, shown)
     if isinstance(node, Int):
         for i, item in enumerate(node.items):
             if isinstance(item, Letter):
@@ -163,6 +162,19 @@ def _here(node: Node, letters: Sequence[Letter], shown: Callable[[Span], str]) -
     if isinstance(node, Letter):
         for number in ("2", "3"):
             yield Edit(Pow(node.span, node, Num(node.span, number)), node.span, was, f"{was}^{number}", "exponent", 1.3)
+
+
+def _of_function(node: Fun, shown: Callable[[Span], str]) -> Iterator[Edit]:
+    was = shown(node.span)
+    if node.name in OTHER_FUNCTION:
+        name = OTHER_FUNCTION[node.name]
+        yield Edit(replace(node, name=name), node.span, was, f"\\{name}", "function", 1.3)
+    if node.power is None:
+        squared = replace(node, power=Num(node.span, "2"))
+        yield Edit(squared, node.span, was, f"\\{node.name}^2 {shown(node.argument.span)}", "exponent", 1.3)
+    elif isinstance(node.power, Num):
+        bare = replace(node, power=None)
+        yield Edit(bare, node.span, was, f"\\{node.name} {shown(node.argument.span)}", "exponent", 0.95)
 
 
 def _of_letter(node: Letter, letters: Sequence[Letter], was: str) -> Iterator[Edit]:

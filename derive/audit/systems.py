@@ -52,7 +52,7 @@ def equations_of(
     sure      whether to leave out conditions in sentences and motions x(t), which may hold in one case only
     written   whether to leave out Lagrange's and Hamilton's equations of a function
     """
-    state = (len(known.equations), sum(map(len, known.definitions.values())), without, sure, written)
+    state = (len(known.equations), sum(map(len, known.definitions.values())), without, sure, written, known.here)
     if state not in known.kept:
         if len(known.kept) > 200:
             known.kept.clear()
@@ -73,7 +73,7 @@ def _equations_of(known: Known, meaning: Meaning, without: Symbol | None, sure: 
             found.append(Equation(value, claims, name))
 
     for value, number in reversed(known.equations[-LAST_EQUATIONS:]):
-        if value.has(Integral) or (sure and number in known.conditions) or len(found) == MOST_EQUATIONS:
+        if value.has(Integral) or (sure and number in known.conditions - known.here) or len(found) == MOST_EQUATIONS:
             continue
         put_in, used = expanded(known, value, without, sure)
         add(put_in, (*used, number), "earlier equations")
@@ -81,8 +81,8 @@ def _equations_of(known: Known, meaning: Meaning, without: Symbol | None, sure: 
         put_in, _ = expanded(known, value, without, sure)
         add(put_in, claims, name)
     for each in list(found[:6]):
-        if sympy.count_ops(each.value) > LARGEST_CONSTRAINT:
-            continue
+        if sympy.count_ops(each.value) > LARGEST_CONSTRAINT or known.here & set(each.claims):
+            continue  # what holds at one instant has no rate
         for rate in rates(each.value, meaning, known):
             add(rate, each.claims, OF_RATES)
     return found[: 2 * MOST_EQUATIONS]
@@ -98,11 +98,11 @@ def expanded(
         for symbol in sorted(value.free_symbols, key=str):
             if symbol == without:
                 continue
-            definition = known.latest(symbol)
+            definition = known.surely(symbol) if sure else known.latest(symbol)
             if definition is not None and symbol not in definition.value.free_symbols:
                 if without is not None and without in definition.value.free_symbols:
                     continue
-                if sure and (definition.claim in known.conditions or _is_solution(symbol, definition.value, known)):
+                if sure and definition.claim not in known.here and _is_solution(symbol, definition.value, known):
                     continue
                 found[symbol] = definition.value
                 used.append(definition.claim)

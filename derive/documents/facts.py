@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
+from itertools import pairwise
 
 from derive.documents.syntax import (
     Add,
@@ -34,6 +35,7 @@ Identity = tuple[str, str, frozenset[str], int, str]
 UNKNOWN: Identity = ("?", "", frozenset(), 0, "")  # the variable of a function where only its value is written: V(q_r)
 VARIABLES = frozenset({"t", "x", "y", "z", "r", "s", "theta", "phi", "q", "u", "tau"})
 KINDS = ("positive", "real", "integer", "constant", "changes", "vector", "tensor")
+TENSORS = ("I", "J", "Theta")
 ANGLES = frozenset({"theta", "phi", "psi", "alpha", "beta", "gamma", "chi"})
 
 
@@ -42,6 +44,7 @@ class Facts:
     functions: defaultdict[Identity, Counter[Identity]] = field(default_factory=lambda: defaultdict(Counter))
     products: Counter[Identity] = field(default_factory=Counter)  # letters before a bracket that is a factor
     timed: set[tuple[str, str, frozenset[str], str]] = field(default_factory=set)
+    tensors: set[Identity] = field(default_factory=set)  # bold letters before a vector, without a dot or a cross
     marked: set[Identity] = field(default_factory=set)  # letters that an arrow or bold type marks as vectors
     shapes: dict[tuple[int, Identity], tuple[int, int]] = field(default_factory=dict)  # scope and letter -> its shape
     whole_arguments: Counter[Identity] = field(default_factory=Counter)
@@ -98,7 +101,7 @@ class Facts:
             return kind == "vector"
         shape = self.shape(letter, scope)
         if shape is None:
-            return "vec" in letter.marks and "hat" not in letter.marks
+            return "vec" in letter.marks and "hat" not in letter.marks and letter.identity not in self.tensors
         return shape[1] == 1
 
     @property
@@ -110,7 +113,21 @@ class Facts:
         if kind := self.kind_of(letter):
             return kind == "tensor"
         shape = self.shape(letter, scope)
-        return shape is not None and shape[1] > 1
+        return letter.identity in self.tensors if shape is None else shape[1] > 1
+
+    def entries(self, letter: Letter) -> list[list[str]] | None:
+        """Return the indices of the entries of an inertia tensor, such as `xx`, with which the document writes them.
+
+        An entry that the document never writes is empty: it is zero, or `yy` is equal to `xx`. The result is None if
+        the document writes neither `I_xx` and `I_zz` nor the principal moments `I_1`, `I_2` and `I_3`."""
+        written = {sub for base, sub, marks, _, label in self.seen if base == letter.base and not marks and not label}
+        if {"xx", "zz"} <= written:
+            found = [[a + b if a + b in written else b + a if b + a in written else "" for b in "xyz"] for a in "xyz"]
+            found[1][1] = found[1][1] or "xx"
+            return found
+        if {"1", "2", "3"} <= written:
+            return [[a if a == b else "" for b in "123"] for a in "123"]
+        return None
 
 
 def _timeless(letter: Letter) -> tuple[str, str, frozenset[str], str]:
@@ -185,6 +202,11 @@ def _look_at(node: Node, facts: Facts) -> None:
             facts.timed.add(_timeless(node))
         if "vec" in node.marks:
             facts.marked.add(node.identity)
+    elif isinstance(node, Mul):
+        for (_, one), (mark, other) in pairwise(node.factors):
+            if isinstance(one, Letter) and isinstance(other, Letter) and not mark and one.base in TENSORS:
+                if "vec" in one.marks and "vec" in other.marks:
+                    facts.tensors.add(one.identity)
     elif isinstance(node, Open) and node.kind == "apply":
         call, product = node.alternatives
         _look_at_call(call, product, facts)

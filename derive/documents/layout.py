@@ -218,7 +218,7 @@ _PART = re.compile(
 )
 _LEVELS = {"part": 0, "chapter": 0, "section": 1, "subsection": 2, "subsubsection": 3, "paragraph": 4}
 _LINE_BREAK = re.compile(r"\n[ \t]*\n")
-_CARRIED_ON = re.compile(r"\$[ ~]*=[ ~]*\$[^$\n]+\$")  # a relation between two formulas of a sentence: `$a$~=~$b$`
+_CARRIED_ON = re.compile(r"\$[ ~{}]*=[ ~{}]*\$[^$\n]+\$")  # a relation between two formulas of a sentence: `$a$~=~$b$`
 
 
 def read_document(source: Source) -> Document:

@@ -180,6 +180,11 @@ class Meaning:
             if self.facts.changes(node):
                 self.facts.timed |= {(each.base, each.sub, each.marks, each.label) for each in entries}
             return ImmutableDenseMatrix([self.symbol(each) for each in entries])
+        named = self.facts.entries(plain) if rows == columns == 3 and node.identity in self.facts.tensors else None
+        if named is not None:
+            return ImmutableDenseMatrix(3, 3, lambda i, j: self.symbol(
+                _replaced(plain, sub=named[i][j])
+            ) if named[i][j] else Integer(0))  # fmt: skip
         return ImmutableDenseMatrix(rows, columns, lambda i, j: self.symbol(
             _replaced(plain, sub=_indexed(node.sub, f"{i + 1}{j + 1}"))
         ))  # fmt: skip

@@ -58,6 +58,11 @@ $$ m \ddot x + k x = 0. $$
             r"$$ T = \frac{1}{2} m v^2 = \frac{1}{2} m l \dot\theta^2 $$",
         ),
         (
+            "The kinetic energy is\n",
+            r"$$ T = \frac12 m v^2 (1 - \cos^2\theta) = \frac12 m v^2 \sin^2\theta $$",
+            r"$$ T = \frac12 m v^2 (1 - \cos^2\theta) = \frac12 m v^2 \sin\theta $$",
+        ),
+        (
             "$$\n\\begin{aligned}\n2 m l \\ddot\\theta + m g \\theta &= 0 \\\\\n",
             "\\ddot\\theta + \\frac{g}{2 l} \\theta &= 0\n\\end{aligned}\n$$",
             "\\ddot\\theta + \\frac{g}{l} \\theta &= 0\n\\end{aligned}\n$$",
@@ -102,7 +107,9 @@ $$ m \ddot x + k x = 0. $$
         ),
     ],
     ids=[
-        "Lagrange", "Lagrange, solved", "a system", "a force", "a root", "a square", "the row above", "a Lagrangian",
+        "Lagrange", "Lagrange, solved", "a system", "a force", "a root", "a square", "a power of a sine",
+        "the row above",
+        "a Lagrangian",
         "a letter twice", "a lost term", "an approximation", "an index", "a period", "a frequency", "an oscillation",
         "a motion", "a linear equation", "T - U", "a lost letter", "a differential", "a strange letter",
     ],
@@ -122,6 +129,7 @@ def test_the_sentence_after_a_display_explains_its_letters() -> None:
     assert [str(each.verdict.outcome) for each in audit(EXPLAINED).claims if each.verdict][:2] == ["defines", "holds"]
     (claim,) = wrong(EXPLAINED.replace("{3}", "{4}"))
     assert claim.number == 1
+    assert len(wrong(EXPLAINED.replace("{3}", "{4}").replace(" = $M/l$", " ={~}$M/l$"))) == 1
 
 
 def test_the_motion_or_its_velocity_is_wrong() -> None:
@@ -170,6 +178,68 @@ def test_a_law_is_blamed_if_a_later_row_shows_its_slip() -> None:
     assert [each.row.line for each in wrong(text)] == [3]
 
 
+VALUE_BELOW_FORMULA = (
+    "The point has the speed $v = l \\dot\\theta$. The energies are\n"
+    "$$ T = \\frac12 m v^2 \\qquad U = m g l \\theta^2 $$\n"
+    "$$\n\\begin{aligned}\nE &= T + U \\\\\nE &= \\frac12 m l^2 \\dot\\theta^2 + m g l \\theta^2\n"
+    "\\end{aligned}\n$$\nSo the power is\n"
+    "$$ \\dot E = m l^2 \\dot\\theta \\ddot\\theta + 2 m g l \\theta \\dot\\theta $$"
+)
+
+
+@pytest.mark.parametrize(
+    ("right", "slip", "line"), [("E &= T + U", "E &= T", 5), ("+ m g l \\theta^2\n", "+ m g l \\theta^3\n", 6)]
+)
+def test_a_formula_and_the_value_below_it_agree(right: str, slip: str, line: int) -> None:
+    assert wrong(VALUE_BELOW_FORMULA) == []
+    (claim,) = wrong(VALUE_BELOW_FORMULA.replace(right, slip))
+    assert claim.row.line == line
+
+
+PLATE = (
+    "A disc has the moments of inertia\n$$ I_{xx} = \\frac14 M R^2 $$\nand\n$$ I_{zz} = \\frac12 M R^2. $$\n"
+    "Its angular velocity is\n$$ \\bm{\\omega} = \\begin{pmatrix} \\omega \\\\ 0 \\\\ 2 \\omega \\end{pmatrix}, $$\n"
+    "so its angular momentum is\n$$ \\bm{L} = \\mathbf{I} \\bm{\\omega} = "
+    "\\frac14 M R^2 \\omega \\begin{pmatrix} 1 \\\\ 0 \\\\ 4 \\end{pmatrix} $$\n"
+)
+
+
+def test_a_bold_letter_before_a_vector_is_a_tensor_with_the_entries_of_the_text() -> None:
+    assert [str(each.verdict.outcome) for each in audit(PLATE).claims if each.verdict][-1] == "holds"
+    for right, slip, line in (("4 \\end", "3 \\end", 8), ("R^2 $$", "R $$", 2)):
+        (claim,) = wrong(PLATE.replace(right, slip))
+        assert claim.row.line == line
+
+
+def test_a_formula_of_a_sentence_and_the_display_after_it_agree() -> None:
+    text = (
+        "The frequency is\n$$ \\omega_0 = \\sqrt{k/m} $$\n"
+        "So $y = b \\cos(\\omega_0 t)$, or\n$$ y = b \\cos(\\sqrt{k/m}\\, t) $$"
+    )
+    assert wrong(text) == []
+    (claim,) = wrong(text.replace("y = b \\cos(\\sq", "y = b \\sin(\\sq"))
+    assert claim.row.line == 4
+
+
+def test_a_condition_of_a_sentence_holds_in_the_display_after_it() -> None:
+    text = (
+        "Newton's law is\n$$ m (\\ddot r - r \\dot\\theta^2) = S - m g \\cos\\theta $$\n"
+        "With $r = l$ and $\\ddot r = 0$ this gives\n$$ S = m (g \\cos\\theta - l \\dot\\theta^2) $$"
+    )
+    assert wrong(text) == []
+    (claim,) = wrong(text.replace("\\theta - l", "\\theta + l"))
+    assert claim.row.line == 4
+
+
+def test_a_value_in_another_part_is_doubted_if_one_change_gives_the_earlier_value() -> None:
+    text = LAGRANGIAN + "(a) The period is\n$$ \\tau = 2\\pi \\sqrt{m/k} $$\n(b) So\n$$ \\tau = 2\\pi \\sqrt{m/k} $$"
+    first, second = text.rsplit("2\\pi", 1)
+    outcomes = [str(each.verdict.outcome) for each in audit(first + "3\\pi" + second).claims if each.verdict]
+    assert outcomes[-1] == "undecided"
+    outcomes = [str(each.verdict.outcome) for each in audit(first + "\\frac{b}{g}" + second).claims if each.verdict]
+    assert outcomes[-1] == "defines"
+
+
 def test_a_row_with_other_dimensions_than_the_rest_is_blamed() -> None:
     text = (
         "A pendulum has the length $l$ and the mass $m$.\n\n$$ T = \\frac12 m l^3 \\dot\\theta^2 $$\n\n"
@@ -189,6 +259,9 @@ def test_a_row_with_other_dimensions_than_the_rest_is_blamed() -> None:
         "For the disc $I = \\frac12 M R^2$ and for the ring $I = M R^2$.",
         "At first $x = 0$ and $\\dot x = v$. Later $x = v t$.",
         "If $b = l$, then\n$$ \\dot\\theta = 2 b = 2 l $$\nA blow at $b = 0$ gives $\\dot\\theta = 0$.",
+        "At $\\theta = \\phi = 0$ the momenta are\n$$ 3 \\dot\\theta + 2 \\dot\\phi = J $$\n"
+        "$$ 2 \\dot\\theta + 5 \\dot\\phi = 0 $$\n"
+        "If the rod is held, then $\\dot\\phi = 2 J$ and $\\dot\\theta = 3 J$.",
         ATWOOD + "If the masses are equal, $m_1 = m_2$, then\n$$ \\ddot x = 0 $$",
         LAGRANGIAN + "With friction $F$ the equation of motion is\n$$ m \\ddot x = -k x - F $$",
     ],
