@@ -71,8 +71,8 @@ class Shortened:
 def shortened(
     value: Any, quantities: Mapping[Symbol, Expr], kept: Collection[Symbol] = (), only_whole: bool = False
 ) -> Shortened | None:
-    """Return the shortest form found for an expression or a relation in which quantities replace symbols; None if no
-    shorter form is found.
+    """Replace symbols of an expression or a relation by quantities, and return the shortest form that is found; None if
+    no form is shorter.
 
     quantities   symbol -> its value in other symbols
     kept         symbols that must not be eliminated, such as the coordinates

@@ -692,8 +692,8 @@ class Decision:
         return Verdict(Outcome.UNDECIDED, "an equation that does not follow from the rows before it")
 
     def has_negative_square(self, new: list[Symbol]) -> int | None:
-        """Return the number of an earlier equation of motion with which the only new letter, such as the frequency in
-        `x'' + w^2 x = 0`, would have a negative square; otherwise None."""
+        """Return the number of the earlier equation of motion that would make the square of the only new letter
+        negative, such as w^2 in `x'' + w^2 x = 0`; None if there is no such equation."""
         if len(new) != 1 or isinstance(self.difference, MatrixBase) or not new[0].is_positive:
             return None
         here = sympy.expand(self.difference)

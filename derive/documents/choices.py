@@ -168,7 +168,7 @@ def _word(node: Open, facts: Facts) -> tuple[int, str, bool]:
     product = node.alternatives[1]
     assert isinstance(product, Mul)
     if all(isinstance(each, Letter) and facts.seen[each.identity] > 1 for _, each in product.factors):
-        return 1, "each of its letters occurs alone", False
+        return 1, "each of its letters also occurs elsewhere", False
     return 0, "a name", True
 
 

@@ -257,7 +257,7 @@ class _Reader:
     def ends(self) -> bool:
         token, rest = self.peek(), self.tokens[self.at : self.at + 4]
         if token is None or (len(rest) < 4 and all(each.is_command(*IGNORED) for each in rest)):
-            return True  # only sizes of brackets and marks of rows follow
+            return True  # only ignored commands follow, such as \bigr or \notag
         if token.kind in (Kind.CLOSE, Kind.CELL):
             return True
         if token.kind is Kind.MARK:

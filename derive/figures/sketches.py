@@ -441,9 +441,9 @@ class _Scene:
         """Return the two ends of the dimension line of a length q; None if q cannot be shown in this way.
 
         The ends are the two ends of a piece of a rope, or the positions of one point at q = 0 and at the drawn value of
-        q. The point is a mass, the point at which a body is placed, or the end of a string or a rod. The position at
-        q = 0 has a constant distance along the line from the origin or from another drawn place; otherwise the line
-        would seem to measure another length.
+        q. The point is a mass, the point at which a body is placed, or the end of a string or a rod. Measured
+        along the dimension line, the position at q = 0 has a constant distance from the origin or from another drawn
+        place; otherwise the dimension line would seem to measure another length.
         """
         found = []
         if (piece := self.connections.rope_piece(q)) is not None:

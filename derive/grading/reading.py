@@ -165,7 +165,7 @@ class _InProblem(Meaning):
             return base.T
         if isinstance(exponent, Expr) and exponent.is_Number and abs(exponent) > HIGHEST_POWER:
             if not (base == 10 and abs(exponent) <= 300):
-                raise Meaningless(f"too large: a power is at most {HIGHEST_POWER}", node.exponent.span)
+                raise Meaningless(f"too large: an exponent is at most {HIGHEST_POWER}", node.exponent.span)
         if isinstance(base, Rational) and exponent.is_Number and _bits(base) * abs(exponent) > MOST_BITS:
             raise Meaningless("too large: this number has too many digits", node.span)
         if base == 10 and exponent.is_Integer:
@@ -297,6 +297,6 @@ def _check_size(value: Any, span: Span) -> None:
             if node.is_Pow and node.exp.is_Number:
                 power, terms = abs(node.exp), len(node.base.args) if node.base.is_Add else 1
                 if power > HIGHEST_POWER and not node.base.is_Number:
-                    raise Meaningless(f"too large: a power is at most {HIGHEST_POWER}", span)
+                    raise Meaningless(f"too large: an exponent is at most {HIGHEST_POWER}", span)
                 if terms > 1 and sympy.binomial(int(power) + terms, terms) > MOST_TERMS:
                     raise Meaningless("too large: this power of a sum has too many terms", span)

@@ -513,8 +513,8 @@ def letters_put_equal(roles: Sequence[tuple[str, Any]]) -> list[tuple[str, Any]]
 
 
 def in_turn(step: Step, following: Iterable[Step], words: Phrases) -> dict[str, tuple[Inline, ...]]:
-    """Return names for a step and the following steps that share its sentence. For example, `together` is the list of
-    their coordinates, `theta, x and y`."""
+    """Return the names that a sentence of a step and the following steps may contain, with their values. For example,
+    `together` is the list of their coordinates, `theta, x and y`."""
     steps = [step]
     for each in following:
         if each.rule != step.rule or words.phrase(each, steps[-1]) != JOINED:

@@ -62,7 +62,7 @@ _TOGETHER = {
     "body": "must belong to one body",
     "mass": "must belong to one mass",
     "point": "must be about one point",
-    "axes": "must be along the same axes",
+    "axes": "must have components along the same axes",
     "rotation": "must belong to one rotation",
     "place": "must belong to one motion of the centre of mass",
 }

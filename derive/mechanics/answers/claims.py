@@ -455,7 +455,7 @@ def highest_power(facts: Judged, power: Any) -> bool:
 
 
 def for_short_times(facts: Judged, time: Any) -> bool:
-    """Whether the time is the inverse of the small letter, and the terms that are left out change with the time."""
+    """Whether the stated time is the inverse of the small letter, and the terms that are left out depend on t."""
     left_out = tidied(explicit(facts.inputs["value"]) - explicit(facts.inputs["kept"]))
     return is_zero(time * facts.inputs["letter"] - 1) and depends_on_time(left_out)
 

@@ -181,7 +181,7 @@ def by_its_coordinate(facts: Judged, outcome: str) -> bool:
 
 
 def parts_of_the_kinetic_energy(facts: Judged, _: str) -> bool:
-    """Whether the word `made` fits the parts of the kinetic energy."""
+    """Whether the value of the word `made` (`any`, `both`, `axis` or `point`) fits the parts of the kinetic energy."""
     system, made = facts.subject.body, facts.words["made"]
     if made == "any":
         return True

@@ -57,7 +57,7 @@ __all__ = ["accelerations", "constraint_force", "constraint_rate", "multipliers"
 ZERO = Integer(0)
 MOST = 9  # greatest number of unknowns in one linear system
 MOST_NAMED = 6  # greatest number of equations that a sentence names
-MOST_WITH_ROOTS = 250  # greatest number of operations in a solution with different roots
+MOST_WITH_ROOTS = 250  # greatest number of operations in a solution with several roots of sums, such as sqrt(a + b)
 MOST_SUBSTITUTED = 4  # greatest number of substitutions that a sentence states
 
 

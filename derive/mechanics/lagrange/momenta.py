@@ -47,7 +47,7 @@ def conjugate(of: Coordinate) -> Coordinate:
 
     of   the coordinate, such as an angle or a length
 
-    Errors: no kind of quantity is the momentum of this coordinate.
+    Errors: the momentum of this coordinate has none of the known kinds.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.1.
     """
     kind = kind_of_momentum(of.kind)

@@ -178,7 +178,11 @@ def dashpot(constant: Any, start: Any, end: Any, massless: bool = False) -> tupl
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, section 11.3.
     """
     if not all(map(is_end, (start, end))):
-        raise Rejected(Complaint("wrong-argument", "`dashpot` must end at particles, points of bodies, or places"))
+        raise Rejected(
+            Complaint(
+                "wrong-argument", "each end of a `dashpot` must be a particle, a body, a point of a body or a place"
+            )
+        )
     ends = end_of(start), end_of(end)
     if not massless:
         require_bodies("dashpot", ends, "; a joint without mass needs `massless: true`")

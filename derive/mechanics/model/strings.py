@@ -481,7 +481,7 @@ def wound_string(end: Any, on: Any, tension: str = "T", over: Sequence[Any] = ()
     other = (*over,) if end is None else (end, *over)
     flat = all(isinstance(each, PlacedBody) and each.is_plane for each in rims)
     if not flat or len(rims) != 1 + (end is None):
-        message = "`wound_string` needs, in a plane, an end and one round body, or no end and two round bodies"
+        message = "`wound_string` is for motion in a plane, with an end and one round body or two round bodies"
         raise Rejected(Complaint("wrong-argument", message))
     if not all(is_end(each) or isinstance(each, Pulley) and each in over for each in other):
         message = "`end` of a `wound_string` must be a particle, a point of a body or a place; `over` may name pulleys"

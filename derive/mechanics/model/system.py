@@ -92,8 +92,8 @@ class MovingBody(Part):
 
     @property
     def mass_points(self) -> Sequence[MassPoint]:
-        """The mass points that represent the body: its mass at the centre of mass, and points weighted by second
-        moments, at the ends of vectors from the origin that rotate with the body."""
+        """The mass points that represent the body. One has its mass and is at the centre of mass. The others have
+        second moments as weights, and are at the ends of vectors that start at the origin and rotate with the body."""
         placed = self.placed
         spread = central_second_moments(placed.body)
         points = [MassPoint(placed.body.mass, placed.centre.components)]

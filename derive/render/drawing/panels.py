@@ -495,7 +495,8 @@ def _ticks(low: float, high: float, most: float, in_degrees: bool, room: tuple[f
 
 
 def _name_of_place(extremum: Extremum, axis: Axis, ticks: Ticks, notation: Notation) -> tuple[str, ...]:
-    """Return the place of an extremum: `r_0 = 0.589 m`, or shorter `r_0`; without a symbol `54.6°`."""
+    """Return the possible names of the place of an extremum, the longest first: `r_0 = 0.589 m` and `r_0`; without a
+    symbol `54.6°`."""
     x = extremum.at * axis.per_unit
     is_unit = axis.per is not None and (extremum.name is not None or abs(x - 1) < AT_TICK)
     has_no_value = is_unit or _has_tick(x, ticks)
