@@ -91,14 +91,15 @@ def _checked(root: Path, problem: str, name: Word, faults: Faults) -> tuple[str,
     content, wrong = _content(root, problem, name, faults), ""
     if content is None:
         return None
+    help_line = f"save the figure again as {kind.upper()}"
     if kind == "svg":
-        content, wrong = shapes_of(content)
+        (content, wrong), help_line = shapes_of(content), "save it again as plain SVG, without links"
     elif not content.startswith(_BEGINS[kind]):
         wrong = f"is not a {kind.upper()} file"
     elif kind == "png" and _pixels(content) > MOST_PIXELS:
         wrong = f"has more than {MOST_PIXELS // 10**6} million pixels"
+        help_line = "save it again with fewer pixels"
     if wrong:
-        help_line = "save it again as plain SVG, without links" if kind == "svg" else "save it again in this format"
         faults.error("figure", f"`{name}` {wrong}", name.place, help=help_line)
         return None
     return kind, content

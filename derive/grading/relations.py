@@ -197,7 +197,7 @@ def _wrong_equation(comparison: _Comparison, typed: Relation, goal: Relation) ->
         if other.is_relation and other.key != comparison.target.key and other.value != comparison.target.value:
             if _are_equivalent(typed, other.value):
                 where = f" of part ({other.label})" if other.label else ""
-                return Verdict(Outcome.ANOTHER, f"it is an equation{where}: {other.text[:160]}")
+                return Verdict(Outcome.ANOTHER, f"it is another equation{where}: {other.text[:160]}")
     dimensions = _inhomogeneous(comparison, typed)
     if dimensions is not None:
         return dimensions

@@ -244,7 +244,7 @@ def _cases(problem: Problem, drawing: m.Recorded) -> list[Complaint]:
     if placement is None or not isinstance(drawing, m.Plot):
         return found
     before: list[dict[Symbol, Expr]] = []
-    of_several = bool(drawing.others)  # each case belongs to another quantity
+    of_several = bool(drawing.others)  # each case belongs to a different quantity
     for i, case in enumerate(placement.cases):
         for number in (each for each in case if each.symbol == drawing.variable):
             along = "the horizontal axis of" if drawing.across is None else "the path"

@@ -138,7 +138,7 @@ def _squared_speed(system: System, mover: Mover) -> Quantity:
         outcome="of_centre" if mover.is_body else "of_particle",
         routes={"functions_of_time": compared_with(matter.kinetic_energy)},
         lines=Lines(
-            law=Level.BRIEF if velocity else Level.FULL,  # the sentence already states the position
+            law=Level.BRIEF if velocity else Level.FULL,  # without velocities the sentence states the position
             put_in=Level.STANDARD if velocity else None,
             between=_multiplied_out([v.value for v in velocity]) if velocity else _differentiated(at.values(), moving),
             arranged=lambda value: by_rates(value, moving),

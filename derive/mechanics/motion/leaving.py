@@ -255,7 +255,8 @@ def _turns_back(force: Quantity, unknown: Expr, ends: tuple[Expr, Expr], squared
 def _held(value: Expr, unknown: Expr) -> tuple[Expr, Expr]:
     """Split off factors known to be positive: sin(theta) (a cos(theta) - b) gives sin(theta) and a cos(theta) - b.
 
-    Factors that contain the unknown are split off too, such as 1/sqrt(b^2 + x^2) on a parabola.
+    The unknown is cos(theta) here. Positive factors that contain the unknown are split off too, such as
+    1/sqrt(b^2 + x^2) for the unknown x.
     """
     u = mark_for(unknown)
     rest, beside = without_factors_beside(with_unknown(value, unknown, u), unknown, u)
