@@ -718,7 +718,7 @@ def statements_of(cells: list[list[Token]], row: Row, before: Statement | None) 
                 else:
                     if (
                         len(previous.sides) > 1 and not previous.sides[-1].tokens
-                    ):  # a line break after a relation, which the next line repeats
+                    ):  # repeated after a line break
                         del previous.sides[-1], previous.relations[-1]
                     statement.follows = previous
                     statement.sides[0] = previous.sides[-1]
