@@ -9,6 +9,7 @@ a drawing to a later part.
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from math import gcd
@@ -25,7 +26,7 @@ from derive.errors import Complaint, Place, Rejected, did_you_mean, nearest
 from derive.figures import marks as m
 from derive.figures.annotations import PositiveDirection, PositiveRotation
 from derive.figures.branches import BranchLine
-from derive.figures.extrema import MINIMUM
+from derive.figures.extrema import MAXIMUM, MINIMUM
 from derive.figures.parts import BarMark
 from derive.figures.polhodes import order_of
 from derive.figures.surfaces import ThinRod
@@ -756,8 +757,9 @@ def _turns(plot: m.Plot, curves: Curves, curve: Curve, words: Phrases) -> list[t
 
 def _told_of_curves(curves: Curves, words: Phrases) -> tuple[Inline, ...]:
     """Return the meaning of the dots, and the numbers that all curves of a plot share."""
-    kinds = {turn.kind for curve in curves.curves for turn in curve.marked}
-    dots = [filled(words.drawings["filled_and_open"], {"filled": MINIMUM in kinds})] if curves.has_unstable else []
+    kinds = Counter(turn.kind for curve in curves.curves for turn in curve.marked)
+    counts = {"filled": kinds[MINIMUM], "open": kinds[MAXIMUM]}
+    dots = [filled(words.drawings["filled_and_open"], counts)] if curves.has_unstable else []
     told = (*dots, *_shared(curves, words))
     return tuple(node for nodes in told for node in (Text(" "), *nodes))
 

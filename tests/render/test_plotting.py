@@ -16,7 +16,10 @@ from derive.errors import Place, Rejected
 from derive.figures.encoding import drawings_from_data, drawings_to_data
 from derive.figures.marks import Across, Further, Levels, Outline, Plot
 from derive.figures.pieces import Bullet, Stroke
+from derive.page.depiction import _told_of_curves as told_of_curves
 from derive.page.plots import Curves, curves_of
+from derive.page.template import templates_of
+from derive.page.wording import Text, phrases
 from derive.render.drawing import canvas, plotting
 from derive.render.drawing.canvas import LINE
 from derive.render.drawing.curve_names import STUB, on_curve
@@ -38,6 +41,7 @@ from derive.render.drawing.plotting import (
 )
 from derive.render.drawing.sheets import Extent, Shape, Sheet, extent_of, sheet_of_shapes
 from derive.render.notation.notation import Notation
+from tests.courses import ROOT
 
 theta = Symbol("theta", real=True)
 V = Symbol("V")
@@ -544,6 +548,21 @@ def test_the_dots_of_unstable_equilibria_are_open_and_the_dots_of_other_maxima_a
     assert curves(energy, 1).has_unstable and panels(energy)[0].has_open
     assert not curves(plot_of(cos(2 * theta), -pi, pi), 1).has_unstable, "V is not a potential energy"
     assert not curves(replace(energy, expr=theta**2), 1).has_unstable
+
+
+@pytest.mark.parametrize(
+    ("ends", "told"),
+    [
+        ((-pi / 4, 5 * pi / 4), "The filled dot shows a stable equilibrium, open dots unstable ones."),
+        ((-pi / 4, 3 * pi / 4), "The filled dot shows a stable equilibrium, the open dot an unstable one."),
+        ((-3 * pi / 4, 3 * pi / 4), "Filled dots show stable equilibria, the open dot an unstable one."),
+        ((-pi / 4, pi / 4), "An open dot shows an unstable equilibrium."),
+    ],
+)
+def test_the_words_for_the_dots_depend_on_their_numbers(ends: tuple[Expr, Expr], told: str) -> None:
+    energy = replace(plot_of(cos(2 * theta), *ends), label=Symbol("U_eff"))
+    words = told_of_curves(curves(energy, 1), phrases(templates_of(ROOT)))
+    assert "".join(each.text for each in words if isinstance(each, Text)).strip() == told
 
 
 def test_a_curve_keeps_a_value_after_its_range() -> None:

@@ -75,20 +75,19 @@ def test_the_key_has_an_effect_only_on_a_standard_shape(tmp_path: Path) -> None:
 
 
 CLOCK = (ROOT / "problems" / "library" / "bodies" / "clock_pendulum.yaml").read_text(encoding="utf-8")
-PARTS = edited(CLOCK, ("  rod_moment_z: hidden\n  disc_moment_z: hidden\n", ""))
 
 
 def test_the_moments_of_parts_are_quoted_too_unless_the_author_asks_for_the_integral(tmp_path: Path) -> None:
-    text = page(tmp_path, PARTS)
+    text = page(tmp_path, CLOCK)
     assert "The moment of inertia of a uniform rod about its centre is" in text and "∫" not in text
-    one = page(tmp_path / "one", edited(PARTS, ("shape: disc, radius", "derive: true, shape: disc, radius")))
+    one = page(tmp_path / "one", edited(CLOCK, ("shape: disc, radius", "derive: true, shape: disc, radius")))
     assert "λ" not in one and "where σ_disc = M/(π R²)" in one
 
 
 def test_the_key_has_an_effect_only_on_a_standard_part(tmp_path: Path) -> None:
-    text = edited(PARTS, ("{shape: disc, radius: R,", "{shape: cone, radius: R, height: R, derive: true,"))
+    text = edited(CLOCK, ("{shape: disc, radius: R,", "{shape: cone, radius: R, height: R, derive: true,"))
     assert any("`derive` has no effect" in each.message for each in complaints(tmp_path, text))
 
 
 def test_a_fraction_has_no_fraction_in_its_numerator(tmp_path: Path) -> None:
-    assert "(M + m/2)" not in page(tmp_path, PARTS)
+    assert "(M + m/2)" not in page(tmp_path, CLOCK)
