@@ -716,9 +716,7 @@ def statements_of(cells: list[list[Token]], row: Row, before: Statement | None) 
                     if not statement.sides:
                         continue
                 else:
-                    if (
-                        len(previous.sides) > 1 and not previous.sides[-1].tokens
-                    ):  # repeated after a line break
+                    if len(previous.sides) > 1 and not previous.sides[-1].tokens:  # repeated after a line break
                         del previous.sides[-1], previous.relations[-1]
                     statement.follows = previous
                     statement.sides[0] = previous.sides[-1]
