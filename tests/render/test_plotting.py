@@ -553,9 +553,12 @@ def test_the_dots_of_unstable_equilibria_are_open_and_the_dots_of_other_maxima_a
 @pytest.mark.parametrize(
     ("ends", "told"),
     [
-        ((-pi / 4, 5 * pi / 4), "The filled dot shows a stable equilibrium, open dots unstable ones."),
-        ((-pi / 4, 3 * pi / 4), "The filled dot shows a stable equilibrium, the open dot an unstable one."),
-        ((-3 * pi / 4, 3 * pi / 4), "Filled dots show stable equilibria, the open dot an unstable one."),
+        ((-pi / 4, 5 * pi / 4), "The filled dot at the minimum shows a stable equilibrium, open dots unstable ones."),
+        (
+            (-pi / 4, 3 * pi / 4),
+            "The filled dot at the minimum shows a stable equilibrium, the open dot an unstable one.",
+        ),
+        ((-3 * pi / 4, 3 * pi / 4), "Filled dots at minima show stable equilibria, the open dot an unstable one."),
         ((-pi / 4, pi / 4), "An open dot shows an unstable equilibrium."),
     ],
 )
