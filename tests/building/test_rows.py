@@ -18,7 +18,6 @@ from tests.courses import course_in, rendered_once
 PROBLEMS, LEVELS = ("block", "cone", "euler", "slab", "top"), ("brief", "standard", "full")
 LEAST_SCALE = 0.75  # below which letters are too small to read
 TOLERATED = 1.0  # points
-CLEAR_OF_NUMBER = 22.0  # points between the line of the page number and the last line above it
 
 Logged = tuple[str, Path]
 
@@ -70,12 +69,6 @@ def test_every_letter_stands_on_the_paper(logged: Logged) -> None:
         width, height = float(page.mediabox.width), float(page.mediabox.height)
         assert places(page)
         assert [(x, y) for x, y in places(page) if not (0 < x < width and 0 < y < height)] == [], number
-
-
-def test_the_number_of_a_page_is_clear_of_its_last_row(logged: Logged) -> None:
-    for number, page in enumerate(PdfReader(logged[1]).pages, 1):
-        foot, *above = sorted({round(y, 1) for _, y in places(page)})
-        assert above[0] - foot >= CLEAR_OF_NUMBER, number
 
 
 @pytest.mark.parametrize(("formula", "smaller"), [(r"\sqrt{%s}", True), ("%s", True), (r"x\mbox{%.0s}", False)])
