@@ -41,7 +41,7 @@ _COMMANDS = {
 _ALSO = ("why", "schema", "doctor", "clean", "completion")
 
 _AFTERWARDS = """\
-also: why (a page is out of date), schema, doctor (what is missing), clean, completion
+also: why (a page is old), schema, doctor (what is missing), clean, completion
 example: derive new hw10/wheel --like body, then derive preview hw10/wheel
 environment: DERIVE_ENGINE, DERIVE_ROOT, DERIVE_MEMORY, DERIVE_DEBUG, NO_COLOR
 options: --version, --root FOLDER; exit codes: 0 fine, 1 failure, 2 wrong usage
