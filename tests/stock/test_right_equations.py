@@ -10,6 +10,7 @@ from sympy import Expr, Float, cos, sin, solve, sqrt, symbols
 from derive.algebra.equality import equal
 from derive.algebra.expressions import Relation, explicit
 from derive.errors import DeriveError
+from derive.mechanics.model import system
 from tests.stock.described import solved
 
 m, M, k, g, mu = symbols("m M k g mu", positive=True)
@@ -288,4 +289,14 @@ def test_a_board_on_two_rollers_has_four_conditions_of_rolling(tmp_path: Path) -
 def test_conditions_of_rolling_must_not_relate_the_coordinates_that_are_left(tmp_path: Path) -> None:
     given = BOARD.format(more=", x: length", first="x")
     with pytest.raises(DeriveError, match="also determine x, which is s/2 plus a constant"):
+        solved(tmp_path, problem(LETTERS_OF_BOARD, given, "acceleration_s"))
+
+
+def test_a_lost_condition_of_rolling_contradicts_the_described_motion(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The witness has all conditions as they were given: an engine that keeps the last one for each angle is refused."""
+    monkeypatch.setattr(system, "_known_by_all", lambda conditions: dict(map(system._known_by, conditions)))
+    given = BOARD.format(more=", x: length", first="x")
+    with pytest.raises(DeriveError, match="contradicts the motion"):
         solved(tmp_path, problem(LETTERS_OF_BOARD, given, "acceleration_s"))

@@ -61,7 +61,7 @@ class WithoutBodies:
     def described(self) -> Described:
         """Return the input of the witness, an independent numerical check: the function, and the forces along its
         coordinates."""
-        return Described(described((*self.given_forces, *self.dampers), (), {}, self.coordinates, self.function))
+        return Described(described((*self.given_forces, *self.dampers), (), (), self.coordinates, self.function))
 
 
 GIVEN_LAGRANGIAN = Rule(

@@ -68,18 +68,21 @@ def letter_of_momentum(q: Symbol) -> Symbol:
 def described(
     parts: Sequence[Part],
     bodies: Sequence[Any],
-    known: Mapping[Symbol, Expr],
+    expressed: Sequence[tuple[Symbol, Expr]],
     coordinates: Mapping[Symbol, str],
     lagrangian: Expr | None = None,
 ) -> plain.Description:
     """Return the description that the witness uses: particles, bodies and forces, or a given Lagrangian and forces.
 
-    bodies   those parts of the system that are bodies
-    known    coordinate -> its formula in other coordinates; the description contains this equation as a condition
+    bodies      those parts of the system that are bodies
+    expressed   conditions that express a coordinate by others: the coordinate and its formula
     """
-    found: dict[str, list[Any]] = {
-        "conditions": [plain.Condition(q - function, expresses=q) for q, function in known.items()]
-    }
+    first = dict(reversed([(q, i) for i, (q, _) in enumerate(expressed)]))  # the first condition for each coordinate
+    conditions = [
+        plain.Condition(q - function, expresses=q if first[q] == i else None)
+        for i, (q, function) in enumerate(expressed)
+    ]
+    found: dict[str, list[Any]] = {"conditions": conditions}
     for part in parts:
         for name, added in part.described(bodies).items():
             found.setdefault(name, []).extend(added)

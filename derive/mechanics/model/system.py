@@ -386,7 +386,8 @@ class System:
     def described(self) -> Described:
         """The input of the witness: the parts before conditions eliminate coordinates."""
         moving = {**self.coordinates, **coordinates_in(ImmutableDenseMatrix([*self.known, ZERO]))}
-        return Described(described(self._described, self.described_bodies, self.known, moving))
+        expressed = [_known_by(condition) for condition in self.conditions]  # as given, not put into one another
+        return Described(described(self._described, self.described_bodies, expressed, moving))
 
     @cached_property
     def matter(self) -> Matter:
