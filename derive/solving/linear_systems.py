@@ -221,7 +221,7 @@ class LinearSystem:
         return tuple(sorted((root for each in self.factors for root in self._roots_of(each)), key=in_order))
 
     def _roots_of(self, factor: Factor) -> list[CharacteristicRoot]:
-        raise NotImplementedError
+        raise NotImplementedError  # each class of systems finds its roots in its own way
 
     @staticmethod
     def _factored(determinant: Expr, root: Symbol, degree: int) -> list[tuple[Poly, int]]:

@@ -295,7 +295,7 @@ def test_conditions_of_rolling_must_not_relate_the_coordinates_that_are_left(tmp
 def test_a_lost_condition_of_rolling_contradicts_the_described_motion(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The witness has all conditions as they were given: an engine that keeps the last one for each angle is refused."""
+    """The witness has all conditions as they were given, so an engine that keeps one for each angle is refused."""
     monkeypatch.setattr(system, "_known_by_all", lambda conditions: dict(map(system._known_by, conditions)))
     given = BOARD.format(more=", x: length", first="x")
     with pytest.raises(DeriveError, match="contradicts the motion"):
