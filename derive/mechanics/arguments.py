@@ -184,5 +184,5 @@ def _help(value: Any, wanted: Any) -> str | None:
     if isinstance(value, float):
         return "write numbers as fractions, `Rational(1, 2)`, or give them in the problem's file"
     if wanted is Quantity and isinstance(value, Expr | Integer):
-        return Spelled('`let("name", lambda: ..., kind="...")` makes a step of an expression', None)
+        return Spelled('`let("name", lambda: ..., kind="...")` makes a step from an expression', None)
     return None

@@ -50,7 +50,7 @@ def equation_in_limit(
     equation: Quantity, letter: Any, to: Any = 0, order: int | None = None, key: str | None = None
 ) -> Quantity:
     """Expansion of an equation f = 0 where a letter is small, large or near a value: f_0 + f_1 e + ... = 0. The small
-    quantity e is x, 1/x, -1/x or x - a.
+    quantity e is x, 1/x, -1/x or x - a, where x is the letter and a is the value that it is near.
 
     equation   an equation, such as an equation of motion
     letter     a constant that is small, large or near a value

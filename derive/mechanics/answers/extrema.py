@@ -51,8 +51,8 @@ def maximum(of: Quantity, letter: Letter, within: Ends = None, key: str = "maxim
 
     A place that always exists is preferred to a place that exists only under a condition.
     Check: the slope vanishes at the place; numerically, no value at other places is greater (less, for a minimum).
-    Outcomes: greatest, or least for `minimum`; a condition follows if the extremum exists only for some values of the
-    letters.
+    Outcomes: greatest, or least for `minimum`. If the extremum exists only for some values of the letters, the sentence
+    states a condition for these values.
     Errors: the result is not a value that depends on the letter; no place with zero slope can be the extremum, or
     several can and none is preferred; the places with zero slope have no closed form; the place is at a time before the
     start.
@@ -163,9 +163,8 @@ def _extremum(
 
 
 def _letter_of(of: Quantity) -> str | None:
-    """Return the letter of a quantity. For the length of a vector, return the letter of the vector; for another formula
-    as the symbol, None.
-    """
+    """Return the name of the symbol of a quantity or, for the length of a vector, the name of the vector. Return None if
+    the symbol is another formula."""
     symbol = of.symbol.args[0] if isinstance(of.symbol, Norm) else of.symbol
     return str(symbol.name) if isinstance(symbol, Symbol | MatrixSymbol) else None
 
@@ -182,7 +181,7 @@ def _not_one(of: Quantity, x: Symbol, verb: str, count: int, elsewhere: bool) ->
 
 
 def _range_as_interval(x: Symbol) -> Within | None:
-    """Return the range of the symbol as an interval, by its numerical bounds or by assumed relations such as b < l.
+    """Return the interval of the values of the symbol, from its numerical bounds or from assumed relations such as b < l.
 
     A positive symbol without a lower bound has the lower bound 0. Return None if the symbol has no bounded range and
     the relations do not give exactly one lower and one upper bound.
@@ -237,8 +236,8 @@ def _apart(condition: Relation) -> Relation:
 
 def _places(slope: Expr, x: Symbol, within: Within | None) -> list[Zero]:
     """Return zeros of the slope. A zero is left out if its condition is known to be false, for example for the given
-    numbers. Without an interval, the zeros of an angle are within one turn. With an interval, only some of the zeros of
-    a periodic slope are found."""
+    numbers. If x is an angle and there is no interval, the zeros are within one turn. With an interval, only some of
+    the zeros of a periodic slope are found."""
     find = zeros_of if within is None else zeros_nearby
     found = find(slope, x) if slope.has(x) else []
     return [Zero(as_one_root(zero.value), zero.exists) for zero in found if truth_known(zero.exists) is not False]

@@ -75,7 +75,7 @@ def roots(
 
     equation   a polynomial equation in the letter; or a result that is not an equation, whose zeros are sought
     letter     the unknown: a letter, a coordinate, a rate, or an expression such as `cos(theta)`
-    values     quantities for letters of the coefficients, substituted after the formula for both roots
+    values     quantities whose values replace letters in the coefficients, in the line after the formula for both roots
     together   key of a step that has the two roots of a quadratic equation in one formula, x = (-b +- ...)/(2 a). A
                separate step follows for each root, the smaller in absolute value first. If there is a single root or no
                real root, the same step is returned for each key
@@ -369,7 +369,8 @@ def _condition(root: RootOf, unknown: Expr) -> Relation | None:
     no condition is needed."""
     if len(root.coefficients) == 3 and sign_known(root.discriminant) is None and not _sum_of_squares(root):
         _, b, c = root.coefficients
-        # If b is 0, the discriminant -4 a c vanishes only if a or c is 0; if c is 0, the root is 0.
+        # If b is 0, the discriminant -4 a c vanishes only for c = 0, where the root is 0. Then the sign ">" is right if
+        # c cannot be 0 or if the root must be positive.
         lost = sign_known(c) or sign_for_all(unknown) == 1
         mark = ">" if b == 0 and lost else ">="
         return Relation(presented(without_positive(root.discriminant)), mark, ZERO)

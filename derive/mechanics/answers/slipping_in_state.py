@@ -92,7 +92,7 @@ def _replaced_by(result: Quantity) -> tuple[Expr, Expr]:
 
 
 def _check_used(friction: Quantity, normal: Quantity, results: Sequence[Quantity], values: Mapping[str, Expr]) -> None:
-    """Reject a result that changes neither force, and a value of a letter that does not occur."""
+    """Reject results that change neither force, and values that can have no effect."""
     used = [one for force in (friction, normal) for one in _with_effect(force, results, values)[0]]
     for each in results:
         if each not in used:

@@ -79,7 +79,7 @@ def put_in(
     fixed_by: KeptPositions | None = None,
     **values: Any,
 ) -> Quantity:
-    """A value or an equation after other results or the values of letters are substituted: f(x) with x = g is f(g).
+    """Value or equation in which other results, or values of letters, are substituted: f(x) with x = g is f(g).
 
     of       a value or an equation
     others   results, each of which replaces its letter; equations whose left side is only a letter or a rate, or only a
@@ -121,7 +121,7 @@ def put_in(
     result = arranged(value, list(moving))
     _check_holds(of, result)
     name = _name(of, symbol)
-    # |q_dot| is real only where its square is positive
+    # assume that the square of q_dot is positive, so that |q_dot| is real
     with where_positive(result**2) if isinstance(name, Abs) else nullcontext():
         return establish(
             PUT_IN,
@@ -214,8 +214,9 @@ def _sorted_out(others: Sequence[Rests]) -> tuple[list[Quantity], dict[Any, Any]
 
 
 def _replacements(quantity: Quantity, of: Quantity) -> list[Replacement]:
-    """Return the replacements that a result makes: of its symbol and, if the result gives a coordinate for the whole
-    motion, of the rates of this coordinate. A conserved momentum also replaces the rate of its coordinate."""
+    """Return the replacements for a result: one for its symbol and, if the result is a coordinate or a rate as a
+    function of the motion, those for its time derivatives. A conserved momentum also replaces the rate of its
+    coordinate."""
     kept = quantity.fact(KeptMomentum)
     if kept is not None:
         target, value = rate(kept.coordinate), kept.turning

@@ -168,7 +168,7 @@ def routhian(of: Quantity, *constants: Quantity, symbol: str | None = None, key:
             Complaint(
                 "wrong-argument",
                 "`routhian` needs a conserved momentum",
-                help=Spelled("`conserved(L, phi)`", "no coordinate of this system is cyclic"),
+                help=Spelled("`conserved(L, phi)` gives the momentum of phi", "no coordinate of this system is cyclic"),
             )
         )
     left = _put_aside(of, constants, "routhian")

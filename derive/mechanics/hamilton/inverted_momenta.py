@@ -46,8 +46,8 @@ def by_quadratic_form(momenta_of: Mapping[Symbol, Expr], rates: Sequence[Symbol]
 
 
 def _stretch(bare: Matrix, form: Matrix, rates: Sequence[Symbol]) -> tuple[Symbol, Expr] | None:
-    """Return s and g(s): derived with only the first rate nonzero, then checked for all rates; None if the check
-    fails."""
+    """Return s and g(s). Find g from the case in which only the first rate is nonzero, then check it for all rates;
+    return None if the check fails."""
     s = Dummy("s", nonnegative=True)
     along = {rates[0]: sqrt(s / form[0, 0]), **dict.fromkeys(rates[1:], 0 * rates[0])}
     g = tidied(bound(bare[0], along) / (form[0, 0] * along[rates[0]]))

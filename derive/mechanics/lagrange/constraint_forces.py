@@ -58,7 +58,7 @@ ZERO = Integer(0)
 MOST = 9  # greatest number of unknowns in one linear system
 MOST_NAMED = 6  # greatest number of equations that a sentence names
 MOST_WITH_ROOTS = 250  # greatest number of operations in a solution with several roots of sums, such as sqrt(a + b)
-MOST_SUBSTITUTED = 4  # greatest number of substitutions that a sentence states
+MOST_SUBSTITUTED = 4  # if more substitutions are needed, the sentence states none of them
 
 
 @dataclass(frozen=True)
@@ -253,7 +253,8 @@ def _told(of: Constraint, moving: Sequence[Symbol]) -> Relation:
 
 
 def _together(constraints: Sequence[Constraint], moving: Sequence[Symbol]) -> dict[int, Relation]:
-    """Return index of a constraint -> y = a, for constraints that only together give coordinates constant values."""
+    """Return a mapping from the index of a constraint to a relation y = a, for constraints that only together give
+    coordinates constant values."""
     residuals = {
         i: each.residual for i, each in enumerate(constraints) if not each.in_rates and _fixed(each, moving) is None
     }
@@ -263,7 +264,8 @@ def _together(constraints: Sequence[Constraint], moving: Sequence[Symbol]) -> di
 
 
 def positions_kept(motion: Quantity) -> KeptPositions:
-    """Return the coordinates that several constraints together keep constant, also if some constraints alone do so.
+    """Return the constant coordinates, their values, and the constraints that together fix these values. Some of the
+    constraints may fix a coordinate alone.
 
     motion   one of the equations of motion
     """
@@ -479,8 +481,8 @@ class _Isolation:
 
     @property
     def named(self) -> dict[str, Any]:
-        """Return the eliminated unknowns, and the values of coordinates, rates and accelerations from constraints that
-        are substituted in the equations."""
+        """Return the eliminated unknowns, and the values that constraints give to coordinates, rates and accelerations in
+        the equations."""
         eliminated = {f"eliminated_{i}": each for i, each in enumerate(self.found.eliminated, 1)}
         known, moving = self.problem.known, self.problem.moving
         fixed_ones = constant_ones(known, moving)
@@ -832,7 +834,7 @@ def _in_a_field(matrix: ImmutableDenseMatrix) -> tuple[DomainMatrix, dict[Expr, 
     """Return the matrix with symbols in place of sines, cosines and roots, and the symbol of each replaced function."""
     found = sorted(matrix.atoms(Function), key=str)
     powers = sorted((p for p in matrix.atoms(Pow) if not p.exp.is_Integer), key=str)
-    bases: dict[Expr, Expr] = {}  # expanded base -> the form that all roots of it use
+    bases: dict[Expr, Expr] = {}  # expanded base -> the form of this base in all roots
     roots = {
         p: Pow(bases.setdefault(p.base.expand(), p.base), Rational(1, p.exp.q)) if p.exp.is_Rational else p
         for p in powers

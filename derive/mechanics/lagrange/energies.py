@@ -353,7 +353,7 @@ def _behind(system: System) -> list[Quantity]:
     return [lettered(value) for placed in system.bodies for value in getattr(placed.body, "values", ())]
 
 
-# Terms with the same coordinate are put together if this makes the energy longer by at most this number.
+# Terms with the same coordinate are collected if this makes the `length` of the energy greater by at most this number.
 LITTLE_LONGER = 2
 
 
@@ -452,7 +452,7 @@ def potential_energy_of(system: System, symbol: str | None = None, key: str = "p
     )
 
 
-FEW_SPRINGS, SHORT = 4, 6  # greatest number of extensions that a sentence names, and their greatest length
+FEW_SPRINGS, SHORT = 4, 6  # greatest number of extensions in a sentence, and greatest `length` of their formulas
 
 
 def _stretches(springs: Sequence[Any], moving: Sequence[Symbol]) -> dict[str, tuple[Expr, Expr]]:

@@ -64,7 +64,7 @@ def noether(
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 13.7.
     """
     xi = _formulas(of, shift)
-    gain = _plain(gained, "gained", of)
+    gain = _plain(gained, "function `gained`", of)
     changed = _change(of, xi, gain, key)
     matter = of.needed(Matter)
     moving = [q.symbol for q in coordinates_of(of)]

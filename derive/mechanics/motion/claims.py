@@ -139,7 +139,7 @@ def _is_reached_just_where(come: Arrival, told: Relation | None) -> bool:
     def is_reached(point: Point) -> bool | None:
         sign = sign_at(value, point)
         if sign == 0 and told is not None and told.operator == ">":
-            return None  # the motion may only approach the place
+            return None  # the motion may approach the place without reaching it
         return None if sign is None else sign >= 0
 
     conditions = [] if told is None else [with_numbers(told)]
@@ -249,7 +249,7 @@ def by_energy(facts: Judged, fact: ByEnergy) -> bool:
 
 
 def steady(facts: Judged, fact: Steady) -> bool:
-    """Whether the steady motion has the constant values of the sentence, and the result is a condition of this
+    """Whether the steady motion has the constant values that the sentence states, and the result is a condition of this
     motion."""
     told = {v.left: v.right for role, v in facts.inputs.items() if role.startswith(("stays_", "turns_"))}
     held = {**fact.values, **{rate(s): v for s, v in fact.rates.items()}}
@@ -401,7 +401,7 @@ def slips_at_once(facts: Judged) -> bool:
 
 
 def never_slips(facts: Judged) -> bool:
-    """Whether, numerically, mu_s N - |F| is positive at all places tried that the motion reaches. If the sentence
+    """Whether, numerically, mu_s N - |F| is positive at all tried places that the motion reaches. If the sentence
     states a condition, mu_s N - |F| must not be positive at the start of the motion for trial numbers
     that violate it."""
     letters, distances = _letters_of_motion(facts), [Rational(n, 5) for n in range(-8, 9)]

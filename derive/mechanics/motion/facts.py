@@ -18,7 +18,7 @@ class Steady(Fact):
     """A steady motion: constant values of coordinates, constant rates of cyclic coordinates, and its conditions, which
     are expressions that vanish in this motion."""
 
-    missing = "is not a condition of a steady motion from `steady_motion`"
+    missing = "is not a condition of a steady motion that `steady_motion` returned"
     lagrangian: Quantity
     values: Mapping[Symbol, Expr]
     rates: Mapping[Symbol, Expr]
@@ -110,7 +110,7 @@ class InFlight(Fact):
     conditions     the conditions on the symbols under which the constraint is lost
     """
 
-    missing = "is not a motion in free flight, as `flight` yields it"
+    missing = "is not a component of a free flight that `flight` returned"
     path: tuple[Expr, Expr]
     matter: Matter
     point: MassPoint

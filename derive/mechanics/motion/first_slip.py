@@ -162,7 +162,7 @@ def is_first(motion: Motion, place: Expr) -> Verdict:
 
 
 def is_never_reached(motion: Motion) -> Verdict:
-    """Check numerically that |F| < mu_s N at all places tried that the motion reaches from its start."""
+    """Check numerically that |F| < mu_s N at all tried places that the motion reaches from its start."""
 
     def is_so(point: Mapping[Symbol, Expr]) -> bool | None:
         if not motion.margin(value_at(motion.start, point), point) > 0:

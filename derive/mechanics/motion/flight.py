@@ -230,7 +230,7 @@ class Departure:
         found = signs_of(self.value - known.start) - {None}
         if own == -1 or len(found) != 1 or found == {0}:
             message = f"`flight`: it is not known whether {self.q} increases on the way to the place of departure"
-            help_line = f"choose the direction in which {self.q} increases as the direction of the motion"
+            help_line = f"define {self.q} so that it increases during the motion"
             raise Rejected(Complaint("sign", message, help=help_line))
         return 1 if found == {1} else -1
 
@@ -414,7 +414,7 @@ def free_flight(lost: Quantity, at: Any = None, key: str = "flight") -> tuple[Qu
     The result has two steps, `flight_x` and `flight_y`: the components of the place, in m, as functions of the time t
     since the departure. A separate step yields the speed v_1 at the departure; the velocity is along the curve on which
     the particle was. For a body that rolled, a third step, `flight_spin`, has the constant angular velocity, in rad/s.
-    It is assumed that contact is lost, and that a rolling body rolls until it departs. No other force than its weight
+    It is assumed that contact is lost, and that a rolling body rolls until it departs. No force other than its weight
     may act on the particle or body that flies.
     Second route: Lagrange's equations for the coordinates of the place, without the forces of the lost contact. Checks:
     Newton's second law, and the place and velocity at the departure, by conservation of energy. Witness: the motion of
@@ -689,8 +689,8 @@ def _ends(first: Quantity, second: Quantity, on: Surface | None, key: str) -> tu
         return (_misses(first, second, target, key),)
     if back is not None and sign_known(back - time) != 1:
         message = (
-            "`lands`: it is not known whether the particle reaches the plane before it meets its circle again, "
-            f"at the time {back}"
+            f"`lands`: the particle meets its circle again at the time {back}, "
+            "and it is not known whether it reaches the plane before"
         )
         raise Rejected(Complaint("not-decided", message, help="leave `on` out, or state with `assume:` which is first"))
     return _landed(first, second, time, target, key, parents)

@@ -198,7 +198,7 @@ def same_as_several(facts: Judged) -> bool:
 
 
 def same_equation(facts: Judged) -> bool:
-    """Whether the law of the one body and the result are the same equation, up to a factor without rates."""
+    """Whether the law of one body and the result are the same equation, up to a factor without rates."""
     law, found = (explicit(each).residual for each in (facts.quantities["newton"].value, facts.result))
     rates = {rate(q, n) for each in facts.quantities.values() for q in each.coordinates for n in (1, 2)}
     letters = sorted(law.free_symbols & found.free_symbols, key=lambda s: (not s.name.endswith("_ddot"), s.name))

@@ -287,7 +287,7 @@ def is_the_length_along_the_path(facts: Judged, told: Relation) -> bool:
 
 
 def is_harmonic_along_the_path(facts: Judged, told: Relation) -> bool:
-    """Whether the equation is s_ddot + omega^2 s = 0 for the s of the sentence."""
+    """Whether the equation is s_ddot + omega^2 s = 0 for the length s along the path that the sentence states."""
     s, square = facts.inputs["path"].left, facts.inputs["square"]
     left = explicit(told.left)
     stiffness = left.coeff(s)
@@ -450,7 +450,7 @@ def is_this_multiple(facts: Judged) -> bool:
 
 
 def are_in_order(facts: Judged) -> bool:
-    """Whether several values are in falling order, and the first one divided by the last one is the stated ratio."""
+    """Whether several values decrease from each to the next, and the first divided by the last is the stated ratio."""
     count = sum(role.startswith("case_") for role in facts.quantities)
     values = [explicit(facts.quantities[f"case_{i}"].value) for i in range(1, count + 1)]
 
@@ -463,7 +463,7 @@ def are_in_order(facts: Judged) -> bool:
 
 
 def first_to_arrive(facts: Judged) -> bool:
-    """Whether the accelerations are constant and in falling order.
+    """Whether the accelerations are constant, and decrease from each case to the next.
 
     Of two bodies that are released together from rest, the one with the greater acceleration then arrives first. The
     cases must differ in the value of one symbol, a mass or a moment of inertia, so their paths are the same.
@@ -677,8 +677,8 @@ def is_only_condition(of: Quantity) -> bool:
 
 
 def holds_everywhere(facts: Judged) -> bool:
-    """Whether the condition of equilibrium holds at all positions tried for the stated value, but not for twice this
-    value. The energy behind the condition must depend on one coordinate only."""
+    """Whether the condition of equilibrium holds at all tried positions for the stated value of a symbol, but not for
+    twice this value. The energy behind the condition must depend on one coordinate only."""
     place, condition = facts.result, explicit(facts.quantities["of"].value.residual)
     if not is_only_condition(facts.quantities["of"]):
         return False

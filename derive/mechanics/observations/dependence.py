@@ -69,7 +69,8 @@ INDEPENDENT = Rule(
 
 
 def independent(view: View) -> Observed:
-    """Observations that an answer does not contain a given symbol, although the equations behind the answer do."""
+    """Observations that an answer does not contain a given symbol, although it was derived from equations that contain
+    this symbol."""
     for of in reversed(view.answers):
         solved = isinstance(of.value, Relation)
         value = of.value.right if solved else of.value
@@ -216,7 +217,8 @@ ZERO_OF = Rule(
 def zero_of(view: View) -> Observed:
     """Value of a symbol or an angle for which an acceleration, a force or a torque vanishes.
 
-    The force of a surface or a string cannot change its sign: contact is lost, or the string goes slack.
+    The force of a surface or a string is left out, because it cannot change its sign: contact is lost, or the string
+    goes slack.
     """
     for of in (
         each for each in view.values("acceleration", "force", "torque") if not _is_force_of(each, "surface", "string")

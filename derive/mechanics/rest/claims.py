@@ -454,7 +454,7 @@ def order_of(*orders: int, more: bool = False) -> Predicate:
 def shaped(shape: str, at_bound: bool) -> Predicate:
     """Judge by differentiation whether the first nonzero derivative, from the second on, yields this shape.
 
-    A case must be named if and only if `at_bound` is true, and the second derivative must then vanish.
+    The step must have a special case as input if and only if `at_bound` is true; the second derivative must then vanish.
     """
 
     def is_so(facts: Judged) -> bool:

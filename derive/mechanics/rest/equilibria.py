@@ -397,7 +397,7 @@ def _names(potential: Quantity, sought: Sequence[Symbol], count: int) -> dict[Sy
 
 
 def _level_where(force: Expr, q: Symbol) -> Relation | None:
-    """Return the condition that the factors of the force that do not contain q are not zero.
+    """Return the condition that no factor of the force without q is zero.
 
     If such a factor is zero, every value of q is an equilibrium. Return None if none of these factors can be zero.
     """
