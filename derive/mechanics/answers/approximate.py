@@ -59,8 +59,8 @@ def equation_in_limit(
 
     If a function of a small letter and the time is expanded, such as cos(Omega t), the sentence of the step says that
     the result is valid for short times only.
-    Check: numerically, the terms that are left out, divided by the last power that is kept, go to zero with the small
-    quantity.
+    Check: numerically, the terms that are left out, divided by the highest power that is kept, go to zero with the
+    small quantity.
     Outcomes: small, large, near (only the leading terms); first_order, to_order; exact (nothing is left out).
     Errors: the equation does not contain the letter; the letter changes with the time; the equation has no such
     expansion; the expansion begins beyond the requested order.

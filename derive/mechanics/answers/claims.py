@@ -191,9 +191,8 @@ def identity(facts: Judged) -> bool:
 
 
 def _is_divided_as_told(facts: Judged) -> bool:
-    """Judge whether the difference of quantity and bound may be divided by the factor that must not vanish: the
-    quotient must contain the unknown, and must vanish if the result is substituted. Return True if there is no such
-    factor."""
+    """Whether the sentence states the right condition "factor != 0": the difference of quantity and bound, divided by
+    this factor, must contain the unknown, and must vanish if the result is substituted. True without a condition."""
     excluded = facts.inputs.get("excluded")
     if excluded is None:
         return True

@@ -46,7 +46,7 @@ def maximum(of: Quantity, letter: Letter, within: Ends = None, key: str = "maxim
     """Place and value of the maximum of a result: f'(x) = 0 and f''(x) < 0.
 
     of       a scalar, any unit
-    letter   the variable: an angle, a frequency, a length
+    letter   the variable, such as an angle, a frequency or a length
     within   the interval of the letter; by default all values that the letter can have
 
     A place that always exists is preferred to a place that exists only under a condition.
@@ -72,7 +72,7 @@ def minimum(of: Quantity, letter: Letter, within: Ends = None, key: str = "minim
     """Place and value of the minimum of a result: f'(x) = 0 and f''(x) > 0.
 
     of       a scalar, any unit
-    letter   the variable: an angle, a frequency, a length
+    letter   the variable, such as an angle, a frequency or a length
     within   the interval of the letter; by default all values that the letter can have
 
     Check: as `maximum`.
@@ -163,8 +163,8 @@ def _extremum(
 
 
 def _letter_of(of: Quantity) -> str | None:
-    """Return the name of the symbol of a quantity or, for the length of a vector, the name of the vector. Return None if
-    the symbol is another formula."""
+    """Return the name of the symbol of a quantity or, for the length of a vector, the name of the vector. Return None
+    if the symbol is another formula."""
     symbol = of.symbol.args[0] if isinstance(of.symbol, Norm) else of.symbol
     return str(symbol.name) if isinstance(symbol, Symbol | MatrixSymbol) else None
 
@@ -181,7 +181,7 @@ def _not_one(of: Quantity, x: Symbol, verb: str, count: int, elsewhere: bool) ->
 
 
 def _range_as_interval(x: Symbol) -> Within | None:
-    """Return the interval of the values of the symbol, from its numerical bounds or from assumed relations such as b < l.
+    """Return the interval of the values of the symbol, from its numerical bounds or from assumed relations, b < l.
 
     A positive symbol without a lower bound has the lower bound 0. Return None if the symbol has no bounded range and
     the relations do not give exactly one lower and one upper bound.

@@ -93,7 +93,7 @@ def limiting_case(
     For a vector or a tensor, the largest entry determines the leading power: smaller entries are negligible. Use
     `put_in` to set letters equal, b = a. If terms are left out, the result has a new symbol: `symbol` or, by default, a
     symbol such as omega_lim for omega. Results computed from this symbol are approximate.
-    Check: numerically, on each possible side of the limit, the omitted part divided by the last power that is kept
+    Check: numerically, on each possible side of the limit, the omitted part divided by the highest power that is kept
     shrinks on the way to the limit. If power series can be added, multiplied and divided to find the terms
     without a derivative, the two results agree.
     Outcomes: finite, vanishes, diverges (only the leading term); small, large, near (to an order); exact (nothing is

@@ -72,9 +72,7 @@ def solved_for(
         help_line = "one of the equations follows from the others, or they contradict each other"
         raise Rejected(Complaint("singular", message, help=help_line))
     values = eliminated(matrix, right)
-    below = [
-        tidied(value).as_numer_denom()[1] for value in values
-    ]  # the denominators of the values must not vanish, either
+    below = [tidied(value).as_numer_denom()[1] for value in values]  # the denominators must not vanish, either
     excluded = may_vanish(determinant, *below)
     called = list(keys or [_key_of(unknown) for unknown in wanted])
     if len(called) != len(wanted):

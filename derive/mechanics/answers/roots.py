@@ -1,4 +1,4 @@
-"""Roots of a polynomial equation in one letter: linear, quadratic, or of higher degree if it factors.
+"""Roots of a polynomial equation in one letter, if the polynomial has factors of degree 1 and 2 only.
 
 For a positive unknown only the roots that can be positive are kept. If a root is real or positive only for some values
 of the symbols, the page states the condition next to the root.

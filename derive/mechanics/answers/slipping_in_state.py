@@ -24,8 +24,8 @@ __all__: list[str] = []
 
 @in_results(
     "slips",
-    "the condition |F| <= mu_s N for static friction to suffice; along a motion from `speed`, the first place where "
-    "static friction does not suffice",
+    "the condition |F| <= mu_s N for static friction to suffice; if the forces contain a result of `speed`, the first "
+    "place of the motion where static friction does not suffice",
     friction="slips: the static friction of a contact",
     letter="for: a letter, or a function of a letter such as `tan(alpha)`",
     results="results: answers substituted in the friction and in the normal force",

@@ -374,7 +374,7 @@ def constraint_rate(of: Quantity, number: int = 0, key: str | None = None) -> Qu
 
 
 def _steps(problem: _Problem, wanted: Sequence[Symbol]) -> tuple[Quantity, ...]:
-    """Return the steps of these unknowns. Unknowns in their formulas are derived first."""
+    """Return the steps of these unknowns. If a formula contains other unknowns, these are derived first."""
     rates = [constraint_rate(problem.lagrangian, i) for i in range(len(problem.constraints))]
     forces = {each.force: each for each in problem.constraints}
     order, every = _isolated(problem), [*problem.used, *rates]
@@ -481,8 +481,8 @@ class _Isolation:
 
     @property
     def named(self) -> dict[str, Any]:
-        """Return the eliminated unknowns, and the values that constraints give to coordinates, rates and accelerations in
-        the equations."""
+        """Return the eliminated unknowns, and the values that constraints give to coordinates, rates and accelerations
+        in the equations."""
         eliminated = {f"eliminated_{i}": each for i, each in enumerate(self.found.eliminated, 1)}
         known, moving = self.problem.known, self.problem.moving
         fixed_ones = constant_ones(known, moving)

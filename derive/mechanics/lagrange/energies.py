@@ -165,7 +165,7 @@ def _differentiated(place: Iterable[Expr], moving: Sequence[Symbol]) -> list[For
 
 def _velocity(mover: Mover, moving: list[Symbol]) -> list[Quantity]:
     """Return the steps of the rates of the components that change; empty if only one component changes, or if a
-    component has no step."""
+    changing component has no step."""
     known = dict(mover.at.found)
     changing = [k for k, c in enumerate(mover.place) if c.has(*moving) or depends_on_time(c)]
     return [rate_of(known[k]) for k in changing] if all(k in known for k in changing) and len(changing) > 1 else []

@@ -20,7 +20,7 @@ from derive.steps.signs import sign_known
 from derive.steps.step import is_zero
 
 ZERO = Integer(0)
-MOST = 4  # greatest number of constraints that are compared in pairs
+MOST = 4  # greatest number of constraints that are examined
 
 
 @dataclass(frozen=True)

@@ -286,7 +286,7 @@ def slips_in_the_stated_sense(facts: Judged, outcome: str) -> bool:
     x, y = next(each for each in constraint.forces if each.of is not None).direction
     side = facts.inputs["side"]
     across, wanted = {"up": (y, -1), "down": (y, 1), "right": (x, -1), "left": (x, 1)}[facts.words["sense"]]
-    has_height = sign_found(y) in (1, -1)  # otherwise the sentence states the horizontal component
+    has_height = sign_found(y) in (1, -1)  # if not, the sentence states left or right
     return (facts.words["sense"] in ("up", "down")) == has_height and sign_found(side * across) == wanted
 
 

@@ -34,7 +34,7 @@ class MovedAlone(Fact):
     changes: tuple[tuple[Symbol, Expr], ...]
 
 
-@lru_cache(maxsize=16)  # each equation of a system needs its Lagrangian
+@lru_cache(maxsize=16)  # each equation of motion needs the Lagrangian of its system
 def lagrangian_behind(system: System) -> Quantity:
     """The Lagrangian of a system, for second routes; it is not shown."""
     with unrecorded():

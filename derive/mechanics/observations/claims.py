@@ -336,7 +336,8 @@ def _may_vary(letter: Symbol, point: Point) -> Point:
 
 
 def is_free_of(facts: Judged, letter: Symbol) -> bool:
-    """Whether the answer does not depend on the symbol, although a line of a step that leads to the answer does."""
+    """Whether the answer does not depend on the symbol, although a line in the steps that lead to the answer depends on
+    it."""
     of = facts.quantities["of"]
     value = explicit(of.value.right if isinstance(of.value, Relation) else of.value)
     points = numbers([value, letter])
@@ -465,8 +466,8 @@ def are_in_order(facts: Judged) -> bool:
 def first_to_arrive(facts: Judged) -> bool:
     """Whether the accelerations are constant, and decrease from each case to the next.
 
-    Of two bodies that are released together from rest, the one with the greater acceleration then arrives first. The
-    cases must differ in the value of one symbol, a mass or a moment of inertia, so their paths are the same.
+    If two bodies are released together from rest, the body with the greater acceleration then arrives first. The cases
+    must differ in the value of one symbol, a mass or a moment of inertia, so their paths are the same.
     """
     cases = [q for role, q in facts.quantities.items() if role.startswith("case_")]
     told = [[value for role, value in q.step.roles if role.startswith("value_")] for q in cases]

@@ -415,7 +415,7 @@ def anywhere(view: View) -> Observed:
         energy = explicit(of.parent("potential").value)
         slopes = [diff(energy, q) for q in of.coordinates]
         if len([slope for slope in slopes if not is_zero(slope)]) != 1:
-            continue  # another coordinate may still be restricted
+            continue  # the condition of another coordinate may exclude positions
         for letter in [s for s in view.of_kind("angular speed") if s in residual.free_symbols]:
             for base, _ in _factors(residual):
                 found = solved_for_letter(base, letter)

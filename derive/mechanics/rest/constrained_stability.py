@@ -149,9 +149,9 @@ class OnConstraints:
     place: Mapping[Symbol, Expr]
 
     def stability(self, key: str) -> Quantity:
-        """Stability of an equilibrium under constraints, from the second-order change of U for the allowed displacements.
+        """Stability of an equilibrium under constraints, from the second-order change of U in allowed displacements.
 
-        Second route: the energy along curves that stay on the constraints, to second order.
+        Second route: the energy along curves that satisfy the constraints, to second order.
         Outcomes: stable, unstable, level, depends.
         Errors: a constraint depends on the rates or on the time; the values do not satisfy a constraint; at these
         values the forces do not balance along the allowed displacements.
