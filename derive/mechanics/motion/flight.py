@@ -690,7 +690,7 @@ def _ends(first: Quantity, second: Quantity, on: Surface | None, key: str) -> tu
     if back is not None and sign_known(back - time) != 1:
         message = (
             f"`lands`: the particle meets its circle again at the time {back}, "
-            "and it is not known whether it reaches the plane before"
+            "and it is not known whether it reaches the plane earlier"
         )
         raise Rejected(Complaint("not-decided", message, help="leave `on` out, or state with `assume:` which is first"))
     return _landed(first, second, time, target, key, parents)
