@@ -181,7 +181,7 @@ def _not_one(of: Quantity, x: Symbol, verb: str, count: int, elsewhere: bool) ->
 
 
 def _range_as_interval(x: Symbol) -> Within | None:
-    """Return the interval of the values of the symbol, from its numerical bounds or from assumed relations, b < l.
+    """Return the interval of values of the symbol, from numerical bounds or from assumed relations such as b < l.
 
     A positive symbol without a lower bound has the lower bound 0. Return None if the symbol has no bounded range and
     the relations do not give exactly one lower and one upper bound.

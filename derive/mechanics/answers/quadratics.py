@@ -416,8 +416,8 @@ def real_where(roots: Quantity, letter: Any, key: str = "real_where", distinct: 
     distinct   whether two distinct roots are required, b^2 - 4 a c > 0
 
     The discriminant is a separate step; for a linear equation it is b^2, which does not vanish. If values were
-    substituted in the equation, the page first shows the condition in the original letters, unless it cannot be solved
-    in these.
+    substituted in the equation, and the condition can be solved in the original letters, the page shows this condition
+    first.
     Check: as `where`.
     Outcomes: as for `where`.
     Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1.

@@ -214,9 +214,9 @@ def _sorted_out(others: Sequence[Rests]) -> tuple[list[Quantity], dict[Any, Any]
 
 
 def _replacements(quantity: Quantity, of: Quantity) -> list[Replacement]:
-    """Return the replacements for a result: one for its symbol and, if the result is a coordinate or a rate as a
-    function of the motion, those for its time derivatives. A conserved momentum also replaces the rate of its
-    coordinate."""
+    """Return the replacements for a result. Its value replaces its symbol. If the result gives a coordinate or a rate
+    as a function of coordinates, rates or the time, the time derivatives of this coordinate or rate are also replaced.
+    A conserved momentum also replaces the rate of its coordinate."""
     kept = quantity.fact(KeptMomentum)
     if kept is not None:
         target, value = rate(kept.coordinate), kept.turning

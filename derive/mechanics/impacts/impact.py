@@ -35,7 +35,7 @@ Vector = tuple[Expr, ...]
 class Impulse:
     """A given impulse at a place, N s; or an angular impulse along an angle, N m s.
 
-    components   the components of the impulse; in an `Impact`, at the instant of the impact
+    components   the components of the impulse; an `Impact` substitutes the coordinates at its instant
     at           the components of the place, or the angle as the only component
     of           the body or particle on which the impulse acts; None if it is neither stated nor known from the place
     given        the components as the author gave them, for a second route

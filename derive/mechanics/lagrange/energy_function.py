@@ -216,7 +216,7 @@ def energy_function_rate(of: Quantity, key: str | None = None) -> Quantity:
 
     def along_the_motion(found: Relation) -> tuple[Any, Any]:
         work = [rate(q) * (matter.inertia_along(q) - matter.force_along(q)) for q in moving]
-        work += [c.multiplier * c.velocity(moving) for c in (kept.constraints if kept else ())]  # zero if f = 0 holds
+        work += [c.multiplier * c.velocity(moving) for c in (kept.constraints if kept else ())]  # zero along motions
         by_time = by_functions_of_time(of.value, moving)
         both = [found.left, found.right, int(found.operator == "=")]
         return ImmutableDenseMatrix(both), ImmutableDenseMatrix([by_time, by_time - Add(*work), 1])

@@ -39,11 +39,11 @@ def fixed_together(residuals: Sequence[Expr], moving: Sequence[Symbol]) -> dict[
     residuals   f of each constraint f = 0 between coordinates
     moving      all coordinates
 
-    First, look for a set of as many coordinates as there are constraints, such that all constraints hold, and are
-    independent, where these coordinates are zero. If there is no such set, look for a formula with a single coordinate:
-    a sum or difference of two constraints, or a constraint from which other coordinates are eliminated. If this
-    coordinate has a single admissible value, it is fixed; an angle whose sine vanishes is taken to be zero. The result
-    is then empty unless the values satisfy exactly as many constraints as there are values.
+    First, look for as many coordinates as there are constraints, such that all constraints hold, and are independent,
+    where these coordinates are zero: they are then fixed at zero. Otherwise, look for a formula with a single
+    coordinate: a sum or difference of two constraints, or a constraint from which other coordinates are eliminated. If
+    this coordinate has a single admissible value, it is fixed; an angle whose sine vanishes is taken to be zero. The
+    result is then empty unless the values satisfy exactly as many constraints as there are values.
     """
     if not 1 < len(residuals) <= MOST or any(map(depends_on_time, residuals)):
         return {}
@@ -76,7 +76,7 @@ def _all_zero(residuals: Sequence[Expr], moving: Sequence[Symbol]) -> dict[Symbo
 
 def rates_at_rest(residuals: Sequence[Expr], moving: Sequence[Symbol]) -> dict[Symbol, Expr]:
     """Return the rates that vanish if all these constraints between rates hold, each with the value 0. Return an empty
-    mapping if the constraints allow another value of one of their rates."""
+    mapping if the constraints do not fix all their rates at 0."""
     rates = [rate(q) for q in moving if any(f.has(rate(q)) for f in residuals)]
     if not 1 < len(residuals) == len(rates):
         return {}

@@ -102,7 +102,7 @@ def _multipliers(own_rate: Expr, equations: Sequence[Quantity], unknown: Sequenc
     matrix = Matrix([[diff(_equation(equation).residual, a) for a in unknown] for equation in equations])
     wanted = Matrix([diff(own_rate, a) for a in unknown])
     if wanted.has(*unknown) or own_rate.has(*(rate(a) for a in unknown)):
-        raise Rejected(Complaint("wrong-argument", "dQ/dt contains higher rates than the equations of motion"))
+        raise Rejected(Complaint("wrong-argument", "the rate of the quantity contains higher rates than the equations"))
     factors = [tidied(factor) for factor in matrix.T.LUsolve(wanted)]
     common = gcd_list([factor.as_coeff_Mul()[0] for factor in factors if factor != 0] or [Integer(1)])
     return common, [factor / common for factor in factors]

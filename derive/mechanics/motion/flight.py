@@ -947,9 +947,8 @@ def _component_there(when: Quantity, path: Quantity, i: int, key: str) -> Quanti
     def orbit(found: Expr) -> tuple[Any, Any]:
         ends = [found if k == i else c for k, c in enumerate(there)]
         dx, dy = (end - start for end, start in zip(ends, begin, strict=True))
-        across = (
-            v[0] * dy - v[1] * dx
-        )  # the displacement perpendicular to the initial velocity, times the initial speed
+        # the displacement perpendicular to the initial velocity, times the initial speed
+        across = v[0] * dy - v[1] * dx
         return 2 * across * (v[0] * a[1] - v[1] * a[0]), (a[1] * dx - a[0] * dy) ** 2
 
     return establish(

@@ -110,7 +110,9 @@ def leaves_contact(force: Quantity, letter: Letter, start: Value, key: str = "le
         raise _unsolvable_contact(force, unknown)
     if sign_known(at_start) != 1:
         message = f"`leaves_contact`: `{force.key}` is not known to be positive at {unknown} = {start}"
-        raise Rejected(Complaint("no-contact", message, help="give a value at which the contact or the tension exists"))
+        raise Rejected(
+            Complaint("no-contact", message, help="give a `start` at which the surfaces touch or the string is taut")
+        )
     result = _place_of_loss(force, pushing, unknown)
     solved = result.right
     speed = ByEnergy.behind(force, letter_of(unknown))

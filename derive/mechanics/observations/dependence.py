@@ -69,8 +69,8 @@ INDEPENDENT = Rule(
 
 
 def independent(view: View) -> Observed:
-    """Observations that an answer does not contain a given symbol, although it was derived from equations that contain
-    this symbol."""
+    """Observations that an answer does not contain a given symbol, although the answer was derived from equations that
+    contain this symbol."""
     for of in reversed(view.answers):
         solved = isinstance(of.value, Relation)
         value = of.value.right if solved else of.value

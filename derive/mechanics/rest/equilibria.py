@@ -397,9 +397,9 @@ def _names(potential: Quantity, sought: Sequence[Symbol], count: int) -> dict[Sy
 
 
 def _level_where(force: Expr, q: Symbol) -> Relation | None:
-    """Return the condition that no factor of the force without q is zero.
+    """Return the condition that excludes a force that is zero for all values of q.
 
-    If such a factor is zero, every value of q is an equilibrium. Return None if none of these factors can be zero.
+    This force is zero if a factor that does not contain q is zero. Return None if no such factor can be zero.
     """
     factors = (f.as_base_exp()[0] for f in Mul.make_args(_factored(force).as_numer_denom()[0]))
     left = may_vanish(Mul(*(f for f in factors if not f.has(q))))
