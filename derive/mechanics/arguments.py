@@ -163,7 +163,7 @@ def _told(wanted: Any) -> str:
     if origin in (Union, types.UnionType):
         return " or ".join(dict.fromkeys(_told(each) for each in args if each is not type(None)))
     if origin is tuple or origin is SequenceType:
-        of = _told(args[0]).partition(" ")[2]
+        of = _told(args[0]).removeprefix("an ").removeprefix("a ")
         count = "some" if origin is SequenceType or args[1:] == (...,) else str(len(args))
         return f"{count} {of}s"
     name = getattr(wanted, "__name__", str(wanted))

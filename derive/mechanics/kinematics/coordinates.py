@@ -208,7 +208,7 @@ def by_functions_of_time(expr: Any, coordinates: Iterable[Symbol], order: int = 
 
 @lru_cache(maxsize=64)  # the second routes of one system all need the same series
 def _series_of(coordinates: tuple[Symbol, ...]) -> dict[Symbol, tuple[Expr, ...]]:
-    """Return a mapping from t, each coordinate and each rate except the highest to its coefficients in a Taylor series.
+    """Return the Taylor coefficients of t, of each coordinate and of each rate except the highest.
 
     The series of q is q + q_dot s + q_ddot s^2/2 + ..., up to the highest rate; the series of t is t + s.
     """
