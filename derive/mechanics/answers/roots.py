@@ -348,7 +348,7 @@ def _factors(polynomial: Poly, equation: Quantity, unknown: Expr) -> list[tuple[
         degree = max(part.degree() for part, _ in found if part is not None)
         factor = f"an unsolved factor of degree {degree} in {unknown}"
         message = f"`roots` solves factors up to degree 2, but `{equation.key}` has {factor}"
-        raise Rejected(Complaint("not-solved", message, help="substitute numbers, or choose a special case"))
+        raise Rejected(Complaint("not-solved", message, help="choose a case in which it has factors of degree 1 and 2 only"))
     return [(each, times * n) for part, times in found for each, n in _not_doubled(part)]
 
 

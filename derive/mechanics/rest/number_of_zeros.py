@@ -54,7 +54,7 @@ def signs_counted(
         changes = sum(_vanishes_between(curve, x, y) for x, y in turns)
         where = tuple((str(s), str(x)) for s, x in point.items())
         if changes != len(expected):
-            message = f"the force has {changes} zeros, and {len(expected)} equilibria are listed"
+            message = f"zeros of the force: {changes}; listed equilibria: {len(expected)}"
             return Verdict(Grade.REFUTED, message, where)
         if all(abs(own - value) > LITTLE * (1 + abs(value)) for value, _ in values):
             return Verdict(Grade.REFUTED, "the equilibrium is not among those that are listed", where)
