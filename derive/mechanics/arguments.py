@@ -49,7 +49,7 @@ KEEPING = {
 
 def checked(verb: F) -> F:
     """Return the verb with a check of its arguments before each call. If the run has a memory of earlier calls, a
-    result can be read from this memory instead of being computed; the functions in `KEEPING` are always called."""
+    result can be read from this memory instead of being computed. The functions in `KEEPING` are always called."""
     signature = inspect.signature(verb)
     keeps = verb.__name__ in KEEPING
 

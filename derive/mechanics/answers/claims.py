@@ -100,8 +100,8 @@ def double(facts: Judged) -> bool:
 
 
 def only(facts: Judged) -> bool:
-    """Whether this is the only root that is kept. At all trial numbers for which this root is real, each other
-    root of the polynomial is complex, outside the range of the unknown or, for a positive unknown, not positive."""
+    """Whether this is the only root that is kept. Wherever this root is real, each other root of the polynomial must be
+    complex, outside the range of the unknown, or not positive for a positive unknown."""
     alone = facts.inputs["count"] == 1 and _polynomial(facts).degree() > 1 and not is_zero(_slope_there(facts))
     return alone and everywhere(trial_points(_letters(facts)), lambda point: _only_there(facts, point))
 
@@ -278,8 +278,8 @@ def goes_as(wanted: int) -> Predicate:
 
 
 def bent(sign: int) -> Predicate:
-    """Judge numerically whether the values just before and just after the place are both smaller than the value at the
-    place (sign 1), or both larger (sign -1)."""
+    """Judge numerically whether the place is a maximum (sign 1) or a minimum (sign -1): the values just before and just
+    after the place must both be smaller, or both larger."""
 
     def is_so(facts: Judged) -> bool:
         x = Dummy("x", **facts.inputs["letter"].assumptions0)  # a Dummy, so that no given number replaces it
@@ -529,8 +529,8 @@ def word_of_its_mark(facts: Judged, outcome: str) -> bool:
 
 
 def there_where_told(facts: Judged, outcome: str) -> bool:
-    """Whether the conditions in the sentence are exact: the place of the extremum is real and lies between the ends of
-    the interval if and only if these conditions hold."""
+    """Whether the conditions in the sentence are exact. They must hold if and only if the place of the extremum is real
+    and lies between the ends of the interval."""
     told = replace(facts, inputs={"positive": Integer(0), **facts.inputs})
     return is_a_root_just_where_told(told) and _between_the_ends_just_where_told(facts)
 

@@ -204,8 +204,8 @@ def _conditions(real: Relation | None, room: Sequence[Relation]) -> dict[str, Re
 
 
 def _inside(place: Expr, real: Relation | None, within: Within | None, x: Symbol) -> list[Relation] | None:
-    """Return the conditions for the place to lie between the ends of the interval: an empty list if the place always
-    lies between them, None if it never does."""
+    """Return the conditions for the place to lie between the ends of the interval. The list is empty if the place
+    always lies between them; return None if it never does."""
     if within is None and (real is not None or not x.is_positive):  # every real place is allowed
         return []
     low, high = within or (Integer(0), None)

@@ -69,9 +69,9 @@ def roots(
     together: str | None = None,
     key: str | None = None,
 ) -> tuple[Quantity, ...]:
-    """Roots of an equation in one letter, in ascending order if this order is known: x = (-b +- sqrt(b^2 - 4 a c))/(2
-    a) for each quadratic factor, x = -b/a for each linear factor. If the unknown is positive, only roots that can be
-    positive are kept.
+    """Roots of an equation in one letter, in ascending order if this order is known. A quadratic factor has the roots
+    x = (-b +- sqrt(b^2 - 4 a c))/(2 a), a linear factor the root x = -b/a. If the unknown is positive, only roots that
+    can be positive are kept.
 
     equation   a polynomial equation in the letter; or a result that is not an equation, whose zeros are sought
     letter     the unknown: a letter, a coordinate, a rate, or an expression such as `cos(theta)`
@@ -307,8 +307,8 @@ def _not_reached(equation: Quantity, unknown: Expr, every: Sequence[RootOf], key
 
 
 def _existing(root: RootOf, unknown: Expr, equation: Quantity) -> Relation | None:
-    """Return the condition for an angle with this sine or cosine to exist; None if the unknown is not a sine or cosine,
-    or if it is known whether the angle exists. The inequality is strict if the equation also contains the other
+    """Return the condition for an angle with this sine or cosine to exist. Return None if the unknown is not a sine or
+    cosine, or if it is known whether the angle exists. The inequality is strict if the equation also contains the other
     function (the cosine for a root that is a sine), because this function vanishes at the bound."""
     if not isinstance(unknown, sin | cos) or root.value in (1, -1):
         return None
@@ -348,7 +348,7 @@ def _factors(polynomial: Poly, equation: Quantity, unknown: Expr) -> list[tuple[
         degree = max(part.degree() for part, _ in found if part is not None)
         factor = f"an unsolved factor of degree {degree} in {unknown}"
         message = f"`roots` solves factors up to degree 2, but `{equation.key}` has {factor}"
-        raise Rejected(Complaint("not-solved", message, help="choose a case in which it has factors of degree 1 and 2 only"))
+        raise Rejected(Complaint("not-solved", message, help="choose a case in which all factors have degree 1 or 2"))
     return [(each, times * n) for part, times in found for each, n in _not_doubled(part)]
 
 

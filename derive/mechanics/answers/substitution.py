@@ -252,8 +252,8 @@ def _replacements(quantity: Quantity, of: Quantity) -> list[Replacement]:
 
 
 def _letter_replaced(quantity: Quantity, of: Quantity) -> Any:
-    """Return the symbol that a result replaces: the symbol of the result if the original contains it, otherwise the
-    unknown of a root, or the symbol of the result that a limit approximates."""
+    """Return the symbol that a result replaces. This is the symbol of the result if the original contains it; otherwise
+    the unknown of a root, or the symbol of the result that a limit approximates."""
     root, own = quantity.fact(ValueOf), quantity.symbol
     whole = root.unknown if root is not None else quantity.step.approximates
     is_there = isinstance(own, Expr) and own.free_symbols <= explicit(of.value).free_symbols

@@ -58,8 +58,8 @@ def _stretch(bare: Matrix, form: Matrix, rates: Sequence[Symbol]) -> tuple[Symbo
 
 
 def _length(g: Expr, s: Symbol, size: Symbol) -> Expr | None:
-    """Return the positive root u of g(u^2 S) u = 1 that is 1 for S = 0; None if the equation is too long or SymPy does
-    not find this root."""
+    """Return the positive root u of g(u^2 S) u = 1 that is 1 for S = 0. Return None if the equation is too long, or if
+    SymPy does not find this root."""
     u = Dummy("u", positive=True)
     equation = g.xreplace({s: u**2 * size}) * u - 1
     if equation.count_ops() > MOST_OPERATIONS:

@@ -52,8 +52,8 @@ def momentum_jump(impact: Impact, kinetic: Quantity, q: Coordinate, key: str | N
     kinetic   the kinetic energy T of the system, J, from `kinetic_energy_of`
     q         a coordinate of the system
 
-    Second route: p - p_before is the sum of m (v - v_before) . dr/dq over mass points, and the right side is the
-    derivative of the power J . v with respect to q_dot.
+    Second route: p - p_before is the sum of m (v - v_before) . dr/dq over mass points. The right side is the derivative
+    of the power J . v with respect to q_dot.
     Outcomes: struck (an impulse acts along q), free (no impulse acts along q).
     Errors: q is not a coordinate of the impact.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, derivations and exercises of chapter 2; Landau, Lifshitz,

@@ -446,8 +446,8 @@ class _Isolation:
 
     @cached_property
     def _substituted(self) -> tuple[Substitution, ...]:
-        """Return the substitutions that eliminate the other unknowns; empty if there are too many, or if the number of
-        these unknowns is not one less than the number of equations."""
+        """Return the substitutions that eliminate the other unknowns. The result is empty if there are too many of
+        these unknowns, or if their number is not one less than the number of equations."""
         eliminated = self.found.eliminated
         if not 0 < len(eliminated) == len(self.equations) - 1 or len(eliminated) > MOST_SUBSTITUTED:
             return ()

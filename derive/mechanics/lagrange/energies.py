@@ -267,7 +267,7 @@ def kinetic_energy_of(system: System, symbol: str | None = None, key: str = "kin
     system   the particles and bodies that move
 
     Here v is the speed of a particle or of a centre of mass, and I is about the centre of mass. If a body is held at a
-    point about which its inertia is given or can be derived, the body has no term with v, and I is about this point.
+    point about which its inertia is given or can be derived, I is about this point, and the body has no term with v.
     Separate steps derive the square of each speed, each inertia that is not given and, in space, each angular velocity.
     Second route: half the sum of m v.v over mass points, with their positions differentiated as functions of t.
     Errors: the moments of inertia of a body are known only about a point other than the required one.
@@ -319,9 +319,9 @@ def kinetic_energy_of(system: System, symbol: str | None = None, key: str = "kin
 
 
 def _made_of(system: System, moved: Sequence[Mover], turnings: Sequence[Turning]) -> str:
-    """Return the word for the parts of the kinetic energy of a single body: "both" for the motion of the centre of mass
-    and the rotation about it, "axis" or "point" for a rotation about a fixed axis or point. The word for any other
-    system is "any"."""
+    """Return the word for the parts of the kinetic energy of a single body. The word is "both" for the motion of the
+    centre of mass and the rotation about it, and "axis" or "point" for a rotation about a fixed axis or point. The word
+    for any other system is "any"."""
     if system.particles or len(system.bodies) != 1 or len(turnings) != 1:
         return "any"
     if moved:

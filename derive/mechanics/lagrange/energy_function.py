@@ -121,7 +121,7 @@ def energy_function(of: Quantity, symbol: str | None = None, key: str = "energy_
     of   the Lagrangian, J
 
     Second route: T_2 - T_0 + U, where T_2 and T_0 are the parts of T of degree 2 and 0 in the rates. For a given L, the
-    second route is the rate of h by the energy identity, and a check is the derivative of L with respect to a common
+    second route is the rate of h by the energy identity. A check is then the derivative of L with respect to a common
     factor of all rates, minus L.
     Outcomes: energy (h is conserved and is T + U); conserved (h is conserved but is not T + U); changing_energy
     (h is T + U, but L contains the time); changing (h is not T + U, and L contains the time); work_energy (h is T + U,

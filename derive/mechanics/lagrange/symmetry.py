@@ -54,7 +54,7 @@ def noether(
     gained   F, a formula in coordinates and time, if the shift adds epsilon dF/dt to L; by default zero
 
     Separate steps show that L is invariant up to dF/dt, and derive the momenta.
-    Second route: the time derivative of Q as a function of t is the sum of xi (m a - f) . dr/dq with the forces f; this
+    Second route: the time derivative of Q as a function of t is the sum of xi (m a - f) . dr/dq with the forces f. This
     sum vanishes by d'Alembert's principle. Also, Q + F is the sum of m v . dr over the mass points, and of e A . dr
     over charges e in magnetic fields. Here epsilon dr is the displacement by the shift.
     Check: for a given L, Q + F follows from the first-order changes of L if the rates change.

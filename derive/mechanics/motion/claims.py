@@ -107,7 +107,7 @@ def arrives_as_told(facts: Judged, outcome: str) -> bool:
 
 
 def turned_first(facts: Judged) -> bool:
-    """Whether, numerically, the motion turns back before it comes to the place, and the sign of the result is opposite
+    """Whether, numerically, the motion turns back before it comes to the place. The sign of the result must be opposite
     to the sign of the rate at the start."""
     (come,) = facts.inputs["arrivals"]
     q, squared, start = come.begun.coordinate, with_numbers(come.squared), with_numbers(come.begun.start)
@@ -697,8 +697,8 @@ def _later(fact: InFlight) -> tuple[Expr, ...]:
 
 
 def passes(facts: Judged) -> bool:
-    """Whether the condition is equivalent to y(t) = Y for the place (X, Y) and the time t with x(t) = X, and this time
-    is numerically positive."""
+    """Whether the condition is equivalent to y(t) = Y, where (X, Y) is the place and t is the time with x(t) = X. This
+    time must be numerically positive."""
     fact, (X, Y) = facts.inputs["flight"], facts.inputs["place"]
     x, y = fact.path
     time = tidied((X - x.subs(TIME, 0)) / diff(x, TIME))

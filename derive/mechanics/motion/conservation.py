@@ -1,7 +1,7 @@
 """The rate of change of a quantity by the equations of motion, and whether the quantity is conserved.
-As in a textbook, each equation is multiplied by a factor, the products are added, and the sum turns out to be the rate
-of change of the quantity Q. The factors follow from the highest rates in the equations, usually accelerations: dQ/dt is
-linear in the highest rates, and the sum of the products must have the same coefficients.
+As in a textbook, each equation is multiplied by a factor, and the products are added. The sum turns out to be the rate
+of change of the quantity Q. The factors follow from the highest rates in the equations, usually accelerations. The rate
+dQ/dt is linear in the highest rates, and the sum of the products must have the same coefficients.
 """
 
 from __future__ import annotations
@@ -222,7 +222,7 @@ def _sum(
 
 def _gathered(of: Sequence[tuple[Quantity, Expr]], moving: Sequence[Symbol], highest: Sequence[Symbol]) -> list[Form]:
     """Return the line "terms with highest rates = (c_1 + c_2 + ...) P" if all other terms are multiples of one
-    product P; otherwise return an empty list."""
+    product P. Otherwise return an empty list."""
     with_rates, rest = [], []
     for equation, factor in of:
         number, moved = factor.as_independent(*moving, as_Add=False)

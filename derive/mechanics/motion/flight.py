@@ -654,7 +654,7 @@ def landing(flight: Sequence[Quantity], on: Surface | None = None, key: str = "l
     flight   the two components of the flight, from `free_flight`
     on       a fixed plane; by default the circle of the motion before the flight
 
-    The distance from the plane is a polynomial of degree 2 or less in the time; the flight ends at the first time after
+    The distance from the plane is a polynomial of degree 2 or less in the time. The flight ends at the first time after
     the departure at which this distance vanishes. For the circle, the squared distance from the centre minus the
     squared radius is t^3 (a t + b). The factor t^3 is due to the departure, where the particle is on the circle, moves
     along the circle, and needs no constraint force. If a t + b has no zero at a positive time, the particle does not

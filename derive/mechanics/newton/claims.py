@@ -96,8 +96,8 @@ def _still(value: Expr, moving: Any) -> Expr:
 
 
 def rate_of_angular_momentum(facts: Judged, outcome: str) -> bool:
-    """Whether the left side is the rate of change of the body's angular momentum about the point: the sum of m r x a
-    over the particles of the body. The direction in which the coordinate rotates the body is positive.
+    """Whether the left side is the rate of change of the body's angular momentum about the point. This rate is the sum
+    of m r x a over the particles of the body. The direction in which the coordinate rotates the body is positive.
     """
     moving, angle = list(facts.inputs["moving"]), facts.inputs["angle"]
     arm = tuple(a - b for a, b in zip(facts.inputs["place"], facts.inputs["about"], strict=True))

@@ -375,7 +375,7 @@ def is_rounded(facts: Judged, told: Amount) -> bool:
 
 
 def vanishes_there(sign_changes: bool) -> Predicate:
-    """Judge whether the answer vanishes for the stated value of a symbol or an angle, and changes its sign at this
+    """Judge whether the answer vanishes for the stated value of a symbol or an angle. It must change its sign at this
     value if and only if `sign_changes` is true."""
 
     def is_so(facts: Judged) -> bool:
@@ -422,8 +422,8 @@ def grows_without_bound_there(facts: Judged) -> bool:
 
 
 def branches_off(facts: Judged) -> bool:
-    """Whether, just below the stated value of the symbol, an equilibrium is stable and two others do not exist, and
-    just above this value the equilibrium is unstable and the two others are stable.
+    """Whether an equilibrium loses its stability to two others at the stated value of the symbol. Just below this value
+    it is stable, and the two others do not exist; just above, it is unstable, and the two others are stable.
     """
     curvature, beside = (explicit(facts.quantities[role].value) for role in ("of", "beside"))
     cosine, border = facts.inputs["cosine"], facts.result

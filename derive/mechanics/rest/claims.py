@@ -274,8 +274,8 @@ def higher(kind: str) -> Predicate:
 
 
 def undecided(facts: Judged) -> bool:
-    """Whether the stability is undecided: all derivatives up to the eighth vanish, or the sentence states the first
-    nonzero derivative and the sign of this derivative is unknown."""
+    """Whether the stability is undecided. All derivatives up to the eighth must vanish, or the sentence must state the
+    first nonzero derivative, whose sign is unknown."""
     return bool(higher("open" if "higher" in facts.inputs else "flat")(facts))
 
 

@@ -292,7 +292,7 @@ def _with_zero(
 
 
 def _linear(forces: Sequence[Expr], unknown: Sequence[Symbol], state: State) -> State | None:
-    """Return the unique solution of linear forces for several coordinates; None if a force is not linear, if the
+    """Return the unique solution of linear forces for several coordinates. Return None if a force is not linear, if the
     numbers of forces and of coordinates differ, or if the solution may not be unique."""
     held = [q for q in unknown if any(force.has(q) for force in forces)]
     if len(held) < 2 or len(held) != len(forces):

@@ -89,8 +89,8 @@ def _grid_within(known: Range) -> list[float]:
 def _vanishes_between(curve: Any, low: float, high: float) -> bool:
     """Whether the force vanishes where it changes its sign.
 
-    A force can also change its sign without vanishing: it may diverge, as at the position of a charge, or jump, as at
-    the place where a spring has the length zero.
+    A force can also change its sign without vanishing. It may diverge, as at the position of a charge, or jump, as
+    where a spring has the length zero.
     """
     sign, before = _sign(curve, low), max(abs(curve(low)), abs(curve(high)))
     for _ in range(HALVINGS):
