@@ -536,8 +536,6 @@ def there_where_told(facts: Judged, outcome: str) -> bool:
 
 
 def _between_the_ends_just_where_told(facts: Judged) -> bool:
-    """Judge whether the place lies between the ends of the interval if and only if the conditions in the sentence
-    hold."""
     if "within" not in facts.inputs:
         return True
     place, ends = explicit(facts.result), facts.inputs["within"]

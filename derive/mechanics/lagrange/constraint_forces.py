@@ -429,8 +429,8 @@ class _Isolation:
 
     @property
     def _constant(self) -> dict[Quantity, Relation]:
-        """Return each equation q_ddot = 0 of a constraint q = constant, with this constraint; empty if unknowns are
-        eliminated, or if all equations have this form."""
+        """Return a mapping from each equation q_ddot = 0 to its constraint q = constant. The mapping is empty if
+        unknowns are eliminated, or if all equations have this form."""
         constraints = self.problem.constraints
         first = len(self.problem.used)
         numbers = [i - first for i in self.found.equations if i >= first]

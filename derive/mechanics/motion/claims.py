@@ -291,7 +291,8 @@ def slips_in_the_stated_sense(facts: Judged, outcome: str) -> bool:
 
 
 def names_its_slider(facts: Judged, outcome: str) -> bool:
-    """Whether the sentence calls the body that would slip by its name in the contact, or "body" if it has no name."""
+    """Whether the sentence uses the name that the contact has for the slipping body, or "body" if there is no such
+    name."""
     constraint = _constraint_of(facts.quantities["friction"])
     return (
         constraint is not None
@@ -557,7 +558,7 @@ def speeds_up(wanted: bool) -> Predicate:
 
 
 def in_flight(facts: Judged, fact: InFlight) -> bool:
-    """Whether the fact describes a free flight from the curve on which the particle was.
+    """Whether the fact describes a free flight from the curve on which the particle moved.
 
     At t = 0 the particle is at the place of the departure. Its velocity is along the curve and away from the start, and
     its speed follows from conservation of energy.

@@ -106,7 +106,7 @@ class InFlight(Fact):
     kept           the constraint on the motion before the flight
     coordinate     the coordinate of the motion before the flight, and its value at the departure
     letter         the symbol that the author gave to the value at the departure; None without a symbol
-    orbit          the circle on which the particle was; None if it was not on a circle
+    orbit          the circle on which the particle moved; None if it did not move on a circle
     conditions     the conditions on the symbols under which the constraint is lost
     """
 

@@ -264,7 +264,7 @@ class Departure:
 
     @cached_property
     def orbit(self) -> Orbit | None:
-        """The circle on which the particle was; None if it was not on a circle.
+        """The circle on which the particle moved; None if it did not move on a circle.
 
         For the place P(q) of the particle, with an angle q, the centre of a circle is P + P''. The centre and the
         radius must not depend on q.
@@ -413,7 +413,8 @@ def free_flight(lost: Quantity, at: Any = None, key: str = "flight") -> tuple[Qu
 
     The result has two steps, `flight_x` and `flight_y`: the components of the place, in m, as functions of the time t
     since the departure. A separate step yields the speed v_1 at the departure; the velocity is along the curve on which
-    the particle was. For a body that rolled, a third step, `flight_spin`, has the constant angular velocity, in rad/s.
+    the particle moved. For a body that rolled, a third step, `flight_spin`, has the constant angular velocity, in
+    rad/s.
     It is assumed that contact is lost, and that a rolling body rolls until it departs. No force other than its weight
     may act on the particle or body that flies.
     Second route: Lagrange's equations for the coordinates of the place, without the forces of the lost contact. Checks:

@@ -155,8 +155,8 @@ ANGLE = Rule(
 
 
 def angle(view: View) -> Observed:
-    """An angle that is a pure number, in degrees, and the masses, lengths and other symbols of the system on which it
-    does not depend."""
+    """An angle with a fixed value, in degrees, and the masses, lengths and other symbols of the system on which the
+    angle does not depend."""
     for of in view.answers:
         told = of.value if isinstance(of.value, Relation) else Relation(of.symbol, "=", of.value)
         is_number = isinstance(told.right, Expr) and not explicit(told.right).free_symbols
