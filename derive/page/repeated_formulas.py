@@ -57,9 +57,10 @@ def results(step: Step, lines: Lines) -> int:
 def told_by_number(step: Step, nodes: tuple[Inline, ...], level: Level) -> tuple[Inline, ...]:
     """Return the sentence of a repeated result, which refers to the earlier equation and needs no lines after it."""
     before, _ = around_chain(nodes)
-    if step.outcome not in AGAIN or level is Level.FULL or not before or not isinstance(before[-1], Text):
+    if step.outcome not in AGAIN or level is Level.FULL or not before:
         return ()
-    return (*before[:-1], Text(before[-1].text.rstrip(" ,") + "."))
+    *start, last = before
+    return (*start, Text(last.text.rstrip(" ,") + ".")) if isinstance(last, Text) else (*before, Text("."))
 
 
 def noted(lines: Lines, note: tuple[Inline, ...]) -> Lines:
