@@ -39,7 +39,7 @@ THOSE_OF_EVERY_SET = tuple((kind, kind) for kind in OF_EVERY_SET)
 
 @dataclass(frozen=True)
 class ProblemSet:
-    """The heading of a set, and the ids of its problems (`hw9/block`) in order."""
+    """What a set and its course state: the heading, the ids of the problems (`hw9/block`) in order, and settings."""
 
     id: str
     course: str
@@ -130,7 +130,7 @@ class CourseKeys(Record):
     font_size: str | None = key(
         "the size of the text in PDFs, by default `11 pt`, and `10 pt` at the detail `brief`", one_of(tuple(FontSize))
     )
-    detail: str | None = key("how much algebra pages show where `--detail` states nothing", one_of(tuple(Level)))
+    detail: str | None = key("how much algebra pages show if `--detail` is not given", one_of(tuple(Level)))
     form: AnswerForm | None = key(
         "units and significant figures of the answers whose part states none: `{unit: [degree, cm], figures: 3}`; each "
         "answer uses the first unit that fits",

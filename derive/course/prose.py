@@ -4,7 +4,7 @@ r"""Prose as an instructor writes it: plain text with mentions and formulas.
 - `<<body.sides>>` is a value inside another value.
 - `<<eq torque>>` is the equation number of the step `torque`.
 - `<<figure axes>>` is the number of the drawing `axes`.
-- `<<problem top>>` is the number of another problem of the set.
+- `<<problem top>>` is the word "Problem" with the number of another problem of the set.
 - `$y = x^2/(2b)$` is a formula in LaTeX; between double dollar signs, a formula has a line of its own.
 - `\$` is a dollar sign.
 
@@ -184,9 +184,9 @@ def _check_dollars(node: Scalar, faults: Faults) -> None:
     prices = {i for found in _PRICE.finditer(rest) for i in range(*found.span())}
     lone = next((found.start() for found in re.finditer(r"\$", rest) if found.start() not in prices), None)
     if lone is not None:
-        message = "this `$` begins no formula and belongs to no price"
+        message = "this `$` belongs neither to a formula nor to a price"
         if node.text[lone : lone + 2] == "$$":
-            message = "this `$$` begins no formula"
+            message = "this `$$` does not begin a formula"
         faults.error("formula-in-prose", message, node.place_within(lone), help=_DOLLAR)
 
 
