@@ -46,7 +46,7 @@ class Term:
     """A value under construction: its expression, its dimension, and its place in the text.
 
     start, end   the places in the text where the value begins and ends
-    size         an estimate of the degree of the value and of the binary digits of its numbers
+    size         an estimate of the degree of the value and of the number of its binary digits
     terms        a bound for the number of terms of the value after multiplying out
     kind         the kind of the value, if it is a single declared letter
     """

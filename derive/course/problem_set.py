@@ -234,8 +234,8 @@ def known_set(root: Path, set_id: str) -> str:
 
 
 def problem_set(root: Path, set_id: str) -> ProblemSet:
-    """Return the set. Raise `Misused` if it does not exist; if its file has errors, raise one `Rejected` with all of
-    them."""
+    """Return the set. Raise `Misused` if it does not exist. If its file or the file of the course has errors, raise one
+    `Rejected` with all of them."""
     path = f"problems/{known_set(root, set_id)}/set.yaml"
     faults = Faults()
     of_course = _course(root, faults)
@@ -304,7 +304,8 @@ def logo_of_set(root: Path, set_id: str) -> str | None:
 
 
 def _shared(root: Path, set_id: str, *names: str) -> dict[str, Any]:
-    """Read these keys of the set or, if the set does not have them, of the course. Other keys are not read."""
+    """Read the keys with these names from the set or, if the set does not have them, from the course. Other keys are
+    not read."""
     faults, keys = Faults(), keys_of(CourseKeys)
     found: dict[str, Any] = {}
     for path in (COURSE, f"problems/{set_id}/set.yaml"):

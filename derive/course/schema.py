@@ -142,7 +142,7 @@ def refuse_comment(node: Scalar, faults: Faults) -> None:
     comment = re.match(r"[ \t]+#(?=[^\s#]|[ \t]+\d)", node.source.text[node.end :])
     if comment and node.style == "" and not node.empty:
         place = node.source.place(node.end + comment.end() - 1)
-        help_line = "put the whole text in quotes; if this is a comment, put a space after the `#`"
+        help_line = "put the whole text in quotes; in a comment, a space and a word follow the `#`"
         faults.error("comment-in-text", "`#` begins a comment, so the text ends before it", place, help=help_line)
 
 

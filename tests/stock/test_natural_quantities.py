@@ -115,7 +115,7 @@ def test_a_wrong_form_is_not_printed(tmp_path: Path, monkeypatch: pytest.MonkeyP
     [
         ("{k: b**2/m}", "letter-clash", "`k` already has a meaning"),
         ("{x: b/m}", "letter-clash", "`x` already has a meaning"),
-        ("{beta: 1/2}", "wrong-argument", "its value is the number 1/2"),
+        ("{beta: 1/2}", "wrong-argument", "would be the number 1/2"),
         ("{beta: c/(2*m)}", "undeclared-symbol", "`c`"),
         ("{beta: x/2}", "undeclared-symbol", "`x`"),
         ("{beta: b + m}", "dimension", "cannot be added"),
