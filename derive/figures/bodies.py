@@ -1,4 +1,4 @@
-"""Outlines of bodies from their boundaries: relative to a point and axes of the body, or at any place and
+"""Outlines of bodies, computed from their boundaries: in axes through a point of the body, or at any position and
 orientation."""
 
 from __future__ import annotations
@@ -126,7 +126,8 @@ def _ends_of_round(
 
 
 def _end_on(marks: Sequence[Mark], along: Position) -> Position:
-    """Return the start of the visible part of an axis: the far end of a thin rod along the axis, or the origin."""
+    """Return the start of the visible part of an axis: the far end of a thin rod from the origin along the axis, or the
+    origin."""
     for mark in marks:
         if isinstance(mark, ThinRod) and ORIGIN in (mark.start, mark.end):
             _, end = sorted((mark.start, mark.end), key=lambda place: place != ORIGIN)
@@ -349,7 +350,7 @@ def _measures(body: Body, boundary: Round, point: Point) -> list[Mark]:
 
 
 def _with_slice(marks: Sequence[Mark], boundary: Round, point: Point) -> list[Mark]:
-    """Add a slice at the height z from the point, with its radius and a dimension line for z."""
+    """Add a slice at the height z above the point, with its radius and a dimension line for z."""
     z = scalar("z")
     lower, upper = boundary.ends
     at = lower + CUT * (upper - lower)

@@ -68,7 +68,7 @@ class DisplacementArrow(Mark):
     others   the displacements of all masses; the greatest displacement has the longest arrow
     side     the direction from the mass to the arrow, if the arrow is next to the mass; None if the arrow starts at the
              mass
-    clear    the part of the distance to the arrow that scales with the drawing, a length
+    clear    a length that is added to the distance of the arrow from the mass, and is drawn to scale
     off      the other part of this distance, in points; for an arrow that starts at a mass, the radius of the mass
     room     the least distance between two masses, which limits the arrows; None without a limit
     exact    whether the lengths of all arrows are in the ratio of the displacements
@@ -164,9 +164,9 @@ def draw_modes(
     named   positions of further parts, as for `sketch`
     like    the name of the sketch of the system; the numbers of this sketch are also used here
 
-    The name of a drawing is the key of the shape. The list is empty if a sketch cannot show the system. A mode is left
-    out if the direction of a displacement depends on unknown numbers. Modes that are found together are also left out
-    if none of them oscillates or grows.
+    The name of a drawing is the key of the shape. The list is empty if a sketch cannot show the system, if a point has
+    a prescribed motion, or if a rope has mass. A mode is left out if the direction of a displacement depends on unknown
+    numbers. Modes that are found together are also left out if none of them oscillates or grows.
     """
     shapes = [each for each in steps if each.step.rule == MODE_SHAPE.name]
     if not shapes or len(system.places[0].components) != 2:
@@ -212,8 +212,8 @@ def draw_after(
     moment   the state at the impact
     after    the rates just after the impact
 
-    The result is None in space, or if a sketch cannot show the system. The directions hold for the numbers of the
-    drawing.
+    The result is None in space, or if a sketch cannot show the system. With other numbers than those of the drawing,
+    the arrows may have other directions.
     """
     things = things_of(system, named)
     if things is None or len(system.places[0].components) != 2:
@@ -287,8 +287,10 @@ class _Displaced:
             return False
 
     def _along(self, displacement: MatrixBase, at: Location) -> Expr | None:
-        """Return the component of a displacement along a direction that does not depend on the mode or on unknown
-        numbers; None if there is no such direction."""
+        """Return a component of a displacement, up to a positive factor; None if the direction is unknown.
+
+        The component is along an axis if the ratio y/x is a number, and otherwise along the path of a coordinate.
+        """
         x, y = displacement
         if x == 0 or y == 0 or tidied(y / x).is_number:
             return y if x == 0 else x

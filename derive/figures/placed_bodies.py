@@ -33,9 +33,10 @@ from derive.mechanics.model.system import System
 from derive.steps.step import is_zero
 
 ACROSS = column(0, 0, 1)
-# Lengths relative to the distance of the centre of mass from the fixed point. For a top of unknown shape: the height
-# and radius of its cone, and the height of the end of its stem. SHAFT: the length of the shaft of a rotating body.
-TOP, WIDE, STEM, SHAFT = Rational(4, 3), Rational(3, 5), Rational(8, 5), Rational(3, 4)
+# Lengths relative to the distance of the centre of mass from the fixed point.
+# The height and radius of the cone of a top of unknown shape, and the height of the end of its stem.
+TOP, WIDE, STEM = Rational(4, 3), Rational(3, 5), Rational(8, 5)
+SHAFT = Rational(3, 4)  # the length of the shaft of a rotating body
 STEPS = 24  # number of steps along the side of a round body
 
 
@@ -215,7 +216,7 @@ def _holder(system: System, placed: Any) -> Iterable[Mark]:
 
 
 def with_its_shape(placed: Any) -> Any:
-    """Replace a body that is given by symbols by the body whose shape these symbols describe."""
+    """Return the placed body; a body given by symbols is replaced by a body with the shape that they describe."""
     known = getattr(placed.body, "shape", None)
     if known is None:
         return placed

@@ -34,7 +34,7 @@ DISTANCES = (22, 44, 64)
 STEPS = 144  # number of steps of a curve
 FACING = 0.3  # least cosine of the angle between the line of sight and the normal at an arrowhead
 EQUAL = 1e-3  # relative difference of two moments below which they count as equal
-EVERY = 8  # only every eighth point of the sections is used for the size of the drawing
+EVERY = 8  # only every eighth point of three great circles is used for the size of the drawing
 FIRST = 2  # the number that replaces the first letter without a number; the next letters have the next numbers
 
 
