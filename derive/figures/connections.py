@@ -429,8 +429,8 @@ class Connections:
     def has_bare_origin(self, plane: Plane) -> bool:
         """Whether a coordinate is measured along a fixed level line from the origin, at which nothing is drawn.
 
-        If an end of a spring, a string or a rod, or a joint, is fixed, the origin is usually an equilibrium position, so
-        the result is False.
+        If an end of a spring, a string or a rod, or a joint, is fixed, the origin is usually an equilibrium position.
+        Then the result is False.
         """
         if plane.of is not None or isinstance(plane.ground, Location) or self.start:
             return False

@@ -39,8 +39,8 @@ class ChainLine:
 
 @dataclass(frozen=True)
 class Equations:
-    """The lines of one step, or of steps that share a row, and the number of the equation. The last `framed` lines are framed as an
-    answer."""
+    """The lines of one step, or of steps that share a row, and the number of the equation. The last `framed` lines are
+    framed as an answer."""
 
     key: str
     lines: tuple[ChainLine, ...]

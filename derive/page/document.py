@@ -146,7 +146,8 @@ class _Writer:
         self.pointed_to: tuple[Step, ...] = ()  # the steps whose lines the last sentence about earlier lines mentions
         self.told_before = ""  # the key of a step that shares the sentence of the step before
         self.framed: set[str] = set()  # steps whose result is framed as an answer
-        # Whether the current part frames results that an earlier part has framed: it has one framed answer or `box:`.
+        # Whether the current part frames results again that an earlier part has framed. It does if it has `box:` or
+        # only one framed answer.
         self.frames_again = False
         self.unplaced: set[str] = set()  # steps that the page has not yet described
         self.symbols = {step.key: step.symbol for step in derivation.steps}
@@ -528,7 +529,7 @@ class _Writer:
         return in_words or key in self.numbers and not self._is_repeated(self.derivation.step(key))
 
     def _is_repeated(self, step: Step) -> bool:
-        """Return whether an earlier equation of the page is the result of a step that no part asks for."""
+        """Return whether no part asks for this step, and its result is already an equation of the page."""
         return step.key not in self.asked and step.display.repeats in self.numbers
 
     def _phrase(self, step: Step, follows_words: bool = False) -> tuple[Inline, ...]:

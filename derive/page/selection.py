@@ -33,18 +33,18 @@ LESS = {
     OWN: OWN,
 }  # manner of a step -> the manner to try next if the page needs the symbol of the step
 
-LONGEST_CLAUSE = 24  # greatest number of nodes of a result that appears in a clause
+LONGEST_CLAUSE = 24  # greatest number of nodes in the expression tree of a result that appears in a clause
 
 
 @dataclass(frozen=True)
 class Needed:
-    """The result of an attempt at the page: the hidden steps whose symbols the page uses or to whose equations it
-    refers, and the displays to whose numbers nothing refers.
+    """What a first version of the page has shown: the hidden steps whose symbols the page uses or to whose equations
+    it refers, and the displays to whose numbers nothing refers.
 
     in_words   key of a step whose equation is in its sentence -> whether the page uses the symbol of the step
     """
 
-    letters: Mapping[str, int]  # key of a step -> number of attempts at the page that lacked its symbol
+    letters: Mapping[str, int]  # key of a step -> number of versions of the page that lacked the symbol of the step
     numbers: frozenset[str] = frozenset()
     in_words: Mapping[str, bool] = field(default_factory=dict)
 

@@ -138,7 +138,8 @@ class _Reader:
         token = self.taken()
         if token.startswith("\\text{"):
             word = token[len("\\text{") : -1].strip()
-            return Upright(f"{word} {self.taken()}" if self.next[:1].isdigit() else word)  # the number is not a factor
+            # A number after a word is not a factor: it belongs to the word.
+            return Upright(f"{word} {self.taken()}" if self.next[:1].isdigit() else word)
         command = token.removeprefix("\\") if token.startswith("\\") else ""
         if token == "{":
             self.at -= 1

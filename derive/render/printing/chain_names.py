@@ -97,7 +97,7 @@ class StepNames:
     """The lines of one step as plain SymPy, with the names in them.
 
     values        the names to substitute, with their values: symbols, and formulas written as identifiers
-    has_formula   whether the left side is a formula of names whose value equals the first line of the chain
+    has_formula   whether the left side is a formula of names, and its value equals the first line of the chain
     """
 
     step: Step
