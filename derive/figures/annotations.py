@@ -33,11 +33,11 @@ from derive.figures.space import (
 PIECES = 200  # number of short pieces of an axis; each is tested for a disc in front of it
 PAST = 0.3  # length by which an axis extends beyond a body, relative to the size of the body
 SHORTEST = 11.0  # length of the shortest dimension line that has room for its two arrowheads, in points
-OUTSIDE = 13.0  # length of the arrows outside a shorter dimension line, in points
+OUTSIDE = 13.0  # length of the two arrows outside a dimension line shorter than SHORTEST, in points
 FORCE = 58.0  # length of a `ForceArrow` of size 1, in points
 APPLIED = 26.0  # length of the arrow of a given force in the drawing of a system, in points
 ASIDE = 12.0  # constant part of the shift of a dimension line, in points
-SHORT = 3  # the components of a point are described only if they contain at most this many operations
+SHORT = 3  # the components of a point are described only if together they contain at most this many operations
 RING = 0.16  # radius of a rotation arrow round an axis, relative to the size of the body
 DOT = 2.6  # radius of a point that is wider than a rod, in points
 HOLLOW = 2.3  # radius of the circle for a point on a body, in points

@@ -91,7 +91,7 @@ def seen_outline(body: Body, about: str | None = None, named: bool = True) -> li
 
 
 def _reach(body: Body, point: Point, along: Position) -> Position:
-    """Return the place at which an axis leaves a body, or the origin."""
+    """Return the place at which an axis leaves a body; the origin if this place is unknown."""
     match body.boundary:
         case Rim() as rim:
             ends = [point.seen(place) for place in rim.places(EDGE)]
@@ -144,7 +144,7 @@ def axes_at(body: Body, about: str) -> list[Mark]:
 
 
 def is_in_plane(body: Body) -> bool:
-    """Return whether a body of several parts is drawn in its plane."""
+    """Return whether a body has several parts and is drawn in its plane."""
     return hasattr(body, "parts") and body.flat_across == "z"
 
 
@@ -275,7 +275,7 @@ def _hollow(body: Body, point: Point, aside: Position, named: bool, in_plane: bo
 
 
 def _sizes(body: Body, boundary: Boundary | None, point: Point, aside: Position) -> list[Mark]:
-    """Return lines that show the sizes of a body in any orientation."""
+    """Return lines with the radius and the lengths of a body, which may have any orientation."""
     match boundary:
         case Round():
             return _round_sizes(body, boundary, point, aside)

@@ -22,7 +22,7 @@ from derive.algebra.relation import Relation
 from derive.errors import Complaint, Rejected, Unverified
 from derive.figures.marks import Branch, Diagram
 
-STEPS = 160  # number of steps of a branch between two changes
+STEPS = 160  # number of straight lines that draw a branch between two changes
 GRID = 2000  # number of intervals of the parameter's range, and of the coordinate's range in the second route
 HALVINGS = 80
 TRIED = (0.11, 0.37, 0.68, 0.93)  # the second route is used at these fractions of an interval of the parameter
@@ -104,7 +104,7 @@ def bifurcations_of(
     if not changes:
         span = f"{parameter} from {ends[0]:.4g} to {ends[1]:.4g}"
         message = f"no equilibrium begins, ends or changes its stability for {span}"
-        raise Rejected(Complaint("drawing", message, help="a diagram shows such a change: choose another `range`"))
+        raise Rejected(Complaint("drawing", message, help="a diagram must show such a change: choose another `range`"))
     _confirm(diagram, parameter, spans, places, numbers, _searched(diagram, low, high, axis is None), is_angle)
     return Bifurcations(low, high, lines, changes)
 

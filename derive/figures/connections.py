@@ -849,7 +849,6 @@ def _arrows_of_motion(start: Any, place: Location) -> Iterator[Mark]:
 
 
 def distance_of(start: Location, end: Location) -> Expr:
-    """Return the distance between two places."""
     return sqrt(tidied(Add(*(c**2 for c in (end - start).components))))
 
 

@@ -327,8 +327,8 @@ def _offset(drawn: _Drawn, of: PlacedBody, scene: Connections) -> tuple[float, f
 
 
 def _acting(system: System, of: Any) -> list[PointForce]:
-    """Return the forces of connections on a body. If there are any, a normal force that no equation contains is added:
-    the force of a fixed plane on which the coordinates keep the body."""
+    """Return the forces of connections on a body. If there are any, and the only contact that the coordinates keep is
+    with a fixed plane, the normal force of this plane is added, which no equation contains."""
     named = [force for each in connections_of(system, Connection) for force in each.on(of)]
     named += _drawn_pulls(system, of)
     return [*named, *_unnamed_normals(system, of)] if named else []

@@ -277,7 +277,7 @@ class Branch:
 
     @property
     def drawn(self) -> tuple[Any, ...]:
-        """Return the value and the conditions."""
+        """Return the equilibrium value and the conditions."""
         return (self.place, *self.conditions)
 
 

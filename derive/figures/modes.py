@@ -139,7 +139,7 @@ class RotationArrow(Mark):
 
 @dataclass(frozen=True)
 class RestMark(Mark):
-    """A short dashed line at the position of a mass at equilibrium, perpendicular to its displacement.
+    """A short dashed line at the undisplaced position of a mass, perpendicular to its displacement.
 
     half   half the length of the line, in points
     """
@@ -264,7 +264,7 @@ class _Displaced:
         return [self._change(column_of(at)) for _, at in self.masses]
 
     def _change(self, value: MatrixBase) -> MatrixBase:
-        """Return the change of a column to first order."""
+        """Return the change of a column, to first order in the amplitudes."""
         slopes = [self._at_rest(value.diff(q)) * amplitude for q, amplitude in self.amplitudes.items()]
         return ImmutableDenseMatrix([tidied(Add(*entries)) for entries in zip(*slopes, strict=True)])
 
@@ -306,7 +306,7 @@ class _Displaced:
         return [self._as_in_sketch(mark) for mark in self.things], {**self.values, **self._state()}
 
     def _as_in_sketch(self, mark: Mark) -> Mark:
-        """Return the mark; a wall or a wire is drawn as in the sketch."""
+        """Return the mark for the displaced system; a wall or a wire stays as in the sketch."""
         if isinstance(mark, FixedEnd):
             return replace(mark, away=self._at_rest(mark.away))
         if isinstance(mark, WayMark):
@@ -336,7 +336,7 @@ class _Displaced:
         return sqrt(tidied(x**2 + y**2))
 
     def _rest_marks(self) -> Iterator[Mark]:
-        """Yield the rods at equilibrium as dashed lines, and the positions at equilibrium of masses without a rod."""
+        """Yield dashed lines for the undisplaced rods, and for the undisplaced positions of masses without a rod."""
         bars = [mark for mark in self.things if isinstance(mark, BarMark)]
         ends = [end for mark in bars for end in (mark.start, mark.end)]
         for mark in bars:

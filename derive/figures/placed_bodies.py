@@ -347,8 +347,8 @@ def own_angle(system: System, placed: Any, outline: list[Mark]) -> Iterable[Mark
 
 
 def _rolled_angle(system: System, placed: Any) -> tuple[Expr, int] | None:
-    """Return the coordinate that is the rotation angle of a rolling body, and its sense; None if there is no such
-    coordinate."""
+    """Return the coordinate that equals the rotation angle of a rolling body up to a sign, and this sign; None if
+    there is no such coordinate."""
     for q, value in system.known.items():
         if system.coordinates.get(q) in ("angle", None) and moving_in(system, value):
             for sense in (1, -1):
@@ -434,7 +434,7 @@ def _wheel(boundary: Round, at: Callable[[Position], Position], words: dict[str,
 
 
 def _sides(boundary: Faces, corners: tuple[Position, ...]) -> Iterable[Mark]:
-    """Yield a dimension line for each edge length with a symbol, if the body has few corners."""
+    """Yield a dimension line for each edge length with a symbol, if the body has at most four corners."""
     for length, edges in boundary.edges if len(corners) <= 4 else ():
         if length.as_coeff_Mul()[1].is_Symbol:
             start, end = (corners[i] for i in edges[-1])

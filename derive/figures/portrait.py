@@ -16,7 +16,7 @@ from sympy import Expr, Symbol, diff, lambdify
 from derive.errors import Complaint, Rejected
 
 FAR = (1e5, 3e6, 7e7)  # distances that count as infinite, in units of the size of the horizontal axis
-SAME = 1e-4  # greatest difference of a value from the value at infinity, relative to the greatest absolute value
+SAME = 1e-4  # values that differ by at most this fraction of the greatest absolute value count as equal
 STEPS = 240  # number of steps of the grid in each direction
 # Width of the margins at the left and the right, relative to the horizontal axis. An arrowhead is in a margin only if
 # its whole curve is in the margins.

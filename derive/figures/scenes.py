@@ -38,7 +38,7 @@ from derive.steps.step import Quantity
 
 __all__ = ["arc", "arrow", "axes", "axis_of_rotation", "drawing", "plot", "point_mark", "turn", "vectors_in"]
 
-DEGREES = (34, 52, 22, 44, 16, 38)  # values of angles in the drawing
+DEGREES = (34, 52, 22, 44, 16, 38)  # values of angles in the drawing, in degrees
 LONG, SMALL = Rational(5, 4), Rational(1, 4)  # length of a vector and radius of a rotation arrow, relative to the body
 
 

@@ -188,8 +188,8 @@ class _Scene:
         return {**found, **self._carried_round()}
 
     def _carried_round(self) -> Mapping[Symbol, Any]:
-        """Return the time at which a system with a prescribed rotation is drawn; an empty mapping for any other
-        system."""
+        """Return a mapping with the time at which a system with a prescribed rotation is drawn; it is empty for any
+        other system."""
         if (rate := self._rate_round()) is None:
             return {}
         level = len(self.system.coordinates) > 1 and not moving_in(

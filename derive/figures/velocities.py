@@ -31,7 +31,8 @@ from derive.steps.step import is_zero
 
 ZERO, ONE = Integer(0), Integer(1)
 AXIS = Rational(3, 5)  # length of the axes of a flight, relative to the radius of the circle on which it begins
-LONG, THROWN = Rational(2, 5), Rational(4, 5)  # lengths of arrows, relative to the size of the drawing
+# Lengths of arrows, relative to the size of the drawing: of a velocity, and of the velocity of a thrown particle.
+LONG, THROWN = Rational(2, 5), Rational(4, 5)
 TURNED = (2 * pi / 15, pi / 4)  # angles of the dashed rods in the drawing of an impact
 SHIFTED = Rational(1, 4)  # displacement of the dashed bodies, relative to the length of a rod
 TURNED_ROUND = 2 * pi / 9  # angle of a dashed round body

@@ -164,7 +164,7 @@ def _standard_caption(drawing: m.Recorded, words: Phrases, said: set[str]) -> tu
 def _positive(drawing: m.Recorded, words: Phrases, said: set[str]) -> tuple[Inline, ...]:
     """Return the sentences about the thin arrows of a drawing, to follow the caption.
 
-    said   the sentences in earlier captions; a new sentence is added
+    said   the sentences in earlier captions; this function adds new sentences
     """
     marks = drawing.marks if isinstance(drawing, m.Drawing) else ()
     sorts = {PositiveDirection: "positive_direction", PositiveRotation: "positive_rotation"}
@@ -436,7 +436,8 @@ def leads_to(drawing: m.Recorded) -> tuple[str, ...]:
 
 
 def _earliest(drawing: m.Recorded, derivation: Derivation) -> int | None:
-    """Return the index of the earliest part for a drawing, or -1 for the statement; None if there is no such part."""
+    """Return the index of the first part in which a drawing may appear, or -1 for the statement; None if there is no
+    such part."""
     if leads_to(drawing):
         return next((i for i, keys in enumerate(derivation.parts) if set(keys) & set(leads_to(drawing))), None)
     known: set[str] = set()
@@ -494,7 +495,7 @@ def _given_away(
     where = "the statement" if index == FOUND else f"part {chr(ord('a') + index)}"
     message = f"in {where} the drawing `{drawing.key}` would show `{later}` before it is derived"
     letter = chr(ord("a") + earliest)
-    return Complaint("drawing", message, place, help=f"write `at: {letter}`, where it is derived")
+    return Complaint("drawing", message, place, help=f"write `at: {letter}`, the part that derives this step")
 
 
 # --- contents in words -----------------------------------------------------------------------------------------------
@@ -691,7 +692,7 @@ def _diagrams(plot: m.Plot, curves: Curves, words: Phrases, names: dict[str, Any
 
 
 def _part(line: BranchLine, curves: Curves, varies: bool) -> dict[str, Any]:
-    """Return the names for the words about a part of a branch."""
+    """Return the values, by name, for the phrase about a part of a branch."""
     (start, first), (end, second) = line.points[0], line.points[-1]
     ends = {"start": start, "end": end}
     values = {"first": first, "second": second}

@@ -83,7 +83,7 @@ from derive.steps.step import NUMBERS, Level, Step
 
 HIDDEN_STEP = "hidden"  # under `show:`, the value for a step whose lines the author hides
 CASES = "cases"  # `<<cases>>` in a question prints the numbers of the cases of the plots in this part
-HOMOGENEITY = "look in the script for a law with a wrong quantity"
+HOMOGENEITY = "look in the script for a law that has a wrong input"
 
 
 def document_of(
@@ -571,7 +571,7 @@ def _without_cases(place: Place, label: str, plots: Sequence[Illustration]) -> C
         key, at = plots[0].key, plots[0].at
         where = "the statement" if at == STATEMENT else f"part {at}"
         help_line = f"the plot `{key}` is in {where}: mention `<<{CASES}>>` there, or move the plot with `at: {label}`"
-    message = f"`<<{CASES}>>` prints the numbers of a plot in its part, but no plot in part {label} has `cases`"
+    message = f"`<<{CASES}>>` prints the numbers of a plot in the same part, but no plot in part {label} has `cases`"
     return Complaint("undefined-name", message, place, help=help_line)
 
 

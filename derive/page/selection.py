@@ -130,7 +130,7 @@ class Selection:
         return self.manner(key) is not OWN and self.shown.get(key) != "hidden"
 
     def _can_be_pointed_out(self, step: Step) -> bool:
-        """Return whether earlier lines show the result of a step, so that its sentence can point to these lines."""
+        """Return whether the sentence of a step can point to earlier lines, in place of lines of its own."""
         having_it = {each.key for each in self._having_it[step.key]}
         if not having_it or step.key in self.shown or step.key in self.needed.numbers or self.level is Level.FULL:
             return False

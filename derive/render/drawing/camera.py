@@ -90,7 +90,7 @@ class Numbers:
         return x, y, rest[0] if rest else 0.0
 
     def along(self, column: Any, letter: Any, ends: tuple[Any, Any], steps: int) -> list[Vector]:
-        """Return the positions on a curve as the symbol `letter` runs from one end to the other."""
+        """Return the positions on a curve as the symbol `letter` runs from the first of `ends` to the second."""
         curves = [self._along(entry, letter, *(self.of(end) for end in ends), steps) for entry in _entries(column)]
         return [(x, y, rest[0] if rest else 0.0) for x, y, *rest in zip(*curves, strict=True)]
 

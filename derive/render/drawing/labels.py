@@ -89,7 +89,7 @@ def _one_by_one(
 
 
 def _best(tried: Tries, drawn: Sequence[Spot], others: Sequence[Extent]) -> tuple[float, Extent]:
-    """Return the least total cost of a box of the label, with this box."""
+    """Return the least total cost of a box of the label, and this box."""
     least, best = inf, (-1, (0.0, 0.0, 0.0, 0.0))
     for place, (cost, box) in tried:
         if cost > least:
@@ -231,7 +231,7 @@ def _seen(pieces: Sequence[Piece], width: Callable[[Stroke], float]) -> list[Spo
 
 
 def _dots(piece: Piece, width: float) -> list[Spot]:
-    """Return a stroke or a bullet as dots."""
+    """Return points along a stroke, or on the edge of a bullet."""
     if isinstance(piece, Bullet):
         x, y = piece.spot
         reach = max(1, round(piece.size - 0.6))

@@ -84,8 +84,6 @@ def layout_of_latex(tex: str) -> Layout:
 
 
 class _Reader:
-    """Reads the tokens of a formula once."""
-
     def __init__(self, tokens: Sequence[str]):
         self.tokens = [token for token in tokens if token.strip() and token not in ("~", "\\ ")]
         self.at = 0
