@@ -172,8 +172,8 @@ class AxisOfRotation(Mark):
         return [line, *_circling(ring, plus(NOUGHT, along, sense), RING * paper.reach, self.label, paper)]
 
     def _start(self, paper: Paper, near: Vector, along: Vector) -> Vector:
-        """Return the start of the line. A part before the body is left out if the body would hide it: the line would
-        seem to leave the body through a front edge."""
+        """Return the start of the line. The part before the body is left out if the body would hide it, because the
+        line would then seem to leave the body through a front edge."""
         start = plus(near, along, -PAST * paper.reach)
         (x, y), (u, v) = paper.spots(near, start)
         is_behind = dot(along, paper.stance.eye) > 0 and is_within(

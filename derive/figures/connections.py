@@ -74,14 +74,15 @@ ORIGIN = Symbol("O")
 # Values of coordinates that no constraint determines, relative to `Connections.size`.
 AWAY = (Rational(8, 5), Rational(6, 5), Rational(2), Rational(4, 5))
 ON_A_TABLE = (Rational(4, 5), Rational(-13, 10))  # the same for a table in space, relative to `ball_size`
-WHEEL = Rational(1, 24)  # the drawn radius of a small pulley, relative to the longest distance in a string
+# The drawn radius of a small pulley, and its drawn distance from the ceiling, relative to the greatest distance between
+# two places of strings and rods.
+WHEEL, HANGER = Rational(1, 24), Rational(1, 8)
 HOOK = Rational(9, 5)  # the length of the hook that holds the axle of a pulley, relative to the radius of the pulley
-HANGER = Rational(1, 8)  # the drawn distance of a small pulley from the ceiling, relative to the same distance
 BOWL = 4  # the radius of a bowl, relative to `Connections.size`
 SPHERE = 2  # the radius of a fixed circle that a round body touches from outside, relative to `Connections.size`
 AXIS = Rational(4, 5)  # the length of the axes on a table, relative to TABLE
 # The radius of a table in space is at least BEYOND times the greatest distance of a contact from its middle. If this
-# distance changes with time, the radius is also at least TABLE times `ball_size`.
+# distance changes for a body, the radius is also at least TABLE times `ball_size`.
 TABLE, BEYOND = Rational(5, 2), Rational(6, 5)
 AROUND = Rational(1, 4)  # the radius of the arrow of a motor, relative to the size of the body
 HALF_OF_ROPE = 1.2  # half the drawn thickness of a rope with mass, in points
@@ -89,7 +90,7 @@ PAST = Rational(3, 2)  # length of a plane beyond the last body on it, relative 
 ROUND = Rational(3, 5)  # angle between the vertical and the line from the centre of a circle to a body on the circle
 EXACT = 1e-6
 SMALL = 0.08  # a component of the direction of a plane counts as zero if its size is at most this number
-FAR = Rational(8, 5)  # the curve of a wire is drawn up to FAR times the drawn coordinate of its particle
+FAR = Rational(8, 5)  # a wire is drawn up to FAR times the value that the coordinate of its particle has in the drawing
 
 Sort = TypeVar("Sort", bound=Connection)
 

@@ -66,7 +66,7 @@ STANDING, SHORT, SHORTEST = 47.0, Rational(12, 25), Rational(7, 20)
 ROPE = 110.0  # the drawn length of a whole rope, in points; each piece of the rope is drawn alone
 FOOT = 30.0  # half the length of the piece of a surface under a body, in points
 SLIGHT = 1e-6  # a number below this counts as zero
-NEAR = 0.3  # opposite arrows count as overlapping if the gap between their tips is below NEAR times a length
+NEAR = 0.3  # opposite arrows count as overlapping if the gap between their tips is below this part of an arrow
 ANGLE = Rational(63, 100)  # the value of an angle that has no given value, in radians
 NORMALS = ("N", "F_n", "n")  # possible symbols of a normal force that does not appear in the equations
 
@@ -211,8 +211,8 @@ def _pull(pull: PointForce, found: Mapping[Symbol, Quantity]) -> _Drawn:
 
 
 def draw_alone(system: System, bodies: Sequence[BodyAlone]) -> list[Drawing]:
-    """Return the diagrams of bodies of a system. If one set of trial numbers determines all forces, all diagrams have
-    the same scale of forces, except that small forces are drawn larger."""
+    """Return the diagrams of bodies of a system. If one set of trial numbers fits all diagrams with known forces, these
+    diagrams have the same scale of forces, except that small forces are drawn larger."""
     scene = Connections(system)
     shares = [[_share(size) for size in own] for own in _sizes([each.forces for each in bodies], scene)]
     least = min((share for own in shares for share in own), default=1)

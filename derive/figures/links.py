@@ -1,4 +1,4 @@
-"""Find links, which are lines from a fixed or known point to a moving point, and their angles in formulas of positions.
+"""Finds links (lines from a fixed or known point to a moving point) and their angles in the formulas of positions.
 
 A link is the line along which polar coordinates are measured; it need not be a physical part. Numerical samples
 exclude most pairs of points that are not links; algebra decides about the remaining pairs.

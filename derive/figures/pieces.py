@@ -1,4 +1,5 @@
-"""The pieces of which a mark consists (lines, areas, points and labels), and `Paper`, the interface to the paper.
+"""The pieces of which a mark consists (lines, areas, points and labels), and `Paper`, which gives a mark
+the numbers, the projection and the scale for its pieces.
 
 `derive.render.drawing` draws these pieces only.
 """

@@ -216,7 +216,8 @@ def _holder(system: System, placed: Any) -> Iterable[Mark]:
 
 
 def with_its_shape(placed: Any) -> Any:
-    """Return the placed body; a body given by symbols is replaced by a body with the shape that they describe."""
+    """Return the placed body; a body given by symbols is replaced by a body with the shape that the symbols
+    describe."""
     known = getattr(placed.body, "shape", None)
     if known is None:
         return placed

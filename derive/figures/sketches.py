@@ -42,7 +42,7 @@ from derive.mechanics.model.system import Central, Particle, System
 __all__ = ["sketch"]
 
 ZERO = Integer(0)
-FAR = Rational(8, 5)  # the curve of a point is drawn up to FAR times the drawn value of the coordinate
+FAR = Rational(8, 5)  # a curve along a coordinate is drawn up to FAR times the drawn value of the coordinate
 ECCENTRICITY = Rational(1, 2)
 WEIGHT = Rational(2, 5)  # length of the arrow of a weight, relative to the size of the drawing
 BROADSIDE = 23 * pi / 36  # rotation angle at which a rotating vertical plane faces the viewer
@@ -677,8 +677,8 @@ class _Scene:
 
 
 def _along_axis(way: Sequence[Expr]) -> ImmutableDenseMatrix:
-    """Replace a vector along an axis by a unit vector, because the description in words then states its direction. The
-    unit vector has the direction in which the label of the arrow is positive. Return any other vector unchanged."""
+    """Replace a vector along an axis by a unit vector, because the description in words can then state its direction.
+    The unit vector has the direction in which the label of the arrow is positive. Return any other vector unchanged."""
     if sum(c != 0 for c in way) > 1:
         return ImmutableDenseMatrix(way)
     return ImmutableDenseMatrix([0 if c == 0 else -1 if c.could_extract_minus_sign() else 1 for c in way])

@@ -17,7 +17,7 @@ from derive.figures.space import NOUGHT, Spot, Vector, angle_of, direction, dot,
 HATCH = 4.0  # distance between two hatches, and depth of a hatch
 STAND = 9.0  # half the length of the piece of wall at a fixed end
 PEG = 2.2  # radius of the dot that replaces a fixed end with its wall
-ABOVE = 0.1  # a held part counts as on the side of the wall if it goes there by more than this fraction of its length
+ABOVE = 0.1  # a held part is on the side of the wall if it extends there by more than this fraction of its length
 UNDER = 20.0  # half the length of the piece of a surface under a particle
 SLIDER, RAIL = (16.0, 9.0), 22.0  # width and height of a slider, and half the length of its rail
 # Half the length of the double arrow at a moving support, and distance of this arrow from the rail.

@@ -283,7 +283,7 @@ def _outside_its_case(problem: Problem, drawing: m.Recorded, derivation: Derivat
         broken = next((each for each in conditions if _is_broken(each, names, numbers)), None)
         if broken is not None:
             which = f"case {case_label(i)} of the plot `{drawing.key}`" if more else f"the plot `{drawing.key}`"
-            message = f"the numbers of {which} do not satisfy {broken}, on which the plotted result depends"
+            message = f"the numbers of {which} do not satisfy {broken}, which the plotted result requires"
             place = case[0].place if case else placement.place if placement else problem.place_of("solve")
             help_line = "change the numbers, or plot a result that holds for these numbers"
             found.append(Complaint("drawing", message, place, help=help_line))

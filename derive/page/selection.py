@@ -38,7 +38,7 @@ LONGEST_CLAUSE = 24  # greatest number of nodes in the expression tree of a resu
 
 @dataclass(frozen=True)
 class Needed:
-    """What a first version of the page has shown: the hidden steps whose symbols the page uses or to whose equations
+    """What earlier versions of the page have shown: the hidden steps whose symbols the page uses or to whose equations
     it refers, and the displays to whose numbers nothing refers.
 
     in_words   key of a step whose equation is in its sentence -> whether the page uses the symbol of the step

@@ -100,7 +100,7 @@ class Unknown(StrictUndefined):
 
 
 def environment(**own: Any) -> ImmutableSandboxedEnvironment:
-    """Return a Jinja environment that cannot run code, with the delimiters `<<`, `<%` and `<#`.
+    """Return a sandboxed Jinja environment with the delimiters `<<`, `<%` and `<#`.
 
     own   further options, such as the loader and the function that prints a value
     """

@@ -231,7 +231,7 @@ class Notation:
         return row(number, *(within(each, Binding.OPEN) for each in behind)) if letters else number
 
     def _is_letter_before_functions(self, letters: list[Expr]) -> bool:
-        """Return whether the factors, divided by 2, are written a/2 or a/2 sin x, and not 1/2 M a^2 or 1/2 x_dot.
+        """Return whether the factors, divided by a number such as 2, are written a/2 or a/2 sin x, not 1/2 M a^2.
 
         The first factor must be a letter without dots, and the others must be functions. If there are others, the
         letter must be a length, or its dimension must be unknown.

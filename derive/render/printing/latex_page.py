@@ -341,8 +341,8 @@ class LatexPage:
         return Tex(rf"{{{self.file(drawing)}}}{{{alt}}}{{{number}}}{{{caption}}}")
 
     def _figure_name(self, number: int, space: str) -> str:
-        """Return the name of a figure; TeX increases its number by the number of figures of
-        earlier problems."""
+        """Return the name of a figure; TeX increases its number by the number of figures of earlier
+        problems."""
         return rf"{escaped(self.words.labels['figure'])}{space}\figureno{{{number}}}"
 
     def margin(self, display: Display, before: Sequence[Inline] = ()) -> Tex:
