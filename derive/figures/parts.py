@@ -27,7 +27,7 @@ CASTER = 3.6  # radius of the wheels of a cart
 COIL = 4.6  # half the width of a spring
 PITCH = 5.0  # usual length of a half turn of a spring
 FEWEST = 4  # least number of half turns of a spring
-LEAD = 7.0  # length of each straight end of a spring
+LEAD = 7.0  # usual length of each straight end of a spring
 
 CYLINDER = (16.0, 8.0)  # length and width of the cylinder of a dashpot
 BESIDE_SPRING = 20.8  # distance of a dashpot from a spring between the same places
