@@ -90,7 +90,7 @@ def _commit(root: Path, revision: str) -> str:
     named = not revision.startswith("-") and revision.isprintable()
     found = _git(root, "rev-parse", "--verify", "--quiet", f"{revision}^{{commit}}") if named else None
     if found is None or found.returncode:
-        help_line = "name a commit, a branch or a tag: `HEAD`, `HEAD~1`, `main`; `git log` lists them"
+        help_line = "name a commit, a branch or a tag: `HEAD`, `HEAD~1`, `main`; `git log --all` lists the commits"
         raise Misused(Complaint("no-such-revision", f"git finds no revision `{revision}` here", help=help_line))
     return found.stdout.decode().strip()
 

@@ -114,7 +114,8 @@ class _Watch:
 
 
 def seen_in(paths: Sequence[Path]) -> Seen:
-    """Return the time, size and identity of each file that authors write, among these files and in these folders."""
+    """Return the time, size and identity of each of these files, and of each file in these folders that an author may
+    have written."""
     found, waiting = dict[str, tuple[int, int, int]](), list[tuple[str, int]]()
     for path in paths:
         if path.is_file():
