@@ -51,7 +51,7 @@ class Spelled(str):
 class Complaint:
     """One error or warning: a stable code, a message that can be read alone, a place, notes, and at most one help line.
 
-    argument   the argument of a verb that is wrong; in a YAML file, the error is shown at the key for this argument
+    argument   the wrong argument of a verb; in a YAML file, the error is shown at the key for this argument
     """
 
     code: str

@@ -22,8 +22,8 @@ Blocks = Sequence[Mapping[str, Any]]
 class Change:
     """One difference between two states of a problem or of a set.
 
-    of       the kind of difference: problem (of a set), given, points, asked, part, answer, step, order, sentence, drawing,
-             number, reference, warning
+    of       the kind of difference: problem (of a set), given, points, asked, part, answer, step, order, sentence,
+             drawing, number, reference, warning
     where    the place of the difference: a key, the label of a part, a place on the page
     before   the old text; empty if there was none
     after    the new text; empty if the text was removed

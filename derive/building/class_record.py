@@ -60,7 +60,8 @@ class ClassRecord:
         return [code for code, name in self.students.items() if _comparable(name) == wanted]
 
     def unknown(self, student: str) -> Complaint:
-        """Return the error about an answer whose student is not in the class, or cannot be told from others by name."""
+        """Return the error about an answer whose student is not named, is not in the class, or has a name that several
+        students have."""
         if not student.strip():
             message = f"the problem has variants, but no student of the class of `{self.set_id}` is named"
             return Complaint("no-such-student", message, help="give the code of the student in the column `student`")
@@ -77,7 +78,7 @@ class ClassRecord:
 
 
 def _comparable(text: str) -> str:
-    """Return a code or a name in a form that does not depend on case, on spaces, or on the Unicode encoding of accents."""
+    """Return a code or a name in a form that does not depend on case, spaces, or the Unicode encoding of accents."""
     return " ".join(unicodedata.normalize("NFC", text).split()).casefold()
 
 

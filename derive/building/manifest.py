@@ -138,7 +138,7 @@ class Manifest:
         return all(read(path) == content for path, content in self.typeset_from.get(document, {}).items())
 
     def is_older(self, document: str, recipe: Recipe, read: Callable[[str], str]) -> bool:
-        """Return whether the PDF of a document, or an export, exists but was made from inputs that have changed since."""
+        """Return whether the PDF of a document, or an export, exists but its inputs have changed since it was made."""
         before = self.recipes.get(self.typeset_by.get(document, ""), {})
         was, is_now = ({k: v for k, v in each.items() if k not in OPTIONS} for each in (before, recipe))
         file = document if document in self.exports else f"{document}.pdf"

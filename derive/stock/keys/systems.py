@@ -290,7 +290,7 @@ def _parts(written: SystemKeys, places: Places, known: InLetters, faults: Faults
             places.contacts.setdefault(name, []).append(point)
     for i, name in enumerate(written.wires):
         if name in written.wires[:i]:
-            faults.error("twice", f"`{name}` is on a wire twice", name.place, help="leave one of them out")
+            faults.error("twice", f"`{name}` is on a wire twice", name.place, help="name it once")
     acting += attempted(faults, each, [partial(wire_on, name, connected) for name in written.wires]) or []
     _check_surfaces_used(written, faults)
     _check_pulleys(written, faults)
@@ -314,7 +314,7 @@ def _check_surfaces_used(written: SystemKeys, faults: Faults) -> None:
         for name in written.surfaces:
             if name not in used:
                 help_line = (
-                    "describe the contact under `contacts`, name it under `on` of `lands`, or leave the surface out"
+                    "describe the contact under `contacts`, name the surface under `on` of `lands`, or leave it out"
                 )
                 faults.error("unused-key", f"no contact uses the surface `{name}`", name.place, help=help_line)
 
