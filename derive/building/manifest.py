@@ -146,7 +146,7 @@ class Manifest:
 
     @property
     def document_files(self) -> list[str]:
-        """The names of the documents of the whole set and of its page for a browser, without suffixes."""
+        """The file names, without suffixes, of the documents of the whole set and of its web page."""
         return [*(file for _, file in self.documents), INDEX]
 
     def all_outputs(self) -> list[str]:

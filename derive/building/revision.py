@@ -45,7 +45,7 @@ def course_at(root: Path, revision: str, set_id: str) -> Iterator[Path]:
 
 
 def _copy(root: Path, revision: str, files: Sequence[tuple[bytes, bytes]], folder: Path) -> None:
-    """Write files, given by the names of their objects and their paths, into a folder."""
+    """Write files into a folder; `files` has pairs of the name of a git object and the path of its file."""
     contents = _contents(root, revision, [name for name, _ in files])
     for (_, path), content in zip(files, contents, strict=True):
         target = folder / os.fsdecode(path)

@@ -308,7 +308,7 @@ def _count(text: str) -> int:
 def _documents(text: str) -> tuple[str, ...]:
     documents = tuple(text.split(","))
     if odd := [kind for kind in documents if kind not in DOCUMENTS]:
-        message = f"`{odd[0]}` is not a document: name some of {', '.join(DOCUMENTS)}, with commas between them"
+        message = f"`{odd[0]}` is not a document: choose from {', '.join(DOCUMENTS)}, and put commas between several"
         raise argparse.ArgumentTypeError(message)
     return documents
 

@@ -37,7 +37,7 @@ from derive.render.notation.text import in_one_line
 from derive.steps.homogeneity import dimension_of
 
 DIFFERS = "it differs from the answer of the problem"
-LONGEST = 160  # characters of an expression in an explanation
+LONGEST = 160  # greatest number of characters of an expression in an explanation
 ROUNDS = 6  # rounds of substituting definitions
 MOST_UNKNOWN = 2  # greatest number of unknown letters that may be other names for letters of the problem
 FEWEST_FIGURES = 2
@@ -169,7 +169,7 @@ class _Comparison:
         for goal in goals:
             free = sorted({_without_dots(each) for each in goal.free_symbols - value.free_symbols}, key=str)[:8]
             if 2 * len(bases) > len({_without_dots(each) for each in goal.free_symbols}):
-                continue  # at least half of the letters must be letters of the problem
+                continue  # at most half of the letters of the right answer may have other names
             for chosen in permutations(free, len(bases)):
                 put_in = _with_rates(dict(zip(bases, chosen, strict=True)))
                 if are_surely_equal(value.xreplace(put_in), goal):

@@ -394,7 +394,7 @@ class _Grading:
         return found
 
     def of_list(self, statements: list[_Statement], target: Target) -> tuple[Verdict, list[_Statement]] | None:
-        """Judge the entries of a list that several statements give by name, such as `r = ..., theta = ...`; None if not
+        """Judge the entries of a list that several statements give by name, such as `r = ..., theta = ...`; None unless
         exactly one statement gives each entry."""
         used = []
         for symbol in target.symbol:
@@ -509,7 +509,7 @@ class _Grading:
         return self.text[span.start : span.end].strip()
 
     def unequal_side(self, statement: _Statement) -> Read | None:
-        """Return a side in an equation, other than a name, that differs from the last side; None if no side does."""
+        """Return a side of an equation, other than a name, that differs from the last side; None if no side does."""
         if statement.is_single or statement.read is None:
             return None
         first = 0 if statement.name is None and len(statement.read.sides) == 2 else 1

@@ -43,7 +43,7 @@ from derive.steps.homogeneity import dimension_of, dimension_table
 from derive.steps.step import Step
 
 ONE: Expr = Integer(1)
-# a relation whose left side contains one of these states the value of the left side
+# if the left side of a relation contains one of these, the relation states the value of its left side
 _NAMED_RATES = (TimeRate, CarriedRate, BodyRate, Slope, At)
 
 

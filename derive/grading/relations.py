@@ -128,8 +128,8 @@ def _renamed(typed: Relation, goal: Relation, comparison: _Comparison) -> Verdic
 
 
 def _with_function(typed: Relation, goal: Relation) -> Relation | None:
-    """Return a condition on an angle as a condition on its tangent, sine or cosine, if the problem states it so; else
-    None."""
+    """Return a condition on an angle as a condition on its tangent, sine or cosine, if the right answer has this form;
+    else None."""
     left = goal.left
     if not isinstance(left, sin | cos | tan) or typed.left != left.args[0]:
         return None

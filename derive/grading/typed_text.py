@@ -37,7 +37,7 @@ _DEFINED = re.compile(
 
 
 class Unread(Exception):
-    """The reason why an answer is not read, and the place in the tidied text."""
+    """The reason why an answer cannot be read, and the place in the tidied text."""
 
     def __init__(self, message: str, span: Span | None = None):
         super().__init__(message)
@@ -318,7 +318,7 @@ def _wrapped(tokens: list[Token]) -> list[Token]:
 
 
 def _without_cells(tokens: list[Token]) -> list[Token]:
-    """Leave out the signs `&` outside matrices, which only align rows."""
+    """Leave out each `&` outside a matrix, because it only aligns rows."""
     found, depth = [], 0
     for token in tokens:
         depth += token.is_command("begin") - token.is_command("end")

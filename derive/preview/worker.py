@@ -1,6 +1,6 @@
 """The process that derives the pages of a preview: it keeps running, and answers one question after another.
 
-The process keeps what it has loaded, so that an edit of words needs little work.
+The process keeps its loaded modules and its caches, so that an edit of words needs little work.
 
     python -P -m derive.preview.worker ROOT MEMORY QUESTIONS ANSWERS TRACE LIFELINE
 

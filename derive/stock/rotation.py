@@ -356,7 +356,7 @@ class RotationAnswers(StockAnswers[DescribedRotation]):
     @answer_for_each("stability_{}", lambda self: AXES)
     def stability(self, axis: str) -> Quantity:
         if self.described.rate is None:
-            message = "a steady rotation that is disturbed needs its `rate`"
+            message = "the stability of a rotation depends on its `rate`, which is not given"
             rejected("missing-key", message, self.described.place, "write `rate: omega`")
         linear = linearised_rotation(self.euler_equations, axis, self.described.rate, key=f"disturbed_{axis}")
         return perturbation_rate_squared(linear, f"Omega_{axis}", f"stability_{axis}")

@@ -272,8 +272,8 @@ class Marked:
 
 
 def _circle(centre: MatrixBase, through: MatrixBase, around: MatrixBase) -> MatrixBase:
-    """Return the point at ANGLE on the circle about `centre` that begins at `through`; in space, `around` is its
-    axis."""
+    """Return the point of the circle about `centre` at the angle ANGLE from the point `through`; in space, `around` is
+    the axis of the circle."""
     arm = through - centre
     x, y = (arm[0], arm[1])
     across = ImmutableDenseMatrix([-y, x]) if arm.rows == 2 else around.cross(arm) / sqrt(around.dot(around))

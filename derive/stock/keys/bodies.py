@@ -129,7 +129,7 @@ class QuotedKeys(ShapeKeys):
 class PartKeys(QuotedKeys):
     """The keys of a part of a body."""
 
-    at: tuple[Tree, ...] = key("the position of its centre of mass or, with `of`, of that point", PLACE)
+    at: tuple[Tree, ...] = key("the position of its centre of mass or, with `of`, of the point that `of` names", PLACE)
     of: Word | None = key("the point of the part whose position is `at`: `end`, `corner`, `base`", TEXT)
     turned: Mapping[Word, Tree] = key("the angles by which it is rotated: `{x: pi/2}`", mapping_of(SCALAR))
     cut_out: bool = key("whether it is cut out of the rest", YES_OR_NO)

@@ -520,7 +520,7 @@ def _line(
 
 
 def _over(written: WrittenPlace, known: Connected) -> Any:
-    """Return a pulley, or the body, particle or place of a pulley without a radius."""
+    """Return a pulley, or the body, particle or place that serves as a pulley without a radius."""
     if written.name is not None and written.name in known.pulleys:
         return known.pulleys[str(written.name)]
     places = [*known.pulleys, *known.places.written, *known.bodies]

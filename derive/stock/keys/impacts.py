@@ -85,7 +85,7 @@ class CollisionKeys(Record):
         if self.restitution is not None and not self.along:
             message = "`restitution` has no effect without `along`: after such a collision the two bodies stay together"
             rejected(
-                "unused-key", message, self.places["restitution"], "give the components of the common normal, `along`"
+                "unused-key", message, self.places["restitution"], "give `along`, the components of the common normal"
             )
         ends = [(self.start, "from"), (self.end, "to"), (self.at, "at")]
         read: list[Callable[[], Any]] = [partial(places.at, place, name) for place, name in ends if place]

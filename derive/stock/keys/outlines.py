@@ -83,7 +83,7 @@ def _principal(answers: Any, origin: Point) -> list[Mark]:
 
 
 def _direction(answers: Any, origin: Point) -> list[Mark]:
-    """Return the axis of `moment_about`, with the angles in its components."""
+    """Return the axis of `moment_about`, with arcs for the angles in its components."""
     body, along = answers.body, answers.described.direction
     if along is None:
         return []
@@ -129,7 +129,8 @@ def _has_known_centre(body: Body) -> bool:
 
 
 def _proportions(body: Body) -> dict[Expr, Expr]:
-    """Return values for the drawing, such as the radius of the section of a torus as a fraction of its radius."""
+    """Return values for the drawing, such as the radius of the section of a torus as a fraction of the radius of the
+    torus."""
     match body.boundary:
         case Toroidal(radius, section):
             small, large = section, radius / 4

@@ -164,7 +164,7 @@ def _order(verb: ResultVerb, key: ResultKey, word: Word, letters: InLetters) -> 
 def _symbol(verb: ResultVerb, key: ResultKey, node: Tree, letters: InLetters) -> Word:
     found = names(node)
     if len(found) > 1:
-        rejected("wrong-argument", f"`{verb.name}` finds one quantity, with one symbol", found[1].place)
+        rejected("wrong-argument", f"`{verb.name}` finds one quantity, so only one symbol is allowed", found[1].place)
     return found[0]
 
 

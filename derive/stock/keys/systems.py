@@ -338,8 +338,8 @@ def _connections(written: SystemKeys) -> list[Any]:
 
 
 def _lagrangian(written: SystemKeys, letters: InLetters) -> tuple[Expr, str | None] | None:
-    """Return the formula of a given Lagrangian and the kind of its values, or None instead of the kind if there is no
-    kind with this dimension. Return None if no Lagrangian is given."""
+    """Return the formula of a given Lagrangian and the kind of its values, which is None if no kind has this dimension.
+    Return None if no Lagrangian is given."""
     if written.lagrangian is None:
         return None
     beside = next((name for name in REPLACED_BY_LAGRANGIAN if name in written.places), None)
