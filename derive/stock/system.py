@@ -625,7 +625,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
             rejected("unused-key", message, place, help_line)
 
     def _check_letters(self) -> None:
-        """Check that each symbol of the description denotes quantities of one kind."""
+        """Check that each symbol that the description introduces denotes quantities of one kind."""
         run = current_run.get()
         established = run.established if run is not None else []
         for name, place in self.described.brought.items():

@@ -480,7 +480,7 @@ def _state(
 
 
 def _check_range(q: Word, value: Expr, lies: Range | None) -> None:
-    """Reject a value that is not inside the range of its coordinate, because small displacements need room on both
+    """Reject a number that is not inside the range of its coordinate, because small displacements need room on both
     sides."""
     if lies is not None and value.is_number and not (lies.least < value and value < lies.greatest):
         message = f"`{q}` must be between {lies.least} and {lies.greatest}, so it cannot be {value} in a state"
