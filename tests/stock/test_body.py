@@ -166,7 +166,7 @@ DISC = "{shape: disc, radius: R, mass: M}"
             CONE_IS,
             "area",
             "`area` is not an answer about a cone",
-            "it fills a volume: ask for `density`",
+            "it has a volume: ask for `density`",
         ),
         (
             "{shape: disc, radius: R, mass: M}",

@@ -176,7 +176,7 @@ def test_what_is_cut_out_has_its_share_of_the_mass(tmp_path: Path) -> None:
         ),
         (
             "{mass: M, parts: {rod: {shape: rod, length: h, mass: M}}}",
-            "5: the mass of the whole body is given and divided among its parts, so `rod` has no `mass`",
+            "5: the mass of the whole body is divided among its parts, so `mass` of `rod` is not allowed",
         ),
         ("{parts: {Rod: {shape: rod, length: h, mass: M}}}", "5: `Rod` is not a name for a body"),
         (
