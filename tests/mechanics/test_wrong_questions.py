@@ -234,7 +234,7 @@ def test_two_bodies_of_one_shape_are_two_by_their_names() -> None:
 
 @pytest.mark.parametrize("name", ["Upper", "upper-rod", "", "one two three"])
 def test_a_name_of_a_body_is_one_or_two_plain_words(name: str) -> None:
-    with pytest.raises(DeriveError, match="is not a name for a body"):
+    with pytest.raises(DeriveError, match="is not a valid name for a body"):
         Rod(l, M).named(name)
 
 

@@ -160,7 +160,7 @@ def _determinant(m: Sequence[Sequence[float]]) -> float:
 def draws(letters: set[Symbol], limits: Sequence[Bounds]) -> Iterator[dict[Symbol, Expr]]:
     """Values of the symbols for which each lower limit is below the upper limit.
 
-    A symbol whose number the problem states has this number.
+    If the problem states a number for a symbol, the symbol has this value.
     """
     source = Random(len(letters))
     ordered = sorted(letters, key=str)

@@ -124,7 +124,8 @@ def sliced(
 
 
 def drawn_out(flat: Particles, ends: tuple[Expr, Expr]) -> Particles:
-    """The particles of a flat body perpendicular to z, spread evenly along z: Simpson's rule, exact for squares."""
+    """Particles for a body that extends a flat body evenly along z: copies of the particles of the flat body at both
+    ends and in the middle. Their masses have the weights of Simpson's rule, which is exact up to third powers of z."""
     low, high = ends
     return [
         (share * mass, column(place[0], place[1], low + part * (high - low)))

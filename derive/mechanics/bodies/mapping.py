@@ -1,4 +1,4 @@
-"""Position maps of bodies: the position as a formula in variables between limits, and the cell of these variables.
+"""Position maps of bodies: formulas for the position, limits for their variables, and the cell of these variables.
 
 The cell is |r_u| du for a curve, |r_u x r_v| du dv for a surface, and r_u . (r_v x r_w) du dv dw for a solid.
 """
@@ -118,8 +118,8 @@ def tangents_of(position: ImmutableMatrix, names: Sequence[Symbol]) -> list[Immu
 
 
 def _root_of(square: Expr, limits: Bounds) -> Expr:
-    """The square root, with x or -x in place of each absolute value |x|; an error if x changes its sign between the
-    limits."""
+    """The square root, with x or -x in place of each absolute value |x|; an error if the sign of x is not the same at
+    all random points."""
     root = tidied(sqrt(factor(square)))
     return root.replace(Abs, lambda inside: _counted_positive(inside, limits))
 

@@ -1,8 +1,8 @@
 """The position and orientation of a body. The position is the place of the centre of mass, or of another given point.
 
 The orientation in space is a set of axes. In a plane the orientation is an angle about the normal, positive
-counterclockwise. The body axis perpendicular to the plane points to the reader; at zero angle the next two axes, in the
-cyclic order x, y, z, are along the axes of the plane.
+counterclockwise. One body axis is perpendicular to the plane and points towards the reader. At zero angle, the two body
+axes after it in the cyclic order x, y, z are along the axes of the plane.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ XYZ = "xyz"
 class PlacedBody:
     """A body with its position and its orientation.
 
-    body     an object with a mass, a centre of mass and an inertia about its points
+    body     an object with a mass, a centre of mass and moments of inertia
     turned   the axes of the body; for a motion in a plane, the angle
     point    the point of the body whose place is known
     at       the place of this point of the body
