@@ -49,7 +49,7 @@ class Contact(Connection):
     at       the place of contact
     surface  the surface that the body touches
     gap      the distance between the body and the surface, or the height of a particle above a curve, m
-    normal   the unit vector from the surface to the body
+    normal   the unit vector normal to the surface, towards the body
     gradient  the length of the gradient of `gap` on the surface
     """
 
@@ -126,25 +126,26 @@ def contact(
 ) -> tuple[Contact | Part, ...]:
     """The forces between a body and a surface that it touches, and the conditions that they enforce.
 
-    of         what touches the surface: a particle, a round body, or a point of a body, `rod.place_of("end")`. If a
-               body carries the surface, `of` may also be a fixed place that the surface touches, such as the edge of a
-               table
+    of         what touches the surface: a particle, a round body, or a point of a body such as `rod.place_of("end")`.
+               If a body carries the surface, `of` may also be a fixed place that the surface touches, such as the edge
+               of a table
     on         a surface, `plane(...)`, `circle(...)` or `curve(...)`; or another round body
     normal     the symbol of the normal force along the unit normal, in newtons; positive if the surface pushes. The
                symbol is needed if the coordinates allow the body to leave the surface
     rolling    for a body that does not slip: the symbol of the friction that prevents slipping, in newtons; or True, if
-               the coordinates alone keep the body on the surface. The friction is positive in the direction along the
-               surface that has the free side on its left. In space, the friction has two components along axes in the
-               surface, such as F_x and F_y. If only one horizontal axis is in the surface, the component named after
-               the other horizontal axis is perpendicular to the first axis
+               the coordinates alone keep the body on the surface. In a plane, by default, the friction is positive in
+               the direction along the surface that has the free side on its left. In space, the friction has two
+               components along axes in the surface, such as F_x and F_y. If only one horizontal axis is in the surface,
+               the component named after the other horizontal axis is perpendicular to the first axis
     sliding    the coefficient of sliding friction mu: the friction mu N opposes the velocity of slip s of the material
                points. In space it is -mu N s/|s|, where s is not zero
     direction  "right", "left" or a vector. With `sliding`, the material point of the body slips over the surface in
                this direction; in space it may be left out, and must be left out if the coordinates allow other
-               directions of slip. With `rolling` or `static`, the friction on the body is positive in this direction
+               directions of slip. With a symbol of friction under `rolling` or `static`, the friction on the body is
+               positive in this direction; then `direction` is allowed only for a motion in a plane
     static     the coefficient of static friction mu_s: the material points in contact do not move over each other, so
-               a round body rolls; this requires |F| <= mu_s N, for a rail |F| <= mu_s |N|, and in space
-               sqrt(F_x^2 + F_y^2) <= mu_s N
+               a round body rolls. The friction must satisfy |F| <= mu_s N, or |F| <= mu_s |N| on a rail. In space, |F|
+               is sqrt(F_x^2 + F_y^2)
     force      with `static`: the symbol of the friction F, in newtons, positive as for `rolling`
     key        with `rolling=True`: the key of the condition of rolling
 

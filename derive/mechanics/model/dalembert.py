@@ -40,7 +40,7 @@ class Load:
 
     place   the components of the place; for a generalized force, the coordinate or angle along which it acts, as the
             only component
-    held    pairs of a symbol in `place` and its value; the symbol is constant in every displacement, such as a
+    held    pairs of a symbol in `place` and its value. Such a symbol is constant in every displacement; an example is a
             component of the position of a particle in its body
     multiplier   the symbol of a constraint force, which is a factor of the force; None for other forces
     """
@@ -61,9 +61,10 @@ class Load:
 
 @dataclass(frozen=True)
 class MagneticForce:
-    """The force e v x B, N, on a charge e in a uniform magnetic field; for a motion in a plane, B points to the reader.
+    """The force e v x B, N, on a charge e in a uniform magnetic field.
 
-    The vector potential of the field is A = (1/2) B x r, in T m.
+    For a motion in a plane, B is perpendicular to the plane, and positive towards the reader. The vector potential of
+    the field is A = (1/2) B x r, in T m.
     """
 
     charge: Expr

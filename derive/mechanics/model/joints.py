@@ -50,7 +50,7 @@ def pin(of: Any, to: Any, force: str = "R") -> tuple[Pin | Constraint, ...]:
     """
     for each in (of, to):
         if not is_end(each):
-            message = "`pin` needs points of bodies, particles or places"
+            message = "each end of a `pin` must be a particle, a body, a point of a body or a place"
             raise Rejected(Complaint("wrong-argument", message, help='give a point as `rod.place_of("end")`'))
     (here, body), (there, other) = end_of(of), end_of(to)
     require_bodies("pin", [(here, body), (there, other)])
@@ -86,7 +86,9 @@ def weld(of: Any, to: Any, force: str = "R", torque: str = "C") -> tuple[Pin | C
         raise Rejected(Complaint("wrong-argument", "`weld` needs two bodies that move in a plane"))
     angle = explicit(as_expr(turned[0] - turned[1]))
     if not coordinates_in(angle):
-        message = "the coordinates keep the angle between the two bodies, so the couple of the joint does not appear"
+        message = (
+            "the coordinates keep the angle between the two bodies constant, so the couple of the joint does not appear"
+        )
         raise Rejected(Complaint("not-an-unknown", message, help="use `pin`"))
     at_zero = angle.xreplace(dict.fromkeys(coordinates_in(angle), ZERO))
     return *pin(of, to, force), replace(constraint(angle, at_zero, torque), enforcer="joint")
