@@ -1,7 +1,7 @@
 """Perturbed rotations: small deviations from a steady rotation about a principal axis, and the free symmetric body.
 
 Euler's equations are linearised in the two components of the angular velocity perpendicular to the axis. Second routes
-use the accelerations of the particles of a rotating body.
+use the accelerations of the particles of a rotating body, or conserved quantities.
 """
 
 from __future__ import annotations

@@ -302,10 +302,11 @@ def kinetic_energy(
 
 
 def _energy_by_components(inertia: Any, omega: Any) -> list[Form]:
-    """Return a list with the kinetic energy as an explicit sum, (1/2) w^2/14 (M a^2/12) (13 1^2 + 10 2^2 + 5 3^2).
+    """Return a list with the kinetic energy as an explicit sum, such as
+    (1/2) w^2/14 (M a^2/12) (13 1^2 + 10 2^2 + 5 3^2) for a block.
 
-    The list is empty unless the axes are principal axes with moments that are not all equal, the angular velocity is
-    not along one of these axes, and the ratios of all moments and of all components are numbers.
+    The list is empty unless the axes are principal axes and the ratios of all moments and of all components are
+    numbers. It is also empty if all moments are equal, or if the angular velocity is along one of the axes.
     """
     (w, along), (I, moments) = size_and_rest(omega), factored_matrix(inertia)
     terms = [Factors(moment, n**2) for moment, n in zip(moments.diagonal(), along, strict=True) if n != 0]
