@@ -62,8 +62,8 @@ def steady_amplitude(
     tangent of the lag, tan(delta) = b omega/(c - a omega^2). Without damping, the second result is the lag itself;
     if the sign of c - a omega^2 is unknown, c > a omega^2 is assumed.
 
-    equation   a q_ddot + b q_dot + c q = F cos(omega t), F sin(omega t) or a sum of both, which may contain a constant;
-               the motion is then about the displacement under the constant force
+    equation   a q_ddot + b q_dot + c q = f(t), where f(t) is F cos(omega t), F sin(omega t) or a sum of both. The force
+               f(t) may also contain a constant; the motion is then about the displacement under this constant force
     q          the coordinate of the equation of motion
 
     Check: the forced oscillation with this amplitude and this lag is substituted back into the equation.
@@ -93,8 +93,11 @@ def steady_amplitude(
         return put_back(equation, q, motion), Integer(0)
 
     def lagging(tangent: Expr) -> tuple[Any, Any]:
-        """Check that the component of the residual a quarter of a period behind the force vanishes, for the motion
-        cos(omega t) + tan(delta) sin(omega t), which is proportional to cos(omega t - delta)."""
+        """Check one component of the residual: the component a quarter of a period behind the force vanishes.
+
+        For the force cos(omega t), the motion is cos(omega t) + tan(delta) sin(omega t). This motion is proportional to
+        cos(omega t - delta).
+        """
         motion = drive.in_phase + (tangent if damped == "damped" else tan(tangent)) * drive.behind
         return drive.component_behind(put_back(equation, q, expand(motion))), Integer(0)
 
@@ -186,8 +189,8 @@ class _Drive:
         return self.phase[0] * value.coeff(sin(self.angle)) - self.phase[1] * value.coeff(cos(self.angle))
 
     def told(self, size: Symbol, lag: Symbol, at_rest: Expr) -> dict[str, tuple[Expr, Expr]]:
-        """Return two items for the sentence: the motion, unless the force has both a cosine and a sine; and the
-        displacement under the constant force, if there is one."""
+        """Return formulas for the sentence: `motion`, unless the force has both a cosine and a sine; and `static`, the
+        displacement under the constant force, if there is a constant force."""
         found = {} if self.static == 0 else {"static": (self.static, at_rest)}
         if ZERO in self.phase:
             swing = cos if self.phase[1] == 0 else sin

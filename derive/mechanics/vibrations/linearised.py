@@ -143,7 +143,7 @@ def _one(
         for matrix, n in ((linear.mass, 2), (linear.turning, 1), (linear.stiffness, 0))
     ]
     if any(matrix[i, j].has(nan, zoo) for matrix, _ in ordered for j in range(len(eta))):
-        message = f"`{key}`: the equation of motion has no derivative at the equilibrium"
+        message = f"`{key}`: the equation of motion is not differentiable at the equilibrium"
         raise Rejected(Complaint("no-value", message, help="a force such as sqrt(x_dot**2) has a corner there"))
     common = linear.common(i)
     terms = [
@@ -327,8 +327,8 @@ def _check_exists(at: Any) -> None:
 
 
 def _check_rest(equations: Sequence[Quantity], moving: Sequence[Coordinate], place: Mapping[Symbol, Expr]) -> None:
-    """Check that the coefficients do not depend on the time, and that at rest, at the given values of the coordinates,
-    only driving forces remain in the equations."""
+    """Check that the coefficients do not depend on the time, and that the given values of the coordinates are an
+    equilibrium: without motion, only driving forces remain in the equations."""
     where = ", ".join(f"{s} = {value}" for s, value in place.items())
     for equation in equations:
         value = explicit(equation.value).residual

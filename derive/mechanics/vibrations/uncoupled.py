@@ -74,8 +74,9 @@ def _frequency(
     """Frequency of coordinates that are not coupled to any other, omega = sqrt(k/m), or their growth rate.
 
     own        the indices of the coordinates with this frequency
-    coupling   a word of the sentence: none (no equations are coupled), told (an earlier sentence says this), all (no
-               equations are coupled, and all coordinates have the same frequency), others (some equations are coupled)
+    coupling   a word of the sentence: none (no equations are coupled), told (an earlier sentence states that none are
+               coupled), all (no equations are coupled, and all coordinates have the same frequency), others (some
+               equations are coupled)
 
     Check: the motion of each coordinate by itself satisfies all linear equations.
     Outcomes: oscillating, growing, free, conditional.
