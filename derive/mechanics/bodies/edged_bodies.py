@@ -250,7 +250,7 @@ class Triangle(Cornered):
         return -area if area.could_extract_minus_sign() or area.is_negative else area
 
     def map(self) -> Map:
-        """Variables x and y if the base is on the x axis from the origin, with a base and a height that are known to be
+        """Variables x and y if the base is on the x axis from the origin, and the base and the height are known to be
         positive. Otherwise the variables are fractions u and v of two sides."""
         if self._stands_on_x:
             (_, (x2, _), (x3, y3)), (x, y) = self.corners_at, coordinates("xy", self.letters)

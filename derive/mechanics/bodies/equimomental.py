@@ -107,7 +107,8 @@ def sliced(
     weight: Callable[[Expr], Expr],
     slice_of: Callable[[Expr, Expr, Expr], Particles] = disc_of_particles,
 ) -> Particles:
-    """Slices perpendicular to the z axis at the nodes of Boole's rule; their masses contain the weights of this rule.
+    """Slices perpendicular to the z axis at the nodes of Boole's rule. The mass of a slice is proportional to `weight`
+    times the weight of its node in this rule.
 
     radius   the radius of the slice at z
     weight   the mass of the slice at z per length, up to a constant factor; for a solid, the squared radius

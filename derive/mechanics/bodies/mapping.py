@@ -131,7 +131,7 @@ def _counted_positive(size: Expr, limits: Bounds) -> Expr:
     signs = {bool(size.xreplace(at).evalf() > 0) for at in inside(limits, size.free_symbols)}
     if len(signs) > 1 and not size.free_symbols & {x for x, _, _ in limits}:
         message = f"the symbols do not determine whether `{size}` is positive"
-        raise Rejected(Complaint("unknown-sign", message, help="give sizes that determine its sign"))
+        raise Rejected(Complaint("unknown-sign", message, help="give sizes for which this sign is known"))
     if len(signs) > 1:
         message = f"the map covers some places twice: `{size}` changes its sign between the limits"
         raise Rejected(Complaint("folded", message, help="give limits between which the map covers each place once"))

@@ -49,7 +49,7 @@ class PlacedPart:
         return replace(self, position=place_of(*place), of=of)
 
     def turned(self, axis: Any, angle: Any) -> PlacedPart:
-        """Return the same part, rotated right-handed by an angle about its fixed point. The axis of rotation is
+        """Return the same part, rotated right-handed by an angle about an axis through its fixed point. This axis is
         parallel to the axis "x", "y" or "z" of the larger body."""
         turn = turn_about(axis, angle)
         made = replace(self, turn=ImmutableDenseMatrix(turn * self.turn))

@@ -207,7 +207,7 @@ def _placed(body: Any, turned: Any, point: Point, at: Any, across: str | None) -
         raise Rejected(Complaint("wrong-argument", message))
     if isinstance(turned, Axes):
         if getattr(body, "is_plane", False):
-            message = f"only one moment of {body.name} is known, so it can only move in a plane"
+            message = f"only one moment of {body.name} is known, so the body can only move in a plane"
             raise Rejected(Complaint("wrong-argument", message, help="give its three principal moments"))
         return PlacedBody(body, turned, point, at)
     try:

@@ -209,7 +209,7 @@ def _is_between(chart: Chart, at: Place) -> bool:
 
 
 def _covered_twice(chart: Chart) -> bool:
-    """Whether at least one sampled place also belongs to other values of the variables."""
+    """Whether, for at least one sampled place, other values of the variables give the same place."""
     try:
         return any(_has_twin(chart, at) for at in chart.points(TWINS, Random(3), margin=0.1))
     except (TypeError, ValueError, OverflowError, ZeroDivisionError):

@@ -96,8 +96,8 @@ class Region:
         return whole
 
     def with_named_section(self, taken: Collection[Symbol], primed: str = "") -> Region:
-        """The same region in cylindrical coordinates, with a symbol r for a radius that varies along the axis; the
-        distance from the axis, from 0 to r, is then s.
+        """The same region in cylindrical coordinates, with a symbol r for a radius that varies along the axis. The
+        symbol of the distance from the axis, which ranges from 0 to r, is then s. A constant radius has no symbol.
 
         taken    symbols that are not available for r and s
         primed   text to append to the name of r, such as a prime

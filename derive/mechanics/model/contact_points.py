@@ -26,7 +26,7 @@ def touching(placed: PlacedBody, surface: Surface) -> tuple[Location, Expr, Loca
     normal."""
     if surface.is_two_sided:
         message = "a round body can touch a plane, a curve, a circle or a sphere, but not a rail"
-        raise Rejected(Complaint("no-contact", message, help="let a particle or a point of the body touch it"))
+        raise Rejected(Complaint("no-contact", message, help="let a particle or a point of the body touch the rail"))
     hub = placed.hub
     if isinstance(surface, Curve):
         foot, distance = _foot(placed, surface)

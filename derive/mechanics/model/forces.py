@@ -218,7 +218,7 @@ def _vector(verb: str, role: str, given: Any, count: int) -> Vector:
     try:
         return tuple(as_expr(value) for value in values)
     except TypeError:
-        raise Rejected(Complaint("wrong-argument", f"`{verb}` needs expressions as its `{role}`")) from None
+        raise Rejected(Complaint("wrong-argument", f"`{verb}`: `{role}` must consist of expressions")) from None
 
 
 def _place(verb: str, at: Any) -> Location:

@@ -218,7 +218,8 @@ def _drive(linear: LinearCoefficients, equation: Quantity) -> _Drive:
 
 
 def _one_frequency(force: Expr) -> tuple[Expr, tuple[Expr, Expr]]:
-    """Return omega t, and the factors of its cosine and sine; both factors are zero for any other force."""
+    """Return omega t, and the factors of its cosine and sine, for a force with one angular frequency omega. For any
+    other force, both factors are zero."""
     angles = {f.args[0] for f in force.atoms(cos, sin) if depends_on_time(f)}
     if len(angles) != 1:
         return ZERO, (ZERO, ZERO)
@@ -274,7 +275,8 @@ def quality_factor(equation: Quantity, q: Coordinate, symbol: str = "Q", key: st
         return expand(driven - _sense(equation, linear, q) * force * cos(w * TIME)), Integer(0)
 
     def energy(found: Expr) -> tuple[Any, Any]:
-        """Compare with the energy of the oscillation cos(omega_0 t) and the work of b q_dot in one period."""
+        """Compare Q with 2 pi times the energy of the oscillation cos(omega_0 t), divided by the work that b q_dot does
+        in one period."""
         whole = linear.c / 2
         work = integrate(linear.b * diff(cos(w * TIME), TIME) ** 2, (TIME, 0, 2 * pi / w))
         return found, 2 * pi * whole / work

@@ -69,7 +69,7 @@ class Sought:
     """A linear equation whose motion is to be found.
 
     sort        the kind of motion, an outcome of `solution`
-    condition   the condition for this kind, if the symbols leave it open
+    condition   the condition for this kind, if the symbols do not determine the kind
     excluded    the condition against resonance, if there is one
     particular  a motion under the driving force, or 0 without a driving force
     proposals   the usual constants of an oscillator

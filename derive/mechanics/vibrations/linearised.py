@@ -237,7 +237,7 @@ def _before(small: Expr | None, moving: Sequence[Coordinate]) -> list[Form]:
 
 
 def _functions_of(equation: Quantity, q: Coordinate, small: Expr | None) -> dict[str, Expr]:
-    """Return the sine and the cosine of the coordinate if they are expanded and occur in the equation."""
+    """Return the sine and the cosine of the coordinate that occur in the equation; none if `small` is None."""
     functions = {"sine": sin(q.symbol), "cosine": cos(q.symbol)} if small is not None else {}
     return {role: f for role, f in functions.items() if explicit(equation.value).residual.has(f)}
 
@@ -377,8 +377,8 @@ def _displacements(moving: Sequence[Coordinate], place: Mapping[Symbol, Expr]) -
 
 
 def _pointed(equations: Sequence[Quantity], i: int) -> dict[str, Quantity]:
-    """Return the equations that the sentence names: equation i and, if there are several equations, another one; for
-    the first of more than two equations, two others."""
+    """Return the equations that the sentence names: equation i and, if there are several equations, another equation.
+    For the first of more than two equations, these are two other equations."""
     others = {"other": equations[i - 1]} if len(equations) > 1 else {}
     middle = {"middle": equations[1]} if len(equations) > 2 and i == 0 else {}
     return {"motion": equations[i], **others, **middle}

@@ -54,7 +54,7 @@ class UncoupledModes:
     before: int
 
     def found(self) -> list[Quantity]:
-        """Return a frequency for each of these coordinates; if these are all coordinates of the system, and their
+        """Return a frequency for each of these coordinates. If no coordinates of the system are coupled, and all
         frequencies are equal, return a single frequency."""
         whole = self.linear[0].needed(Linear)
         roots = {i: whole.part((i,)).of_kind(Conservative).roots[0] for i in self.alone}
