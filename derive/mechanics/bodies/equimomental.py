@@ -125,8 +125,8 @@ def sliced(
 
 
 def drawn_out(flat: Particles, ends: tuple[Expr, Expr]) -> Particles:
-    """Particles for a body that extends a flat body evenly along z: copies of the particles of the flat body at both
-    ends and in the middle. Their masses have the weights of Simpson's rule, which is exact up to third powers of z."""
+    """Particles for a flat body that is extended evenly along z: copies of its particles at both ends and in the
+    middle. Their masses have the weights of Simpson's rule, which is exact up to third powers of z."""
     low, high = ends
     return [
         (share * mass, column(place[0], place[1], low + part * (high - low)))

@@ -1,9 +1,9 @@
 """Checks for impossible bodies: a hole outside the body, parts that overlap, a position map that covers places twice, a
 density that changes its sign, a negative mass or size.
 
-The checks of position maps and of parts are numerical: Newton's method finds values of the variables of a part at which
-the part is at a sampled point. The numbers for the symbols are random, except the numbers that the problem gives. These
-checks reject a body only if it is impossible for every set of numbers for which it can be evaluated.
+The checks of position maps and of parts are numerical: Newton's method finds values of the variables for which a
+position map gives a sampled point. The numbers for the symbols are random, except the numbers that the problem gives.
+These checks reject a body only if it is impossible for every set of numbers for which it can be evaluated.
 """
 
 from __future__ import annotations

@@ -74,7 +74,7 @@ def end_of(given: Any) -> tuple[Location, Any]:
 def require_bodies(verb: str, ends: Sequence[tuple[Location, Any]], otherwise: str = "") -> None:
     """Require each moving place to belong to a body or particle, because a force acts at the place.
 
-    otherwise   a text that the help line ends with
+    otherwise   the text at the end of the help line
     """
     for place, of in ends:
         if of is None and (moving := coordinates_in(ImmutableDenseMatrix(place.components))):

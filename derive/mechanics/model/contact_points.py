@@ -62,8 +62,9 @@ def _foot(placed: PlacedBody, curve: Curve) -> tuple[Location, Expr]:
 def _feet(placed: PlacedBody, curve: Curve) -> Iterator[Location]:
     """Yield places of the curve that a round body may touch.
 
-    These are the places whose horizontal distance from the origin of the curve is a coordinate of the body. If the
-    centre would be on the curve with a coordinate or the radius equal to zero, its place is yielded too.
+    First come the places whose horizontal distance from the origin of the curve is a coordinate of the body. Then come
+    the places of the centre of the body with one coordinate, or one symbol of the radius, replaced by zero; only those
+    on the curve are yielded.
     """
     moving = coordinates_in(column_of(placed.hub))
     yield from (curve.point(q) for q in moving)
@@ -100,7 +101,8 @@ def _outline(placed: PlacedBody) -> Round | None:
 
 
 def lowest(placed: PlacedBody, surface: Surface) -> tuple[Location, Expr]:
-    """Return the nearest point to a plane on a body with rims, and the distance of this point from the plane.
+    """Find the point of a body with rims that is nearest to a plane. Return this point, and its distance from the
+    plane.
 
     The body is the convex hull of its rims, so the nearest point is on a rim. The vector from the centre of the rim to
     this point is one radius long, and opposite to the projection of the normal of the plane onto the plane of the rim.

@@ -95,7 +95,7 @@ class Line(Connection):
 
     def drawn_on(self, of: Any) -> list[tuple[Location, Location]]:
         """Return the pieces of the line that pull a body, a particle or a pulley, for its force diagram. Each item
-        contains two ends of a piece: the end that pulls, then the other end."""
+        contains the two ends of a piece: the end that pulls, then the other end."""
         if self.drawn is None or self.rope is not None:
             return []
         ends = [(piece.start, piece.end) for piece in self.pieces], [(piece.end, piece.start) for piece in self.pieces]

@@ -43,8 +43,8 @@ class Surface(ABC):
     """A surface; the bodies that touch it are on its free side.
 
     of      the body or particle of the system that carries the surface; None if the system has no such body
-    moves   if `of` is None, the motion of the material along the surface. For a turntable, these are the axes in which
-            the material is at rest; for a belt, a place that moves with the material. None without such a motion
+    moves   if `of` is None, the motion of the material along the surface. A turntable has axes in which the material is
+            at rest; a belt has a place that moves with the material. None without such a motion
     is_two_sided   whether the surface can push bodies to both sides, like a rail; the normal force may have either sign
     """
 

@@ -239,7 +239,10 @@ def _check_point(verb: str, inertia: Quantity, omega: Quantity) -> dict[str, str
     point, at_rest = inertia.needed(AboutPoint).point.name, omega.needed(Through).point
     if point != at_rest:
         message = f"`{inertia.key}` is about the {point}, but the axis of `{omega.key}` goes through the {at_rest}"
-        help_line = f'move the tensor with `moved_to`, or give the axis with `through="{point}"`'
+        help_line = (
+            "move the tensor to the centre of mass with `moved_to`, or away from it with `moved_from_centre`; "
+            f'or give the axis with `through="{point}"`'
+        )
         raise Rejected(Complaint("wrong-point", message, help=help_line))
     return {"about": point, "point": point}
 

@@ -47,8 +47,8 @@ class About:
     rest or in steady motion.
 
     rates     the rates of the cyclic coordinates in the steady motion
-    momenta   for each cyclic momentum, a symbol with its value in the steady motion. This is the symbol of the momentum
-              or, if a formula for the momentum is given, a symbol in this formula
+    momenta   for each cyclic momentum, a symbol and its value in the steady motion. The symbol denotes the momentum;
+              but if a formula for the momentum is given, it is a symbol in this formula
     letter    a symbol that the condition of the steady motion determines, and the value of this symbol; may be empty
     instead   a rate expressed by the symbol of a momentum, for a shorter result; may be empty
     """

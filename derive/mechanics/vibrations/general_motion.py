@@ -277,7 +277,7 @@ def _exponents(sought: Sought, characteristic: Quantity) -> Quantity:
     Source: Taylor, *Classical Mechanics*, section 5.4.
     """
     linear, sort = sought.linear, sought.sort
-    present = characteristic.value.free_symbols  # without a coordinate of the system that has the name s
+    present = characteristic.value.free_symbols  # a coordinate of the system with the name s is not among them
     (s,) = (q for q in characteristic.coordinates if q in present and q.name in (*LETTERS_OF_EXPONENT, "s_0"))
     middle = tidied(-linear.b / (2 * linear.a))
     unit = {"critically_damped": ZERO, "underdamped": I}.get(sort, ONE)

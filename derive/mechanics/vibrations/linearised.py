@@ -378,7 +378,7 @@ def _displacements(moving: Sequence[Coordinate], place: Mapping[Symbol, Expr]) -
 
 def _pointed(equations: Sequence[Quantity], i: int) -> dict[str, Quantity]:
     """Return the equations that the sentence names: equation i and, if there are several equations, another equation.
-    For the first of more than two equations, these are two other equations."""
+    For the first of more than two equations, the sentence names two other equations."""
     others = {"other": equations[i - 1]} if len(equations) > 1 else {}
     middle = {"middle": equations[1]} if len(equations) > 2 and i == 0 else {}
     return {"motion": equations[i], **others, **middle}
