@@ -106,8 +106,8 @@ class Body(Placeable, OfParticles):
         return PlacedPart(self, of, self.point(of).position).at(*place, of=of)
 
     def turned(self, axis: Any, angle: Any) -> PlacedPart:
-        """Return this body as a part of a larger body, rotated right-handed about its own centre of mass. The axis of
-        rotation is parallel to an axis of the larger body."""
+        """Return this body as a part of a larger body, rotated right-handed about an axis through its own centre of
+        mass. This axis is parallel to an axis of the larger body."""
         return PlacedPart(self, "centre", self.point("centre").position).turned(axis, angle)
 
     def map(self) -> Map:

@@ -87,7 +87,7 @@ Separated = tuple[Nested | Expr, ...]
 
 
 def worked_integral(region: Region, weight: Expr, rho: Expr, volume: Expr) -> list[Form]:
-    """The lines from rho times the integral of a weight to the value in terms of the mass, M = rho V. If rho is 1, the
+    """The lines from rho times the integral of `weight` to the value in terms of the mass, M = rho V. If rho is 1, the
     lines do not mention the mass."""
     integrand = (weight * region.element).expand()
     if integrand == 0:

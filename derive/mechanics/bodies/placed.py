@@ -140,7 +140,8 @@ class PointOfBody(Location):
 
 
 def body_at(place: Any, stated: Any = None) -> Any:
-    """Return the stated body; if none is stated, the body to which a place from `place_of` belongs, otherwise None."""
+    """Return the stated body. If none is stated, return the body to which a place from `place_of` belongs, or None for
+    any other place."""
     return place.body if stated is None and isinstance(place, PointOfBody) else stated
 
 

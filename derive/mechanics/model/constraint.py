@@ -30,7 +30,7 @@ class StaticLimit:
 
     coefficient   the coefficient of static friction, mu_s
     normal        the symbol of the normal force of the same contact
-    slider        the name of the body that would slip, if the author gave one: "block"
+    slider        the name of the body that would slip, such as "block"; empty if the author gave no name
     of_rail       whether the normal force may have either sign
     in_space      whether the friction has two components; the limit is then the limit of its magnitude
     """

@@ -485,7 +485,10 @@ def wound_string(end: Any, on: Any, tension: str = "T", over: Sequence[Any] = ()
         message = "`wound_string` is for motion in a plane, with an end and one round body or two round bodies"
         raise Rejected(Complaint("wrong-argument", message))
     if not all(is_end(each) or isinstance(each, Pulley) and each in over for each in other):
-        message = "`end` of a `wound_string` must be a particle, a point of a body or a place; `over` may name pulleys"
+        message = (
+            "`end` of a `wound_string` must be a particle, a point of a body or a place; "
+            "`over` may also contain pulleys"
+        )
         raise Rejected(Complaint("wrong-argument", message))
     wound = [Rim((), each.hub, radius_of(each), each) for each in rims]
     pieces = _pieces([*wound[1:], *other, wound[0]])

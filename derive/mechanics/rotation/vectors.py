@@ -96,7 +96,7 @@ class RateOfEnergy(RateByParticles):
 
 @dataclass(frozen=True)
 class RateOfTurning(RateByParticles):
-    """The rate of the angular momentum L = I w in space, as the sum of m r x a. For a torque N the component of this
+    """The rate of the angular momentum L = I w in space, as the sum of m r x a. For a torque N, the component of this
     rate along L is N . L/|L|."""
 
     inertia: Quantity
