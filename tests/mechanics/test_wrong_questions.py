@@ -140,7 +140,7 @@ QUESTIONS: dict[str, tuple[Callable[[], Any], str]] = {
     ),
     "a rod about its own line": (
         lambda: slab(inertia=moment_of_inertia(Rod(l, M), axis="z")),
-        "about the line of a rod",
+        "about the axis along a rod",
     ),
     "the moment of another mass": (
         lambda: slab(mass=m, inertia=moment_of_inertia(Cylinder(R, h, M))),

@@ -64,7 +64,7 @@ class Body(Placeable, OfParticles):
     filling: ClassVar[str] = "volume"
     reference: ClassVar[str] = "centre"  # the named point from which positions are measured by default
     other_centre: ClassVar[str] = ""  # a point that readers may call "centre", although it is not the centre of mass
-    called: str = ""  # the name of the body on a page with several bodies: "upper rod"
+    called: str = ""  # the name of the body on a page with several bodies, such as "upper rod"
     names_given: tuple[str, ...] = ()  # names that the author gave to points; their positions are not checked
     is_lopsided: ClassVar[bool] = False  # whether the body may lack the inversion symmetry that its particles have
     is_round: ClassVar[bool] = False  # whether the shape is symmetric under every rotation about z

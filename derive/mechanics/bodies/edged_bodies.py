@@ -107,7 +107,7 @@ class Cuboid(EdgedBody):
 
     @property
     def extent(self) -> Expr:
-        """The volume as written on the page: a^3 for a cube, a * 2a * 3a for a block."""
+        """The volume as written on the page: a power for a cube, otherwise a product such as a * 2a * 3a."""
         if len(set(self.sides)) == 1:
             return Pow(self.sides[0], len(self.sides))
         return Factors(*self.sides)

@@ -164,7 +164,6 @@ def letters_in_order(limits: Bounds, letters: Sequence[Symbol], source: Random) 
             known[x] = (low + high) / 2
         else:
             return at
-    (x, lower, upper), *_ = limits
     message = f"the limits of the variables are not in order, or enclose nothing: `{x}` from {lower} to {upper}"
     raise Rejected(Complaint("limits", message, help="give each variable as (lower, upper), the lower one first"))
 

@@ -157,7 +157,7 @@ def after(turns: tuple[tuple[int, Expr], ...]) -> ImmutableMatrix:
 class Placeable:
     """A base class of bodies that can have a position and an orientation."""
 
-    id: ClassVar[str] = "body"  # the sort of body, in files and in phrases: "thick_shell"
+    id: ClassVar[str] = "body"  # the sort of body, in files and in phrases, such as "thick_shell"
     name: ClassVar[str] = "a body"  # the sort of body in messages, made from `id`
 
     @property

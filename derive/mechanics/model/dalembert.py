@@ -2,8 +2,9 @@
 
 A rigid body is equivalent to a few mass points: one has the whole mass, at the centre of mass, and others describe the
 rotation. Each of these other points is the end of a vector that rotates with the body: the unit vector of a body axis,
-or the sum of two such unit vectors. Its `mass` is a second moment, in kg m^2. Kinetic energy, momenta and the virtual
-work of inertial forces follow from the positions of these points as functions of t.
+or the sum of two such unit vectors. Its `mass` is a second moment, or a difference of second moments, in kg m^2.
+Kinetic energy, momenta and the virtual work of inertial forces follow from the positions of these points as functions
+of t.
 
 Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.4 (d'Alembert's principle).
 """

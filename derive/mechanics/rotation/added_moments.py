@@ -104,7 +104,7 @@ def _own_moment(body: Any, axis: str, letter: str, turn: MatrixBase) -> Quantity
              the whole body has no parallel axis
     turn     the matrix whose columns are the axes of the whole body, in components along the axes of the part
 
-    Second route: the sum of m d^2 over the equimomental particles of the part; the integral of the squared distance.
+    Second route: the sum of m d^2 over the equimomental particles of the part; the integral of d^2 dm over the part.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, section 7.3.
     """
     called = {own: whole for whole, own in _parallel_to(turn).items()}.get(axis, "axial")

@@ -149,7 +149,7 @@ class RigidBody(Placeable, OfParticles):
 
     @cached_property
     def second_moments(self) -> tuple[Expr, Expr, Expr]:
-        """The integrals of x^2, y^2 and z^2 over the mass, from I_x = integral of y^2 + z^2, and so on."""
+        """The integrals of x^2, y^2 and z^2 over the mass, from I_x = integral of (y^2 + z^2) dm, and so on."""
         x, y, z = (tidied(sum(self.moments, Integer(0)) / 2 - moment) for moment in self.moments)
         return x, y, z
 

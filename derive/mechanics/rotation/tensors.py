@@ -92,7 +92,7 @@ def turned_tensor(
     angle     the angle of this right-handed rotation
 
     Second route: the sum of m (r.r 1 - r r) over equimomental particles, with components along the rotated axes. Check:
-    the trace is the same.
+    the traces of I and I' are equal.
     Outcomes: isotropic, two_equal, diagonal, generic.
     Errors: there is no such axis; `inertia` is not the tensor of a body.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 4.3 and 5.2.
