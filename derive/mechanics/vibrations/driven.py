@@ -260,7 +260,7 @@ def quality_factor(equation: Quantity, q: Coordinate, symbol: str = "Q", key: st
     the energy that the damping dissipates in one period.
     Outcomes: oscillates (Q > 1/2: the free motion oscillates), critical (Q = 1/2), creeps (Q < 1/2), depends (the
     symbols leave open whether Q > 1/2).
-    Errors: the equation is not linear with constant coefficients, or has no damping or no restoring force.
+    Errors: the equation is not linear with constant coefficients; a, b or c is not known to be positive.
     Source: Taylor, *Classical Mechanics*, section 5.6; French, *Vibrations and Waves*, chapter 3.
     """
     linear = linear_equation(equation, q)
