@@ -10,7 +10,7 @@ from sympy import Add, Expr, Integer, Symbol
 
 from derive.algebra.expressions import TimeRate, as_expr, explicit, scalar
 from derive.algebra.tidy import tidied
-from derive.errors import Complaint, Rejected
+from derive.errors import Complaint, Rejected, Spelled
 from derive.mechanics.bodies.placed import PlacedBody
 from derive.mechanics.kinematics.places import Location
 from derive.mechanics.model.connection import Connection, PointForce, end_of, is_end, require_bodies
@@ -51,7 +51,8 @@ def pin(of: Any, to: Any, force: str = "R") -> tuple[Pin | Constraint, ...]:
     for each in (of, to):
         if not is_end(each):
             message = "each end of a `pin` must be a particle, a body, a point of a body or a place"
-            raise Rejected(Complaint("wrong-argument", message, help='give a point as `rod.place_of("end")`'))
+            help_line = Spelled('give a point as `rod.place_of("end")`', "give a point of a body as `rod.end`")
+            raise Rejected(Complaint("wrong-argument", message, help=help_line))
     (here, body), (there, other) = end_of(of), end_of(to)
     require_bodies("pin", [(here, body), (there, other)])
     gaps = [tidied(c) for c in (here - there).components]

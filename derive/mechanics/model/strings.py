@@ -11,7 +11,7 @@ from sympy import Abs, Add, Expr, ImmutableDenseMatrix, Integer, Symbol
 
 from derive.algebra.expressions import as_expr, depends_on_time, explicit, scalar
 from derive.algebra.tidy import tidied
-from derive.errors import Complaint, Rejected
+from derive.errors import Complaint, Rejected, Spelled
 from derive.mechanics.bodies.placed import PlacedBody
 from derive.mechanics.kinematics.places import Location
 from derive.mechanics.model.connection import Connection, PointForce, end_of, is_end, require_bodies
@@ -325,7 +325,8 @@ def _of_length(verb: str, ends: Sequence[Any], length: Any, letter: str) -> tupl
         require_no_coordinate(verb, "length", whole)
     if not all(is_end(each) or isinstance(each, Pulley) for each in ends):
         message = f"`{verb}` must end at a particle, at a body or a point of a body, or at a place"
-        raise Rejected(Complaint("wrong-argument", message, help='give a point of a body as `body.place_of("end")`'))
+        help_line = Spelled('give a point of a body as `rod.place_of("end")`', "give a point of a body as `rod.end`")
+        raise Rejected(Complaint("wrong-argument", message, help=help_line))
     for wheel in ends[1:-1]:
         if isinstance(wheel, PlacedBody) and has_radius(wheel):
             message = f"the string runs over {wheel.body.name}, which has a radius"
