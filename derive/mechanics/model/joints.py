@@ -51,8 +51,8 @@ def pin(of: Any, to: Any, force: str = "R") -> tuple[Pin | Constraint, ...]:
     for each in (of, to):
         if not is_end(each):
             message = "each end of a `pin` must be a particle, a body, a point of a body or a place"
-            help_line = Spelled('give a point as `rod.place_of("end")`', "give a point of a body as `rod.end`")
-            raise Rejected(Complaint("wrong-argument", message, help=help_line))
+            how = Spelled('give a point as `rod.place_of("end")`', "give a point of a body as `rod.end`")
+            raise Rejected(Complaint("wrong-argument", message, help=how))
     (here, body), (there, other) = end_of(of), end_of(to)
     require_bodies("pin", [(here, body), (there, other)])
     gaps = [tidied(c) for c in (here - there).components]

@@ -325,8 +325,8 @@ def _of_length(verb: str, ends: Sequence[Any], length: Any, letter: str) -> tupl
         require_no_coordinate(verb, "length", whole)
     if not all(is_end(each) or isinstance(each, Pulley) for each in ends):
         message = f"`{verb}` must end at a particle, at a body or a point of a body, or at a place"
-        help_line = Spelled('give a point of a body as `rod.place_of("end")`', "give a point of a body as `rod.end`")
-        raise Rejected(Complaint("wrong-argument", message, help=help_line))
+        how = Spelled('give a point of a body as `rod.place_of("end")`', "give a point of a body as `rod.end`")
+        raise Rejected(Complaint("wrong-argument", message, help=how))
     for wheel in ends[1:-1]:
         if isinstance(wheel, PlacedBody) and has_radius(wheel):
             message = f"the string runs over {wheel.body.name}, which has a radius"
