@@ -23,7 +23,7 @@ from derive.mechanics.bodies.regions import Bounds
 from derive.steps.signs import sign_known
 
 POINTS = 40  # number of points of a part that are sampled
-TWINS = 6  # number of sampled points of a map that are tested for other values of the variables with the same position
+TWINS = 6  # number of sampled points for which other values of the variables with the same position are sought
 SHARP = 1e-6  # length added to the bounds of a part, because a part may be flat or straight
 APART = 1e-3  # values of a variable are distinct if they differ by more than this fraction of its range
 

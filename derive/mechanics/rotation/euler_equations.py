@@ -267,9 +267,9 @@ def rate_in_space(
     omega      angular velocity of the body, vector (3), 1/s, body axes
     in_body    the rate of L in the body by the equations of motion; by default the rates of omega remain unknown
 
-    Second route: a rotation matrix rotates L with the body, and the rotated vector is differentiated. Also, the sum of
-    m r x a over particles, and the rate of L . n for a direction n that is fixed in space. In the body, this direction
-    has n_dot = -omega x n.
+    Second route: a rotation matrix rotates L with the body, and the rotated vector is differentiated. The result is
+    also compared with the sum of m r x a over particles, and with the rate of L . n for a direction n that is fixed in
+    space. In the body, this direction has n_dot = -omega x n.
     Outcomes: zero (L is constant in space), zero_in_both (L is constant in space and in the body), driven (a torque
     acts), generic (the equations of motion are not substituted).
     Errors: `momentum` is not an angular momentum, or `omega` is not an angular velocity.

@@ -189,8 +189,8 @@ class _Drive:
         return self.phase[0] * value.coeff(sin(self.angle)) - self.phase[1] * value.coeff(cos(self.angle))
 
     def told(self, size: Symbol, lag: Symbol, at_rest: Expr) -> dict[str, tuple[Expr, Expr]]:
-        """Return formulas for the sentence: `motion`, unless the force has both a cosine and a sine; and `static`, the
-        displacement under the constant force, if there is a constant force."""
+        """Return formulas for the sentence, by name: `motion` is the forced oscillation, unless the force has both a
+        cosine and a sine; `static` is the displacement under the constant force, if there is a constant force."""
         found = {} if self.static == 0 else {"static": (self.static, at_rest)}
         if ZERO in self.phase:
             swing = cos if self.phase[1] == 0 else sin
