@@ -43,6 +43,7 @@ from derive.mechanics import (
     principal_moments,
     rate_in_space,
     rate_of,
+    solved_for,
     spin,
     torque,
     weight,
@@ -189,6 +190,10 @@ QUESTIONS: dict[str, tuple[Callable[[], Any], str]] = {
     "a step for an expression": (
         lambda: spin(known_block()["spin"], along=BLOCK.direction(DIAGONAL)),
         "needs an expression as its `rate`",
+    ),
+    "a number for a list of keys": (
+        lambda: solved_for(known_slab()["stability"], a, keys=7),
+        "needs some texts as its `keys`",
     ),
     "an argument too many": (
         lambda: principal_moments(of_block(), "I", "key", "more"),
