@@ -25,9 +25,9 @@ def by_accelerations(value: Expr, moving: Sequence[Symbol]) -> Expr:
 def with_constants_in_front(value: Expr, moving: Sequence[Symbol]) -> Expr:
     """Write the common factors of a sum in front of it: (2/5) m a^2 (phi_ddot + psi_ddot cos(theta)).
 
-    The common factors are a number, constants, sines and cosines. The sum is unchanged if the number and the constants
-    are not the whole coefficient of any term, m l^2 theta_ddot + m g l sin(theta), or if no constant is common and all
-    coefficients are integers.
+    The common factors are a number, constants, sines and cosines. A sum such as m l^2 theta_ddot + m g l sin(theta) is
+    unchanged, because the common number and constants are not the whole coefficient of any term. It is also unchanged
+    if no constant is common and all coefficients are integers.
     """
     terms = Add.make_args(value)
     if len(terms) < 2:
@@ -144,8 +144,10 @@ def _level(found: Expr, value: Expr, moving: Sequence[Symbol]) -> Expr:
 
 
 def _with_differences(value: Expr, moving: Collection[Symbol]) -> Expr:
-    """Combine a coordinate with the constant from which it is measured, or with another coordinate: k (y - l) - m g,
-    not k y - m g - k l, and k x + K (x - y), not k x + K x - K y."""
+    """Combine a coordinate with the constant from which it is measured, or with another coordinate.
+
+    For example, k y - m g - k l becomes k (y - l) - m g, and k x + K x - K y becomes k x + K (x - y).
+    """
     terms = list(Add.make_args(value))
     for q in moving:
         for term in [each for each in terms if each.has(q) and not _varies(each / q, moving)]:
@@ -292,8 +294,10 @@ def _with_its_rates(coefficient: Coefficient, rates: list[tuple[Symbol, int]], h
 
 
 def _with_one(product: Expr) -> Expr:
-    """Divide a sum by the denominator if one of its terms then has no denominator, and if this is not longer:
-    (1 + r^2/p^2) r_dot^2, not (p^2 + r^2) r_dot^2/p^2, and R^2 + h^2/(4 pi^2), not (pi^2 R^2 + h^2/4)/pi^2."""
+    """Divide a sum by the denominator if one of its terms then has no denominator, and if this is not longer.
+
+    For example, (p^2 + r^2) r_dot^2/p^2 becomes (1 + r^2/p^2) r_dot^2.
+    """
     above, below = product.as_numer_denom()
     sums = [part for part in Mul.make_args(above) if part.is_Add]
     number, letters = below.as_coeff_Mul()

@@ -85,8 +85,8 @@ LEAST_SURE_FIRST = (Grade.REFUTED, Grade.SAMPLED, Grade.APPROXIMATION, Grade.DEF
 
 
 class Compared(StrEnum):
-    """What is compared, if anything: two lines of a calculation, or the result with a second route, a check or a
-    simulated motion."""
+    """What is compared, if anything: two lines of a calculation, or the result of a step and a second route, a check
+    or a simulated motion."""
 
     LINES = "lines"
     ROUTE = "route"
@@ -278,8 +278,8 @@ def _refutation(sample: Sample) -> Verdict:
 
 
 def _equivalent(left: Any, right: Any, nonzero: Sequence[Expr]) -> Verdict:
-    """Decide whether two equations or inequalities are equivalent. The main test is the ratio of their residuals: for
-    inequalities its sign must be known, for equations it must not vanish."""
+    """Decide whether two equations or inequalities are equivalent. The main test is the ratio of their residuals: the
+    sign of the ratio of two inequalities must be known, and the ratio of two equations must not vanish."""
     if not (isinstance(left, Relation) and isinstance(right, Relation)):
         return Verdict(Grade.REFUTED, "a relation against a value")
     if left.has(*UNDEFINED) or right.has(*UNDEFINED):
