@@ -251,7 +251,7 @@ def _towards(trial: Trial, unknown: Expr, state: State, sign: float) -> State:
 # The motion that leads to a flight begins at this fraction of the way from the given start to the place where contact
 # is lost, because the given start may be an equilibrium.
 BEGUN = 0.03
-FLIGHTS = 3  # number of sets of numbers
+FLIGHTS = 3  # number of sets of numbers with which a flight is simulated
 # The greatest difference between a formula for a position and a simulated flight, relative to 1 plus the size of the
 # value; ten times as much for the time of a landing.
 FLOWN = 1e-4
