@@ -40,8 +40,8 @@ class Coefficient(NamedTuple):
 
 
 class Factored(NamedTuple):
-    """A sum with the common factors of its terms in front; `is_prime` is true only if the sum is known not to be a
-    product of other sums."""
+    """A sum with the common factors of its terms in front. `is_prime` is true if the sum is known not to be a product
+    of other sums."""
 
     value: Expr
     is_prime: bool

@@ -49,7 +49,7 @@ def with_constants_in_front(value: Expr, moving: Sequence[Symbol]) -> Expr:
 
 
 def _shared(powers: Sequence[dict[Expr, Expr]]) -> dict[Expr, Expr]:
-    """The bases that occur in all terms, each with its least power; a base with a symbolic power is included only if
+    """The bases that occur in all terms, each with its least power. A base with a symbolic power is included only if
     its power is the same in all terms."""
     found = {base: {each[base] for each in powers} for base in powers[0] if all(base in each for each in powers)}
     return {base: min(of) for base, of in found.items() if len(of) == 1 or all(n.is_Rational for n in of)}
@@ -181,8 +181,8 @@ def _varies(term: Expr, moving: Collection[Symbol]) -> bool:
 
 def with_weights_in_front(value: Expr, moving: Sequence[Symbol], weights: Collection[Symbol]) -> Expr:
     """Take the common number and constants of all terms of a kinetic energy to the front, (1/2) m (r_dot^2 +
-    r^2 phi_dot^2). If there is no common number, or no mass or moment of inertia among these constants, put terms with
-    the same numerical factor and the same constants in one bracket.
+    r^2 phi_dot^2). If there is no common number, or if no common constant contains a mass or a moment of inertia, put
+    terms with the same numerical factor and the same constants in one bracket.
     """
     letters = {*moving, *(rate(q) for q in moving), TIME}
     terms = [_apart(term, letters) for term in Add.make_args(value)]
@@ -388,8 +388,8 @@ def spread_or_by_terms(value: Expr, *others: Expr) -> Expr:
     """Return one product or a sum of tidy terms, whichever is shorter; `others` are further forms of the value, whose
     tidy terms are also tried.
 
-    If a sine or cosine remains in the denominator, return the tidy terms of the first of the others, or of the value if
-    there are no others.
+    If a sine or cosine remains in the denominator, return the tidy terms of the first form in `others`, or of the value
+    if `others` is empty.
     """
     if tidied(value).as_numer_denom()[1].has(sin, cos):
         return by_terms(others[0] if others else value)

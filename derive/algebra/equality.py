@@ -121,8 +121,8 @@ def equal(left: Any, right: Any, nonzero: Sequence[Expr] = ()) -> Verdict:
     """Compare two scalars, two matrices entry by entry, or two relations.
 
     The grade of a matrix is the grade of its least certain entry. Relations count as equal if they are found to be
-    equivalent. `nonzero` lists factors that may be divided out: factors of an equation are known not to vanish, and
-    factors of an inequality are known to be positive.
+    equivalent. `nonzero` lists factors that may be divided out. In equations these factors are known not to vanish, and
+    in inequalities they are known to be positive.
     """
     given: tuple[Any, Any] = (left, right)
     if not all(isinstance(value, Basic | MatrixBase | int) for value in given):
@@ -408,7 +408,7 @@ def _same_mark(left: str, right: str, sign: int) -> bool:
 
 
 def _both_squared(left: Relation, right: Relation) -> bool:
-    """Whether squaring both sides of one relation gives the other, up to a positive factor; the sides that are squared
+    """Whether squaring both sides of one relation gives the other, up to a positive factor. The sides that are squared
     must be known not to be negative.
     """
     for squares, roots in ((left, right), (right, left)):

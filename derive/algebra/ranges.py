@@ -213,8 +213,8 @@ def sign_within(expr: Expr) -> int | None:
 
 
 def strict_sign_within(expr: Expr) -> int | None:
-    """The sign as for `sign_within`, if it is the same at the ends that belong to the ranges; None if it is unknown or
-    differs there."""
+    """The sign that `sign_within` finds, if the expression also has this sign at the ends that belong to the ranges;
+    else None."""
     sign = sign_within(expr)
     if sign is None:
         return None

@@ -334,8 +334,8 @@ def _as_it_is(value: Any) -> Any:
 
 
 def _valued(value: Any) -> tuple[Any, Callable[[Any], Any]]:
-    """Return the part of a result that gets a number, such as the right side of R > a/2, and the function that puts the
-    number back into the result."""
+    """Return the part of a result that gets a number, such as the right side of R > a/2. Also return the function that
+    puts the number into the result."""
     if not isinstance(value, Relation):
         return value, _as_it_is
     if isinstance(value.left, Symbol) and not value.right.has(value.left):

@@ -67,8 +67,8 @@ class Force:
 
 @dataclass(frozen=True)
 class Drag:
-    """A drag force -c v, where c is `constant` and v is the velocity of `place`; or a generalized force, such as a drag
-    torque, if `place` is one coordinate.
+    """A drag force -c v, where c is `constant` and v is the velocity of `place`. If `place` is one coordinate, -c v is
+    a generalized force, such as a drag torque.
 
     body   the index of a body: v is then the velocity of the particle of this body at `place`
     """
