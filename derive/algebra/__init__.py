@@ -1,1 +1,1 @@
-"""Expressions, and how to decide whether two expressions are equal; this package contains no laws of physics."""
+"""Expressions, and how to decide whether two expressions are equal. The package contains no laws of physics."""
