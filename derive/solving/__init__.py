@@ -1,1 +1,1 @@
-"""Solves for a symbol, finds roots, solves linear systems, and writes results as in a textbook. It contains no physics."""
+"""Mathematics without laws of physics: solves for a symbol, finds roots, and writes results as in a textbook."""
