@@ -29,8 +29,8 @@ class Coefficient(NamedTuple):
 
     `whole()` returns the coefficient, and `terms` is the number of its terms. The coefficient may be a factor without
     sines and cosines times a factor of sines and cosines only. Then `angles` is the second factor. If `other` is
-    another form of it, `written(number, other)` returns `number` times the first factor times `other`, with common
-    factors in front. For any other coefficient, `written` is None.
+    another form of `angles`, `written(number, other)` returns `number` times the first factor times `other`, with
+    common factors in front. For any other coefficient, `written` is None.
     """
 
     whole: Callable[[], Expr]

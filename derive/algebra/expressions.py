@@ -342,8 +342,8 @@ class Partial(ScalarNode):
 class TimeRate(ScalarNode):
     """df/dt along a motion. Arguments: f, then the coordinates that move.
 
-    The value follows from the chain rule. It includes the partial derivative with respect to the time, which includes
-    the rates of prescribed functions.
+    The value follows from the chain rule, with the partial derivative with respect to the time. This derivative
+    includes the rates of prescribed functions.
     """
 
     def doit(self, **hints: Any) -> Expr:

@@ -282,8 +282,8 @@ class _Auditor:
         self.late += max(0.0, process_time() - begun - USUAL_SECONDS)
 
     def claims_of_sentence(self, claim: Claim) -> frozenset[int]:
-        """Return the claims that precede a display in its sentence and have a good verdict: they hold, define or
-        approximate something."""
+        """Return the claims that precede a display in its sentence and have a good verdict: they hold, at least
+        approximately, or define something."""
         found: list[int] = []
         block = claim.row.block
         for each in reversed(self.claims[:-1]) if block.display else ():
@@ -476,9 +476,8 @@ class _Auditor:
             return  # a letter of an integrand may depend on the variable of integration
         in_sentence = not claim.is_step and not claim.row.block.display
         if verdict.outcome is Outcome.DEFINES and claim.values[0] in self.known.definitions:
-            self.doubt(
-                verdict, self.change_of_value(claim)
-            )  # the letter may have another value in another part or case
+            # the letter may have another value in another part or case
+            self.doubt(verdict, self.change_of_value(claim))
             return
         strange = self.strange_letters(claim) if in_sentence else set()
         if in_sentence and not strange and claim.values[1].is_Atom:

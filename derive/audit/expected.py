@@ -27,7 +27,7 @@ from derive.documents.source import Format, source_of
 from derive.documents.syntax import Abs, Der, EvalBar, Fun, Letter, Node
 
 SECONDS = 5.0  # seconds of processor time for comparing one result with one section
-LEAST_SCORE = 3  # a section that states at least this number of steps is compared with the answers
+LEAST_SCORE = 3  # a further section is compared with the answers if it states at least this number of steps
 NAMED = (Letter, Abs, Der, EvalBar, Fun)
 
 

@@ -189,7 +189,7 @@ class Known:
         return letter is not None and letter.dots > 0
 
     def is_kinematic(self, symbol: Symbol) -> bool:
-        """Whether the value of a rate or derivative can be computed; the value of a rate, from a definition without
+        """Whether the value of a rate or derivative can be computed. For a rate, the definition must not contain
         rates."""
         if self.computed(symbol) is None:
             return False

@@ -1,7 +1,7 @@
 """Whether a row that does not follow would follow after one small change. If it would, it probably contains a slip.
 
-A change is tried with numbers, at points where the earlier equations hold. A row is reported as
-wrong if one change makes it right at all points.
+A change is tried with numbers, at points where the earlier equations hold. A row is reported as wrong if one
+change makes it right at all points.
 """
 
 from __future__ import annotations

@@ -118,8 +118,9 @@ class Facts:
     def entries(self, letter: Letter) -> list[list[str]] | None:
         """Return the indices with which the document writes the entries of an inertia tensor, such as `xx`.
 
-        An entry that the document never writes is an empty text, because it is zero; `yy` becomes `xx` instead. The
-        result is None unless the document writes both `I_xx` and `I_zz`, or all of `I_1`, `I_2` and `I_3`."""
+        The text of an entry that the document never writes is empty, because the entry is zero; for `yy` it is `xx`,
+        because the two moments are then equal. The result is None unless the document writes both `I_xx` and `I_zz`, or
+        all of `I_1`, `I_2` and `I_3`."""
         written = {sub for base, sub, marks, _, label in self.seen if base == letter.base and not marks and not label}
         if {"xx", "zz"} <= written:
             found = [[a + b if a + b in written else b + a if b + a in written else "" for b in "xyz"] for a in "xyz"]

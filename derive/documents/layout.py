@@ -68,7 +68,7 @@ WORDS = {"text", "textrm", "mbox", "textnormal", "intertext", "shortintertext", 
 
 SIGNS_OF_NOTES = ("dagger", "ddagger", "star", "ast", "square", "checkmark", "blacksquare")
 MOST_FORMULAS = 20_000
-NEAR = 400  # number of characters before a formula in which the text may explain the formula
+NEAR = 400  # number of characters before a formula that are kept as its context
 LONGEST_INLINE = 2_000  # the greatest number of characters of a formula in a sentence
 
 

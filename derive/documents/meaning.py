@@ -557,7 +557,7 @@ class Meaning:
                 member = self.symbols.get(symbol)
                 if member is None or symbol == index:
                     raise Meaningless(
-                        "the derivative of a sum with respect to a letter of one term is not found", letter.span
+                        "the derivative of a sum with respect to a letter of one term is not computed", letter.span
                     )
                 put_in[symbol] = self.symbol(_replaced(member, sub=member.sub.replace(index.name, letter.sub)))
         return sympy.diff(term.xreplace(put_in), by)

@@ -1,1 +1,1 @@
-"""Mathematics without laws of physics: solves for a symbol, finds roots, and writes results as in a textbook."""
+"""Mathematics without laws of physics: solving for a symbol, roots, linear systems, and textbook forms of results."""

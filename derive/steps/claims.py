@@ -203,7 +203,7 @@ def not_negative(facts: Judged, outcome: str) -> bool:
 
 
 def nowhere_negative(facts: Judged, outcome: str) -> bool:
-    """Judge as `not_negative` does. The value must also be real at one trial point or more, and negative at none."""
+    """Judge as `not_negative` does. The value must also be real at a trial point, and negative at none."""
     return not_negative(facts, outcome) and nowhere_negative_where_real(facts)
 
 

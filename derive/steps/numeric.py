@@ -371,7 +371,7 @@ COMPARISON = Rule(
 def comparison_of(condition: Quantity, amounts: Mapping[Symbol, Amount], key: str | None = None) -> Quantity | None:
     """The comparison of the two sides of a condition with the numbers substituted, such as 20 cm > 2.5 cm.
 
-    Return None if the condition has no symbols, a symbol without a number, or the operator `!=`.
+    Return None if the condition has no symbols, has a symbol without a number, or has the operator `!=`.
 
     condition   an inequality or an equation between given quantities, such as a result of `where`
     amounts     symbol -> its number with a unit

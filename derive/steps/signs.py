@@ -145,8 +145,8 @@ def _is_square_that_lasts(base: Expr, power: Expr) -> bool:
 def _is_positive_by_means(total: Expr) -> bool:
     """Whether a sum is positive by the AM-GM inequality, as a^2 - 2 a b + b^2 + c is.
 
-    Each negative term is at most twice the geometric mean, in magnitude, of two positive terms that belong to it alone.
-    At least one positive term must be left over.
+    The magnitude of each negative term must be at most twice the geometric mean of two positive terms. No two negative
+    terms may use the same positive term, and at least one positive term must be left over.
     """
     terms = Add.make_args(total)
     above = [term for term in terms if term.is_positive]
