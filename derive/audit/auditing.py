@@ -348,7 +348,7 @@ class _Auditor:
         while first.before is not None:
             first = first.before
         if first.values is not None and first.values[0] in self.meaning.evaluations and new:
-            return "the first side is a value at one position or instant"
+            return "the chain begins with a value at one position or instant"
         letters = [self.meaning.symbols.get(each) for each in (*old, *new)]
         bases = {each.base.lower() for each in letters if each is not None}
         if (
