@@ -238,7 +238,7 @@ def widest_of(boundary: Round) -> tuple[Expr, Expr]:
 
 
 def _of_parts(parts: Sequence[Any], whole: Point, named: bool, in_plane: bool) -> list[Mark]:
-    """Return the marks of all parts, each label only once; an empty list if a part or a hole cannot be drawn."""
+    """Return the marks of all parts, each label once; an empty list if a part, or a removed part, cannot be drawn."""
     marks: list[Mark] = []
     for part in parts:
         body, held = part.body, part.body.point(part.of).position

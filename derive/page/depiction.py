@@ -637,7 +637,7 @@ def _spaced(told: Sequence[tuple[Inline, ...]]) -> tuple[Inline, ...]:
 
 
 def _portraits(plot: m.Plot, curves: Curves, words: Phrases, names: dict[str, Any]) -> Iterator[tuple[Inline, ...]]:
-    """Yield words for the plane of a phase portrait, and for the values on the curves of each panel."""
+    """Yield words for the axes of a phase portrait, and for the values on the curves of each panel."""
     assert plot.levels is not None
     yield filled(words.drawings["portrait"], names)
     last = words.labels["and"]

@@ -143,7 +143,8 @@ class _Writer:
         self.converted, self.stated = set[Any](), Stated()
         self.before: Step | None = None  # the last step shown; the words of the next step may depend on it
         self.rest: list[Step] = []  # the steps that the part shows after the current step
-        self.pointed_to: tuple[Step, ...] = ()  # the steps whose lines the last sentence about earlier lines mentions
+        # the steps to whose lines the last sentence of a step without lines refers
+        self.pointed_to: tuple[Step, ...] = ()
         self.told_before = ""  # the key of a step that shares the sentence of the step before
         self.framed: set[str] = set()  # steps whose result is framed as an answer
         # Whether the current part frames results again that an earlier part has framed. It does if it has `box:` or

@@ -298,8 +298,9 @@ def _own(
 
 
 def _are_together(problem: Problem, plot: Plot, placement: Placement | None, curves: Sequence[Curve]) -> bool:
-    """Return whether the curves are in one panel. If the problem does not state this, a few curves are in one panel if
-    they show several quantities, or if they have comparable sizes and, except for paths, the same range."""
+    """Return whether the curves are in one panel. If the problem does not state this, a few curves of several
+    quantities are in one panel. A few curves of one quantity are in one panel if they have comparable sizes and, except
+    for paths, the same range."""
     stated = placement.panels if placement else None
     if len(curves) < 2 or plot.levels is not None or plot.diagram is not None or stated == APART:
         return False

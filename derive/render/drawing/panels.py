@@ -38,9 +38,10 @@ PORTRAIT = 0.85  # height divided by width of a phase portrait
 LOWEST = 0.03
 DIAGRAM = 0.6  # height divided by width of a bifurcation diagram
 FLATTEST, STEEPEST = 0.25, 1.4  # limits of height divided by width, for a path whose axes have the same scale
-NEAR_ZERO = 0.25  # the axis of a positive curve begins at zero if its least value is below this part of its height
+# The axis of a positive curve begins at zero if the least value is below this part of the curve's height.
+NEAR_ZERO = 0.25
 FEWEST = 3  # least number of ticks, if smaller steps can give it
-AT_TICK = 1e-5  # greatest distance of a place from its tick, divided by the distance of the outermost ticks
+AT_TICK = 1e-5  # a tick marks a place if their distance is at most this part of the distance of the outermost ticks
 USUAL = (-2, 4)  # numbers at an axis have no factor 10^n if the power of ten of the greatest number is in this range
 
 _ROOT = re.compile(r"\\sqrt\{(?:[^{}]|\{[^{}]*\})*\}")

@@ -51,7 +51,7 @@ def printed_lines(equations: Equations, notation: Notation, limit: float = LINE_
     packed: list[Printed] = []
     begun: Layout | None = None  # the left side of the current equation
     relations: list[str] = []  # the relation signs of the current equation
-    result = len(equations.lines) - equations.framed  # the first line that is framed
+    result = len(equations.lines) - equations.framed  # the index of the first framed line
     for i, line in enumerate(equations.lines):
         framed = i >= result
         side = (line.relation, notation.result(line.right) if line.presented else notation.layout(line.right))
