@@ -49,7 +49,7 @@ KEEPING = {
 
 def checked(verb: F) -> F:
     """Return the verb with a check of its arguments before each call. If the run has a memory of earlier calls, a
-    result can be read from this memory instead of being computed; the functions in `KEEPING` are always called."""
+    result can be read from this memory instead of being computed. The functions in `KEEPING` are always called."""
     signature = inspect.signature(verb)
     keeps = verb.__name__ in KEEPING
 
@@ -163,7 +163,7 @@ def _told(wanted: Any) -> str:
     if origin in (Union, types.UnionType):
         return " or ".join(dict.fromkeys(_told(each) for each in args if each is not type(None)))
     if origin is tuple or origin is SequenceType:
-        of = _told(args[0]).partition(" ")[2]
+        of = _told(args[0]).removeprefix("an ").removeprefix("a ")
         count = "some" if origin is SequenceType or args[1:] == (...,) else str(len(args))
         return f"{count} {of}s"
     name = getattr(wanted, "__name__", str(wanted))
@@ -184,5 +184,5 @@ def _help(value: Any, wanted: Any) -> str | None:
     if isinstance(value, float):
         return "write numbers as fractions, `Rational(1, 2)`, or give them in the problem's file"
     if wanted is Quantity and isinstance(value, Expr | Integer):
-        return Spelled('`let("name", lambda: ..., kind="...")` makes a step of an expression', None)
+        return Spelled('`let("name", lambda: ..., kind="...")` makes a step from an expression', None)
     return None

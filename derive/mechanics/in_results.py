@@ -4,9 +4,9 @@
     def limiting_case(of: Quantity, letter: Letter, to: Value = 0, ...) -> Quantity: ...
 
 The decorator gives arguments their keys, and the description of each key in the manual. The signature gives the rest:
-an argument without a default is a required key, and the annotation of the argument is the kind of value of the key. The
-decorator and the signature are used to parse the key, and to write the schema for editors, the manual and the error
-messages.
+an argument without a default is a required key, unless `one_of` contains this key, and the annotation of the argument
+is the kind of value of the key. The decorator and the signature are used to parse the keys, and to write the schema for
+editors, the manual and the error messages.
 """
 
 from __future__ import annotations

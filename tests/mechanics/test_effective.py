@@ -196,7 +196,7 @@ def of_planet(verb: Callable[..., Any]) -> Callable[[], Any]:
         (of_planet(lambda L, r, phi: conserved(L, r)), "contains r"),
         (of_planet(lambda L, r, phi: conserved(L, coordinate("z", "length"))), "does not depend on the coordinate"),
         (of_planet(lambda L, r, phi: routhian(L)), "needs a conserved momentum"),
-        (of_planet(lambda L, r, phi: routhian(L, L)), "not a momentum of a cyclic coordinate"),
+        (of_planet(lambda L, r, phi: routhian(L, L)), "not a momentum that `conserved` returned"),
         (of_planet(lambda L, r, phi: routhian(L, conserved(L, phi), conserved(L, phi))), "given twice"),
         (lambda: effective_potential(driven()), "contains the time"),
         (

@@ -180,7 +180,7 @@ def test_questions_about_impacts_that_do_not_fit() -> None:
             "no relative motion along its normal",
         ),
         (lambda: Impact(system, impulse((J, 0), hit), at={coordinate("z"): 0}), "nothing in this `Impact` moves"),
-        (lambda: collision(bullet, hit, (), 1), "needs its normal"),
+        (lambda: collision(bullet, hit, (), 1), "needs a normal"),
         (lambda: collision(bullet, hit, (1, 0), 2), "between 0 and 1"),
         (lambda: collision(bullet, hit, (0, 0)), "not all zero"),
         (lambda: angular_impulse(J, v), "does not move"),

@@ -177,7 +177,7 @@ def test_a_result_that_contains_a_rate_with_a_wrong_sign_is_refused(tmp_path: Pa
     momentum = edited(THROWN, ("there: {put_in: v,", "p: {value: m*v}\n    there: {put_in: p,"))
     code, line, said = refused(tmp_path, momentum)
     assert (code, line) == ("sign-of-rate", 12)
-    assert "the motion turns back before y = 0, so `v` has the other sign there" in said
+    assert "the motion turns back before y = 0, so `v` has the opposite sign there" in said
 
 
 ON_SPRING = """\

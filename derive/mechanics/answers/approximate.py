@@ -50,7 +50,7 @@ def equation_in_limit(
     equation: Quantity, letter: Any, to: Any = 0, order: int | None = None, key: str | None = None
 ) -> Quantity:
     """Expansion of an equation f = 0 where a letter is small, large or near a value: f_0 + f_1 e + ... = 0. The small
-    quantity e is x, 1/x, -1/x or x - a.
+    quantity e is x, 1/x, -1/x or x - a, where x is the letter and a is the value that it is near.
 
     equation   an equation, such as an equation of motion
     letter     a constant that is small, large or near a value
@@ -59,8 +59,8 @@ def equation_in_limit(
 
     If a function of a small letter and the time is expanded, such as cos(Omega t), the sentence of the step says that
     the result is valid for short times only.
-    Check: numerically, the terms that are left out, divided by the last power that is kept, go to zero with the small
-    quantity.
+    Check: numerically, the terms that are left out, divided by the highest power that is kept, go to zero with the
+    small quantity.
     Outcomes: small, large, near (only the leading terms); first_order, to_order; exact (nothing is left out).
     Errors: the equation does not contain the letter; the letter changes with the time; the equation has no such
     expansion; the expansion begins beyond the requested order.

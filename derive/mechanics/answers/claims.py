@@ -100,8 +100,8 @@ def double(facts: Judged) -> bool:
 
 
 def only(facts: Judged) -> bool:
-    """Whether this is the only root that is kept. At all trial numbers for which this root is real, each other
-    root of the polynomial is complex, outside the range of the unknown or, for a positive unknown, not positive."""
+    """Whether this is the only root that is kept. Wherever this root is real, each other root of the polynomial must be
+    complex, outside the range of the unknown, or not positive for a positive unknown."""
     alone = facts.inputs["count"] == 1 and _polynomial(facts).degree() > 1 and not is_zero(_slope_there(facts))
     return alone and everywhere(trial_points(_letters(facts)), lambda point: _only_there(facts, point))
 
@@ -191,9 +191,8 @@ def identity(facts: Judged) -> bool:
 
 
 def _is_divided_as_told(facts: Judged) -> bool:
-    """Judge whether the difference of quantity and bound may be divided by the factor that must not vanish: the
-    quotient must contain the unknown, and must vanish if the result is substituted. Return True if there is no such
-    factor."""
+    """Whether the sentence states the right condition "factor != 0": the difference of quantity and bound, divided by
+    this factor, must contain the unknown, and must vanish if the result is substituted. True without a condition."""
     excluded = facts.inputs.get("excluded")
     if excluded is None:
         return True
@@ -207,7 +206,7 @@ def compared(squared: bool) -> Predicate:
         left, right = facts.result.sides
         unknown = facts.inputs["unknown"]
         alone = left == (unknown**2 if squared else unknown) and not explicit(right).has(left)
-        # only a sine or a cosine, which cannot be beyond 1, has a condition for its existence
+        # a condition for the existence of an angle fits only if the unknown is its sine or cosine
         limited = "existing" not in facts.inputs or isinstance(unknown, sin | cos)
         return bool(alone) and limited and _is_divided_as_told(facts)
 
@@ -279,8 +278,8 @@ def goes_as(wanted: int) -> Predicate:
 
 
 def bent(sign: int) -> Predicate:
-    """Judge numerically whether the values just before and just after the place are both smaller than the value at the
-    place (sign 1), or both larger (sign -1)."""
+    """Judge numerically whether the place is a maximum (sign 1) or a minimum (sign -1): the values just before and just
+    after the place must both be smaller, or both larger."""
 
     def is_so(facts: Judged) -> bool:
         x = Dummy("x", **facts.inputs["letter"].assumptions0)  # a Dummy, so that no given number replaces it
@@ -482,14 +481,12 @@ def equation_in_its_unknown(facts: Judged, outcome: str) -> bool:
 
 
 def _says_its_bound(facts: Judged, outcome: str) -> bool:
-    """Whether a condition for no root has the form "... < 0" (if both sides are equal, there is still a root); True for
-    other outcomes.
-    """
+    """Whether, for the outcome `none`, the result is a strict condition "... < 0": for "= 0" there is a double root."""
     return outcome != "none" or (facts.result.operator == "<" and is_zero(facts.result.right))
 
 
 def a_root_of_its_sign(facts: Judged, outcome: str) -> bool:
-    """Whether the formula of both roots, with the upper or the lower sign, gives the root of the step."""
+    """Whether the formula for both roots gives the root of the step with the sign that the sentence names."""
     if "sign" not in facts.words:
         return _says_its_bound(facts, outcome)
     sign = {"upper": 1, "lower": -1}[facts.words["sign"]]
@@ -509,7 +506,7 @@ def as_asked_for(facts: Judged, outcome: str) -> bool:
 def as_asked(facts: Judged, outcome: str) -> bool:
     is_letter = isinstance(facts.inputs["unknown"], Symbol)
     numbered = facts.inputs["count"] == 1 or facts.symbol != facts.inputs["unknown"]
-    if not is_letter:  # the root and the unknown must be the same function, sine or cosine
+    if not is_letter:  # for the unknown cos(theta), the symbol of the root must also be a cosine
         numbered = getattr(facts.symbol, "func", None) == facts.inputs["unknown"].func
     limited = "existing" not in facts.inputs or isinstance(facts.inputs["unknown"], sin | cos)
     unknown = explicit(facts.inputs["unknown"])
@@ -532,15 +529,13 @@ def word_of_its_mark(facts: Judged, outcome: str) -> bool:
 
 
 def there_where_told(facts: Judged, outcome: str) -> bool:
-    """Whether the conditions in the sentence are exact: the place of the extremum is real and lies between the ends of
-    the interval if and only if these conditions hold."""
+    """Whether the conditions in the sentence are exact. They must hold if and only if the place of the extremum is real
+    and lies between the ends of the interval."""
     told = replace(facts, inputs={"positive": Integer(0), **facts.inputs})
     return is_a_root_just_where_told(told) and _between_the_ends_just_where_told(facts)
 
 
 def _between_the_ends_just_where_told(facts: Judged) -> bool:
-    """Judge whether the place lies between the ends of the interval if and only if the conditions in the sentence
-    hold."""
     if "within" not in facts.inputs:
         return True
     place, ends = explicit(facts.result), facts.inputs["within"]
@@ -562,8 +557,8 @@ def _between_the_ends_just_where_told(facts: Judged) -> bool:
 
 
 def goes_where_it_is_said(facts: Judged, outcome: str) -> bool:
-    """Whether the named ratio, such as h/R, goes to its limit when the expansion symbol, such as h, goes to its own
-    limit."""
+    """Whether the letter or ratio that the sentence names, such as h/R, goes to the stated value when the symbol of the
+    expansion, here h, goes to the limit of the step."""
     goes, approach, to = (facts.inputs[role] for role in ("letter", "approach", "to"))
     if not isinstance(approach, Approach) or approach.args[0] != goes:
         return False
@@ -575,8 +570,9 @@ put_in_zero: Predicate = both(put_in(True), vanishes)
 
 
 def fixed_as_told(facts: Judged, outcome: str) -> bool:
-    """Whether the constraints that are named as the reason hold at the values that they fix, and at no other values
-    close to these, and each substituted value of such a coordinate is the fixed value."""
+    """Whether the constraints that the sentence names as the reason fix the values of their coordinates: they hold at
+    these values and at no other values nearby. Values that are substituted for these coordinates must be the fixed
+    values."""
     kept = facts.inputs["fixed_by"]
     if kept is None:
         return "fixed" not in facts.words

@@ -34,11 +34,11 @@ COMBINATION = Rule(
 
 
 def combination(expression: Expr, values: Mapping[Symbol, Quantity], key: str, symbol: str | None = None) -> Quantity:
-    """Number computed from results by a formula: pi Omega/omega, the angle from one apsis to the next.
+    """Quantity computed from results by a formula: pi Omega/omega, the angle from one apsis to the next.
 
     expression   the formula, with letters and with placeholders for the results
     values       placeholder -> its result; for an equation that is solved for a letter, its right side is used
-    symbol       the letter of the number; by default the key
+    symbol       the letter of the quantity; by default the key
 
     The grade of the step is "definition", because no check can show that the formula has the meaning of the letter.
     Outcomes: generic, named (a formula of letters only).

@@ -81,11 +81,11 @@ def where(
               letters denote
     for_real  whether the quantity is a discriminant and the condition is for real roots
 
-    Check: quantity minus bound is zero if the unknown equals the right side of the solved relation. If the unknown is
-    greater and the sign of this difference is then known, the sign agrees with the comparison sign. If the original and
-    the solved relation differ by a factor of unknown sign, they are also compared at random points: at each point both
-    relations are true, or both are false. A relation that holds for all values of the letters is tested at random
-    points only.
+    Check: quantity minus bound is zero if the unknown equals the right side of the solved relation. If the sign of this
+    difference is known for greater values of the unknown, the original and the solved relation agree above, at and
+    below the right side. If the two relations differ by a factor of unknown sign, they are also compared at random
+    points: at each point both relations are true, or both are false. A relation that holds for all values of the
+    letters is tested at random points only.
     A divisor of both sides of an equation must not vanish: the page states this condition if it is not known to hold.
     The sign of a divisor of an inequality must be known from the letters, their ranges or their numbers.
     Outcomes: solved, squared (solved for the square of the letter only); for all values of the letters: always, never,

@@ -46,13 +46,13 @@ def maximum(of: Quantity, letter: Letter, within: Ends = None, key: str = "maxim
     """Place and value of the maximum of a result: f'(x) = 0 and f''(x) < 0.
 
     of       a scalar, any unit
-    letter   the variable: an angle, a frequency, a length
+    letter   the variable, such as an angle, a frequency or a length
     within   the interval of the letter; by default all values that the letter can have
 
     A place that always exists is preferred to a place that exists only under a condition.
     Check: the slope vanishes at the place; numerically, no value at other places is greater (less, for a minimum).
-    Outcomes: greatest, or least for `minimum`; a condition follows if the extremum exists only for some values of the
-    letters.
+    Outcomes: greatest, or least for `minimum`. If the extremum exists only for some values of the letters, the sentence
+    states a condition for these values.
     Errors: the result is not a value that depends on the letter; no place with zero slope can be the extremum, or
     several can and none is preferred; the places with zero slope have no closed form; the place is at a time before the
     start.
@@ -72,7 +72,7 @@ def minimum(of: Quantity, letter: Letter, within: Ends = None, key: str = "minim
     """Place and value of the minimum of a result: f'(x) = 0 and f''(x) > 0.
 
     of       a scalar, any unit
-    letter   the variable: an angle, a frequency, a length
+    letter   the variable, such as an angle, a frequency or a length
     within   the interval of the letter; by default all values that the letter can have
 
     Check: as `maximum`.
@@ -163,9 +163,8 @@ def _extremum(
 
 
 def _letter_of(of: Quantity) -> str | None:
-    """Return the letter of a quantity. For the length of a vector, return the letter of the vector; for another formula
-    as the symbol, None.
-    """
+    """Return the name of the symbol of a quantity or, for the length of a vector, the name of the vector. Return None
+    if the symbol is another formula."""
     symbol = of.symbol.args[0] if isinstance(of.symbol, Norm) else of.symbol
     return str(symbol.name) if isinstance(symbol, Symbol | MatrixSymbol) else None
 
@@ -182,7 +181,7 @@ def _not_one(of: Quantity, x: Symbol, verb: str, count: int, elsewhere: bool) ->
 
 
 def _range_as_interval(x: Symbol) -> Within | None:
-    """Return the range of the symbol as an interval, by its numerical bounds or by assumed relations such as b < l.
+    """Return the interval of values of the symbol, from numerical bounds or from assumed relations such as b < l.
 
     A positive symbol without a lower bound has the lower bound 0. Return None if the symbol has no bounded range and
     the relations do not give exactly one lower and one upper bound.
@@ -205,8 +204,8 @@ def _conditions(real: Relation | None, room: Sequence[Relation]) -> dict[str, Re
 
 
 def _inside(place: Expr, real: Relation | None, within: Within | None, x: Symbol) -> list[Relation] | None:
-    """Return the conditions for the place to lie between the ends of the interval: an empty list if the place always
-    lies between them, None if it never does."""
+    """Return the conditions for the place to lie between the ends of the interval. The list is empty if the place
+    always lies between them; return None if it never does."""
     if within is None and (real is not None or not x.is_positive):  # every real place is allowed
         return []
     low, high = within or (Integer(0), None)
@@ -237,8 +236,8 @@ def _apart(condition: Relation) -> Relation:
 
 def _places(slope: Expr, x: Symbol, within: Within | None) -> list[Zero]:
     """Return zeros of the slope. A zero is left out if its condition is known to be false, for example for the given
-    numbers. Without an interval, the zeros of an angle are within one turn. With an interval, only some of the zeros of
-    a periodic slope are found."""
+    numbers. If x is an angle and there is no interval, the zeros are within one turn. With an interval, only some of
+    the zeros of a periodic slope are found."""
     find = zeros_of if within is None else zeros_nearby
     found = find(slope, x) if slope.has(x) else []
     return [Zero(as_one_root(zero.value), zero.exists) for zero in found if truth_known(zero.exists) is not False]

@@ -80,7 +80,8 @@ def limiting_case(
     key: str | None = None,
     symbol: str | None = None,
 ) -> Quantity:
-    """Result in a limiting case, f = c_n e^n + ..., where the small quantity e is x, 1/x, -1/x or x - a.
+    """Result in a limiting case, f = c_n e^n + .... For a letter x, the small quantity e is x, 1/x, -1/x, or x - a near
+    the value a.
 
     of       a scalar, a vector or a tensor, any unit. For an equation, or an inequality with >= or <=, that is solved
              for a letter, the limit of the right side is found. Any other equation is expanded by `equation_in_limit`
@@ -90,11 +91,11 @@ def limiting_case(
     order    the highest power of the small quantity that is kept; by default only the leading term
 
     For a vector or a tensor, the largest entry determines the leading power: smaller entries are negligible. Use
-    `put_in` to set letters equal, b = a. If terms are left out, the result has a symbol of its own, `symbol` or
-    omega_lim, and results computed from this symbol are approximate.
-    Check: numerically, on each possible side of the limit, the omitted part divided by the last power that is kept
-    shrinks on the way to the limit. If the terms are also found by adding, multiplying and dividing power series,
-    without a derivative, the two results agree.
+    `put_in` to set letters equal, b = a. If terms are left out, the result has a new symbol: `symbol` or, by default, a
+    symbol such as omega_lim for omega. Results computed from this symbol are approximate.
+    Check: numerically, on each possible side of the limit, the omitted part divided by the highest power that is kept
+    shrinks on the way to the limit. If the terms can also be found without a derivative, by adding, multiplying and
+    dividing power series, the two results agree.
     Outcomes: finite, vanishes, diverges (only the leading term); small, large, near (to an order); exact (nothing is
     left out).
     Errors: the result does not contain the letter; the letter changes in the motion and does not go to infinity; the

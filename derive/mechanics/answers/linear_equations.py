@@ -35,7 +35,7 @@ from derive.steps.subject import EVERYTHING
 __all__ = ["solved_for"]
 
 MOST = 6  # greatest number of unknowns
-MOST_SUBSTITUTED = 2  # greatest number of substitutions that a sentence states
+MOST_SUBSTITUTED = 2  # if more substitutions are needed, the sentence states none of them
 
 
 def solved_for(
@@ -72,7 +72,7 @@ def solved_for(
         help_line = "one of the equations follows from the others, or they contradict each other"
         raise Rejected(Complaint("singular", message, help=help_line))
     values = eliminated(matrix, right)
-    below = [tidied(value).as_numer_denom()[1] for value in values]  # each denominator must not vanish either
+    below = [tidied(value).as_numer_denom()[1] for value in values]  # the denominators must not vanish, either
     excluded = may_vanish(determinant, *below)
     called = list(keys or [_key_of(unknown) for unknown in wanted])
     if len(called) != len(wanted):
@@ -179,8 +179,8 @@ def _written(matrix: Matrix) -> Expr:
 
 
 def eliminated(matrix: Matrix, right: Matrix) -> list[Expr]:
-    """Solve by Gaussian elimination: for each unknown, choose among the equations not yet used the one in which its
-    coefficient is simplest. Then eliminate the unknown from all other equations."""
+    """Solve by Gaussian elimination. For each unknown, choose the unused equation with the simplest coefficient of this
+    unknown; then eliminate the unknown from all other equations."""
     rows = [[*(matrix[i, j] for j in range(matrix.cols)), right[i]] for i in range(matrix.rows)]
     n = matrix.cols
     for column in range(n):

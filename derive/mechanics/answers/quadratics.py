@@ -69,7 +69,7 @@ class Roots(Fact):
     """The quadratic equation of the roots: the coefficients in letters, the coefficients with values substituted, the
     unknown, and the substituted values."""
 
-    missing = "is not a root of a quadratic equation from `roots` with `together`"
+    missing = "is not a root that `roots` returned with `together`"
     general: Quadratic
     quadratic: Quadratic
     unknown: Symbol
@@ -92,7 +92,7 @@ def roots_together(
 
     equation   a x^2 + b x + c = 0, possibly times a factor without x
     x          the unknown of the quadratic equation
-    values     quantities for letters of the coefficients
+    values     quantities whose values replace letters in the coefficients
     key        the key of the step with both roots
     keys       the keys of the separate roots
     symbols    the symbols of the separate roots
@@ -167,7 +167,7 @@ def _together(equation: Quantity, of: Roots, apart: Expr, key: str, keys: Sequen
     """Roots of a quadratic equation, x = (-b +- sqrt(b^2 - 4 a c))/(2 a); x = -c/b where a is zero.
 
     equation   a x^2 + b x + c = 0
-    of         the coefficients of the equation, and the quantities for letters in these coefficients
+    of         the coefficients of the equation, and the quantities that replace letters in them
     apart      the factor of the left side that does not contain x
     keys       the requested keys; for a linear equation, all of them denote this step
 
@@ -416,7 +416,8 @@ def real_where(roots: Quantity, letter: Any, key: str = "real_where", distinct: 
     distinct   whether two distinct roots are required, b^2 - 4 a c > 0
 
     The discriminant is a separate step; for a linear equation it is b^2, which does not vanish. If values were
-    substituted in the equation, the condition is first shown in letters, if it can be solved in letters.
+    substituted in the equation, and the condition can be solved in the original letters, the page shows this condition
+    first.
     Check: as `where`.
     Outcomes: as for `where`.
     Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*, 3.8.1.

@@ -1,4 +1,4 @@
-"""Roots of a polynomial equation in one letter: linear, quadratic, or of higher degree if it factors.
+"""Roots of a polynomial equation in one letter, if the polynomial has factors of degree 1 and 2 only.
 
 For a positive unknown only the roots that can be positive are kept. If a root is real or positive only for some values
 of the symbols, the page states the condition next to the root.
@@ -69,13 +69,13 @@ def roots(
     together: str | None = None,
     key: str | None = None,
 ) -> tuple[Quantity, ...]:
-    """Roots of an equation in one letter, in ascending order if this order is known: x = (-b +- sqrt(b^2 - 4 a c))/(2
-    a) for each quadratic factor, x = -b/a for each linear factor. If the unknown is positive, only roots that can be
-    positive are kept.
+    """Roots of an equation in one letter, in ascending order if this order is known. A quadratic factor has the roots
+    x = (-b +- sqrt(b^2 - 4 a c))/(2 a), a linear factor the root x = -b/a. If the unknown is positive, only roots that
+    can be positive are kept.
 
     equation   a polynomial equation in the letter; or a result that is not an equation, whose zeros are sought
     letter     the unknown: a letter, a coordinate, a rate, or an expression such as `cos(theta)`
-    values     quantities for letters of the coefficients, substituted after the formula for both roots
+    values     quantities whose values replace letters in the coefficients, in the line after the formula for both roots
     together   key of a step that has the two roots of a quadratic equation in one formula, x = (-b +- ...)/(2 a). A
                separate step follows for each root, the smaller in absolute value first. If there is a single root or no
                real root, the same step is returned for each key
@@ -307,8 +307,8 @@ def _not_reached(equation: Quantity, unknown: Expr, every: Sequence[RootOf], key
 
 
 def _existing(root: RootOf, unknown: Expr, equation: Quantity) -> Relation | None:
-    """Return the condition for an angle with this sine or cosine to exist; None if the unknown is not a sine or cosine,
-    or if it is known whether the angle exists. The inequality is strict if the equation also contains the other
+    """Return the condition for an angle with this sine or cosine to exist. Return None if the unknown is not a sine or
+    cosine, or if it is known whether the angle exists. The inequality is strict if the equation also contains the other
     function (the cosine for a root that is a sine), because this function vanishes at the bound."""
     if not isinstance(unknown, sin | cos) or root.value in (1, -1):
         return None
@@ -348,7 +348,7 @@ def _factors(polynomial: Poly, equation: Quantity, unknown: Expr) -> list[tuple[
         degree = max(part.degree() for part, _ in found if part is not None)
         factor = f"an unsolved factor of degree {degree} in {unknown}"
         message = f"`roots` solves factors up to degree 2, but `{equation.key}` has {factor}"
-        raise Rejected(Complaint("not-solved", message, help="substitute numbers, or choose a special case"))
+        raise Rejected(Complaint("not-solved", message, help="choose a case in which all factors have degree 1 or 2"))
     return [(each, times * n) for part, times in found for each, n in _not_doubled(part)]
 
 
@@ -369,7 +369,8 @@ def _condition(root: RootOf, unknown: Expr) -> Relation | None:
     no condition is needed."""
     if len(root.coefficients) == 3 and sign_known(root.discriminant) is None and not _sum_of_squares(root):
         _, b, c = root.coefficients
-        # If b is 0, the discriminant -4 a c vanishes only if a or c is 0; if c is 0, the root is 0.
+        # If b is 0, the discriminant -4 a c vanishes only for c = 0, where the root is 0. Then the sign ">" is right if
+        # c cannot be 0 or if the root must be positive.
         lost = sign_known(c) or sign_for_all(unknown) == 1
         mark = ">" if b == 0 and lost else ">="
         return Relation(presented(without_positive(root.discriminant)), mark, ZERO)

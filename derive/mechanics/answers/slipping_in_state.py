@@ -24,8 +24,8 @@ __all__: list[str] = []
 
 @in_results(
     "slips",
-    "the condition |F| <= mu_s N for static friction to suffice; along a motion from `speed`, the first place where "
-    "static friction does not suffice",
+    "the condition |F| <= mu_s N for static friction to suffice; if the forces contain a result of `speed`, the first "
+    "place of the motion where static friction does not suffice",
     friction="slips: the static friction of a contact",
     letter="for: a letter, or a function of a letter such as `tan(alpha)`",
     results="results: answers substituted in the friction and in the normal force",
@@ -92,7 +92,7 @@ def _replaced_by(result: Quantity) -> tuple[Expr, Expr]:
 
 
 def _check_used(friction: Quantity, normal: Quantity, results: Sequence[Quantity], values: Mapping[str, Expr]) -> None:
-    """Reject a result that changes neither force, and a value of a letter that does not occur."""
+    """Reject results that change neither force, and values that can have no effect."""
     used = [one for force in (friction, normal) for one in _with_effect(force, results, values)[0]]
     for each in results:
         if each not in used:

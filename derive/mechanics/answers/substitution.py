@@ -79,7 +79,7 @@ def put_in(
     fixed_by: KeptPositions | None = None,
     **values: Any,
 ) -> Quantity:
-    """A value or an equation after other results or the values of letters are substituted: f(x) with x = g is f(g).
+    """Value or equation in which other results, or values of letters, are substituted: f(x) with x = g is f(g).
 
     of       a value or an equation
     others   results, each of which replaces its letter; equations whose left side is only a letter or a rate, or only a
@@ -121,7 +121,7 @@ def put_in(
     result = arranged(value, list(moving))
     _check_holds(of, result)
     name = _name(of, symbol)
-    # |q_dot| is real only where its square is positive
+    # assume that the square of q_dot is positive, so that |q_dot| is real
     with where_positive(result**2) if isinstance(name, Abs) else nullcontext():
         return establish(
             PUT_IN,
@@ -214,8 +214,9 @@ def _sorted_out(others: Sequence[Rests]) -> tuple[list[Quantity], dict[Any, Any]
 
 
 def _replacements(quantity: Quantity, of: Quantity) -> list[Replacement]:
-    """Return the replacements that a result makes: of its symbol and, if the result gives a coordinate for the whole
-    motion, of the rates of this coordinate. A conserved momentum also replaces the rate of its coordinate."""
+    """Return the replacements for a result. Its value replaces its symbol. If the result gives a coordinate or a rate
+    as a function of coordinates, rates or the time, the time derivatives of this coordinate or rate are also replaced.
+    A conserved momentum also replaces the rate of its coordinate."""
     kept = quantity.fact(KeptMomentum)
     if kept is not None:
         target, value = rate(kept.coordinate), kept.turning
@@ -251,8 +252,8 @@ def _replacements(quantity: Quantity, of: Quantity) -> list[Replacement]:
 
 
 def _letter_replaced(quantity: Quantity, of: Quantity) -> Any:
-    """Return the symbol that a result replaces: the symbol of the result if the original contains it, otherwise the
-    unknown of a root, or the symbol of the result that a limit approximates."""
+    """Return the symbol that a result replaces. This is the symbol of the result if the original contains it; otherwise
+    the unknown of a root, or the symbol of the result that a limit approximates."""
     root, own = quantity.fact(ValueOf), quantity.symbol
     whole = root.unknown if root is not None else quantity.step.approximates
     is_there = isinstance(own, Expr) and own.free_symbols <= explicit(of.value).free_symbols

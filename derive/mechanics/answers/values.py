@@ -255,7 +255,7 @@ def let(
     kind: str | None = None,
     because: str | None = None,
 ) -> Quantity:
-    """Name for an expression in quantities, or an equation between quantities: a definition that the author sets up.
+    """Definition by the author: a new symbol for an expression in quantities, or an equation between quantities.
 
     key          the key of the step
     law          a function of the quantities that returns an expression, or an equation as SymPy's `Eq(left, right)`
@@ -263,10 +263,10 @@ def let(
     because      the reason, in the words of the script: "by Newton's second law"
 
     If the quantities belong to only one body, the result belongs to this body, too. If they have only one reference
-    point, or only one angular velocity of a rotation, the result has it, too. The result varies in time if it contains
-    a coordinate or the time. If the mass points and forces are known for every quantity, the result is linked to all
-    these mass points and forces. No check shows that the result has the meaning of its letter, so the grade of the step
-    is "definition".
+    point, or only one angular velocity of a rotation, the result has this point or this angular velocity, too. The
+    result varies in time if it contains a coordinate or the time. If every quantity is stored with the mass points and
+    forces that it belongs to, the result is stored with all of them. No check shows that the result has the meaning of
+    its letter, so the grade of the step is "definition".
     Outcomes: generic, because (with the given reason), equation, equation_because.
     Errors: an unknown kind; an expression that is not a scalar; an equation for which a symbol or a kind is given; an
     equation that always or never holds.

@@ -1,7 +1,7 @@
 """Poisson brackets of functions of coordinates and momenta.
 
-The bracket of a function with the Hamiltonian is the rate of change of the function, if the function does not contain
-the time and the Hamiltonian contains all forces.
+Suppose that a function does not contain the time, and that the Hamiltonian contains all forces. Then the bracket of the
+function with the Hamiltonian is the rate of change of the function.
 """
 
 from __future__ import annotations

@@ -141,7 +141,7 @@ def hamilton_equations(of: Quantity) -> tuple[Quantity, ...]:
 
 
 def _with_mark(found: Relation, values: Sequence[Expr]) -> ImmutableDenseMatrix:
-    """Return the values, followed by 1 if `found` is an equation and by 0 otherwise; a route compares this column."""
+    """Return a column with the values, then 1 if `found` is an equation and 0 otherwise."""
     return ImmutableDenseMatrix([*values, int(found.operator == "=")])
 
 

@@ -32,8 +32,8 @@ def pushed(facts: Judged, beside: bool) -> bool:
 
 
 def conserved(kind: str | None) -> Predicate:
-    """Judge whether the coordinate has this kind (None: neither an angle nor a length, or L is not an energy), and
-    whether the rate of its momentum vanishes by d'Alembert's principle."""
+    """Judge whether the coordinate has this kind, and whether the rate of its momentum vanishes by d'Alembert's
+    principle. None means that the coordinate is neither an angle nor a length, or that L is not an energy."""
 
     def is_so(facts: Judged) -> bool:
         L, q = facts.quantities["lagrangian"], facts.inputs["coordinate"]

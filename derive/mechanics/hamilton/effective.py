@@ -168,7 +168,7 @@ def routhian(of: Quantity, *constants: Quantity, symbol: str | None = None, key:
             Complaint(
                 "wrong-argument",
                 "`routhian` needs a conserved momentum",
-                help=Spelled("`conserved(L, phi)`", "no coordinate of this system is cyclic"),
+                help=Spelled("`conserved(L, phi)` gives the momentum of phi", "no coordinate of this system is cyclic"),
             )
         )
     left = _put_aside(of, constants, "routhian")
@@ -253,7 +253,7 @@ def effective_potential(
     of          the Lagrangian, J, which does not contain the time
     constants   momenta of cyclic coordinates, results of `conserved`; by default the momenta of all cyclic coordinates
 
-    Without cyclic coordinates U_eff is U - T_0, for example in a prescribed rotation.
+    Without cyclic coordinates U_eff is U - T_0. In a prescribed rotation, for example, T_0 is not zero.
     Second route: where the rates and accelerations of the remaining coordinates vanish, -dU_eff/dq is the sum of
     (F - m a) . dr/dq, with the rates of the cyclic coordinates substituted. Also, U_eff is T_2 - T_0 + U with these
     rates.

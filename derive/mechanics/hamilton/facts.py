@@ -23,7 +23,7 @@ from derive.steps.step import Fact, Quantity, Route
 class Constant(Fact):
     """The cyclic coordinate of a constant momentum."""
 
-    missing = "is not a momentum of a cyclic coordinate from `conserved`"
+    missing = "is not a momentum that `conserved` returned"
     coordinate: Coordinate
 
 
@@ -48,7 +48,7 @@ class SeenWith(Fact):
 
 @dataclass(frozen=True)
 class PhaseSpace(Fact):
-    """The coordinates and momenta of a function in phase space, and the Lagrangian of these momenta."""
+    """The coordinates and momenta of a function in phase space, and the Lagrangian that defines these momenta."""
 
     missing = "is not a function of coordinates and their momenta"
     coordinates: tuple[Coordinate, ...]

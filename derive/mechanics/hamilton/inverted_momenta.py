@@ -1,4 +1,4 @@
-"""Rates v as functions of momenta p that are not linear in v, if L contains v in one quadratic form only.
+"""Invert momenta p that are not linear in the rates v, for a Lagrangian L that contains v in one quadratic form only.
 
 Then p_i - b_i = g(s) (A v)_i with s = v . A v, where b is the value of p at v = 0. So v has the direction of
 w = A^-1 (p - b), and v = u w. The factor u follows from g(u^2 S) u = 1 with S = w . A w. For a relativistic particle
@@ -46,8 +46,8 @@ def by_quadratic_form(momenta_of: Mapping[Symbol, Expr], rates: Sequence[Symbol]
 
 
 def _stretch(bare: Matrix, form: Matrix, rates: Sequence[Symbol]) -> tuple[Symbol, Expr] | None:
-    """Return s and g(s): derived with only the first rate nonzero, then checked for all rates; None if the check
-    fails."""
+    """Return s and g(s). Find g from the case in which only the first rate is nonzero, then check it for all rates;
+    return None if the check fails."""
     s = Dummy("s", nonnegative=True)
     along = {rates[0]: sqrt(s / form[0, 0]), **dict.fromkeys(rates[1:], 0 * rates[0])}
     g = tidied(bound(bare[0], along) / (form[0, 0] * along[rates[0]]))
@@ -58,8 +58,8 @@ def _stretch(bare: Matrix, form: Matrix, rates: Sequence[Symbol]) -> tuple[Symbo
 
 
 def _length(g: Expr, s: Symbol, size: Symbol) -> Expr | None:
-    """Return the positive root u of g(u^2 S) u = 1 that is 1 for S = 0; None if the equation is too long or SymPy does
-    not find this root."""
+    """Return the positive root u of g(u^2 S) u = 1 that is 1 for S = 0. Return None if the equation is too long, or if
+    SymPy does not find this root."""
     u = Dummy("u", positive=True)
     equation = g.xreplace({s: u**2 * size}) * u - 1
     if equation.count_ops() > MOST_OPERATIONS:

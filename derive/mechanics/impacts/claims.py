@@ -34,7 +34,8 @@ def restitution(wanted: int | None) -> Predicate:
 
 
 def momentum_of(facts: Judged, q: Any) -> bool:
-    """Whether the factor of each rate s_dot in the jump is d^2 T/(dq_dot ds_dot), up to a common factor."""
+    """Whether each rate s_dot in the left side of the result has the factor d^2 T/(dq_dot ds_dot), up to a common
+    factor."""
     T, there = value_of_role(facts, "kinetic"), dict(facts.inputs["at"])
     moving = facts.quantities["kinetic"].coordinates
     inertia = {s: diff(T, rate(q), rate(s)).subs(there, simultaneous=True) for s in moving}

@@ -35,7 +35,7 @@ Vector = tuple[Expr, ...]
 class Impulse:
     """A given impulse at a place, N s; or an angular impulse along an angle, N m s.
 
-    components   the components that the law uses
+    components   the components of the impulse; an `Impact` substitutes the coordinates at its instant
     at           the components of the place, or the angle as the only component
     of           the body or particle on which the impulse acts; None if it is neither stated nor known from the place
     given        the components as the author gave them, for a second route
@@ -73,7 +73,8 @@ class Collision:
 def impulse(components: Any, at: Location, of: Any = None) -> Impulse:
     """A given impulse at a place, N s: the integral of a force over the short time of an impact.
 
-    of   the body or particle on which the impulse acts; needed if no body or particle moves with the place
+    of   the body or particle on which the impulse acts; needed if the place moves, but no body or particle moves with
+         it
     """
     if not isinstance(at, Location) or len(components) != len(at.components):
         message = "`impulse` needs a place, and as many components as the place has"
@@ -105,8 +106,8 @@ def collision(
                   have the same velocity after the collision
     restitution   coefficient of restitution: 1 for an elastic collision, 0 if the places do not separate
     letter        symbol of the impulse, N s, which acts on the end; the opposite impulse acts on the start
-    of            the body or particle of the end, or a pair for start and end; needed if no body or particle moves with
-                  one of the places
+    of            the body or particle of the end, or a pair for start and end; needed for a place that moves, but not
+                  with a body or particle
     """
     size = len(end.components)
     if start is not None and len(start.components) != size:
@@ -117,7 +118,7 @@ def collision(
         raise Rejected(Complaint("wrong-argument", message))
     part = as_expr(restitution)
     if not normal and part != 0:
-        message = "a collision after which two places separate needs its normal"
+        message = "a collision after which the places separate needs a normal"
         raise Rejected(Complaint("wrong-argument", message, help="give `along`"))
     if (part < 0) == True or (part > 1) == True:  # noqa: E712  the relation may be undecided
         raise Rejected(
@@ -220,8 +221,8 @@ class Impact:
             )
 
     def _check_material_points(self, acts: Sequence[Impulse | Collision]) -> None:
-        """If no body is stated for an impulse or for an end of a collision, require that the place is at rest, or moves
-        with a body or a particle."""
+        """If no body is stated for an impulse or for an end of a collision, its place must be at rest, or move with a
+        body or a particle."""
         asked: list[tuple[Any, Vector]] = []
         for act in acts:
             if isinstance(act, Impulse):
@@ -232,7 +233,7 @@ class Impact:
         for i in places_that_move_alone(self.system.described.description, [place for _, place in asked]):
             act, place = asked[i]
             where = ", ".join(map(str, place))
-            message = f"an impulse at ({where}) acts on no particle: no body or particle moves with this place"
+            message = f"an impulse at ({where}) acts on no particle or body: none moves with this place"
             help_line = "name the body on which the impulse acts, `of: rod`; for a collision both, `of: [ball, rod]`"
             raise WrongPart.of(act, Complaint("which-body", message, help=help_line))
 
@@ -318,7 +319,9 @@ class Impact:
             name = next(iter(coordinates)).name
             raise Rejected(
                 Complaint(
-                    "changes", f"the normal of this collision depends on {name}", help="give its value under `at`"
+                    "changes",
+                    f"the normal of this collision depends on {name}",
+                    help=f"give the value of `{name}` at the impact under `at`",
                 )
             )
         if act.start is not None:

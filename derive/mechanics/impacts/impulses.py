@@ -52,8 +52,8 @@ def momentum_jump(impact: Impact, kinetic: Quantity, q: Coordinate, key: str | N
     kinetic   the kinetic energy T of the system, J, from `kinetic_energy_of`
     q         a coordinate of the system
 
-    Second route: p - p_before is the sum of m (v - v_before) . dr/dq over mass points, and the right side is the
-    derivative of the power J . v with respect to q_dot.
+    Second route: p - p_before is the sum of m (v - v_before) . dr/dq over mass points. The right side is the derivative
+    of the power J . v with respect to q_dot.
     Outcomes: struck (an impulse acts along q), free (no impulse acts along q).
     Errors: q is not a coordinate of the impact.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, derivations and exercises of chapter 2; Landau, Lifshitz,
@@ -123,7 +123,7 @@ def meeting_condition(impact: Impact, number: int, key: str | None = None) -> Qu
     impact   the system, its state and the collisions; e is the coefficient of restitution of the collision
     number   the index of the condition, from 0; the conditions of constraints come last
 
-    Check: the velocities come from the places as functions of time, with each coordinate as its Taylor series.
+    Check: the same condition, with v from the places as functions of time: each coordinate is its Taylor series.
     Outcomes: together (e = 0), elastic (e = 1), rebound (any other e), kept (a constraint).
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapters 4 and 6.
     """
@@ -177,7 +177,7 @@ def rates_after(impact: Impact, jumps: Sequence[Quantity], conditions: Sequence[
     count = len(impact.moving) + len(impact.meetings)
     if len(jumps) + len(conditions) != count:
         message = f"the unknowns of this impact need {count} equations, not {len(jumps) + len(conditions)}"
-        raise Rejected(Complaint("wrong-argument", message, help="give a jump for each coordinate, and each condition"))
+        raise Rejected(Complaint("wrong-argument", message, help="give a jump for each coordinate, and all conditions"))
     of = [jump.needed(OfCoordinate).coordinate for jump in jumps]
     letters = [each.letter for each in impact.meetings]
     keys = [*(f"{q.symbol.name}_dot_after" for q in of), *(letter.name for letter in letters)]

@@ -70,7 +70,7 @@ def impulses_on_bodies(impact: Impact) -> list[Struck]:
 
 def _body_at(impact: Impact, place: Vector) -> Any:
     """The particle or body with a point that moves like the place at the instant of the impact; None for a place at
-    rest, which is on the ground."""
+    rest."""
     slopes = {q: tuple(c.diff(q) for c in place) for q in impact.moving}
     if all(is_zero(impact.there(c)) for slope in slopes.values() for c in slope):
         return None
@@ -175,9 +175,9 @@ ANGULAR_MOMENTUM_LAW = Rule(
 
 def angular_momentum_law(impact: Impact, q: Coordinate, key: str | None = None) -> Quantity:
     """Angular momentum in an impact, L = L_before + sum of the torques of the impulses. The law is for all bodies,
-    about the fixed axis of the body that rotates with the coordinate q. If the coordinates do not allow all bodies to
-    rotate about this axis, or if there is no fixed axis, the law is for this body only, about its fixed axis or its
-    centre of mass.
+    about the fixed axis of the body that rotates with the coordinate q. Without a fixed axis, or if the coordinates do
+    not allow all bodies to rotate about it, the law is for this body only: about its fixed axis or its centre of
+    mass.
 
     impact   the system, its state and the impulses
     q        a coordinate that rotates one body

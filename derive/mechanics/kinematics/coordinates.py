@@ -105,8 +105,8 @@ class OfCoordinate(Fact):
 
 @dataclass(frozen=True)
 class AtOneMoment(Fact):
-    """The coordinates or rates for which values at one instant are substituted, so the rate of the quantity is
-    unknown."""
+    """The coordinates or rates whose values at one instant are substituted in a quantity. The rate of change of the
+    quantity is then unknown."""
 
     missing = "holds at all times"
     fixed: tuple[Symbol, ...]
@@ -208,7 +208,7 @@ def by_functions_of_time(expr: Any, coordinates: Iterable[Symbol], order: int = 
 
 @lru_cache(maxsize=64)  # the second routes of one system all need the same series
 def _series_of(coordinates: tuple[Symbol, ...]) -> dict[Symbol, tuple[Expr, ...]]:
-    """Return symbol -> coefficients of its Taylor series, for t, for each coordinate and for its rates.
+    """Return the Taylor coefficients of t, of each coordinate and of each rate except the highest.
 
     The series of q is q + q_dot s + q_ddot s^2/2 + ..., up to the highest rate; the series of t is t + s.
     """

@@ -39,7 +39,8 @@ ZERO = Integer(0)
 
 @dataclass(frozen=True)
 class ActedOn(Fact):
-    """The forces without a potential energy on a system: given forces, and dampers with the dissipation function."""
+    """The forces without a potential energy on a system: the given forces, the dampers and the dissipation function of
+    the dampers."""
 
     missing = "has no forces other than those of its potential energy"
     system: Any

@@ -372,9 +372,8 @@ def constraint_rate_in_rates(facts: Judged) -> bool:
 
 
 def constraint_rate_together(facts: Judged) -> bool:
-    """Whether the constraints are independent and hold for the values that they fix together, and the result belongs to
-    one of these values.
-    """
+    """Whether the constraints together fix the stated values of coordinates, and the result is that the acceleration of
+    one of these coordinates vanishes."""
     values = {told.left: told.right for told in facts.inputs["kept_together"]}
     kept = Matrix(facts.inputs["keeping"])
     if not values or not all(is_zero(f.xreplace(values)) for f in kept):
@@ -487,9 +486,9 @@ def _constants(facts: Judged) -> dict[Symbol, Expr]:
 
 
 def follows_from_a_constraint(facts: Judged, told: Relation) -> bool:
-    """Whether a constraint that contains this coordinate holds for the values that the sentence states. An
-    acceleration must be the second derivative of such a value, and a rate must be zero by the constraints between
-    rates."""
+    """Whether a stated value of a coordinate, a rate or an acceleration follows from a constraint. For a coordinate, a
+    constraint that contains it must hold for all stated values. An acceleration must be the second derivative of a
+    stated value, and a rate must be zero by the constraints between rates."""
     moving = facts.inputs["moving"]
     if told.left in map(rate, moving):
         return bool(is_zero(told.right)) and told.left in _rates_at_rest(facts)

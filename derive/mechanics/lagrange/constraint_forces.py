@@ -58,7 +58,7 @@ ZERO = Integer(0)
 MOST = 9  # greatest number of unknowns in one linear system
 MOST_NAMED = 6  # greatest number of equations that a sentence names
 MOST_WITH_ROOTS = 250  # greatest number of operations in a solution with several roots of sums, such as sqrt(a + b)
-MOST_SUBSTITUTED = 4  # greatest number of substitutions that a sentence states
+MOST_SUBSTITUTED = 4  # if more substitutions are needed, the sentence states none of them
 
 
 @dataclass(frozen=True)
@@ -253,7 +253,8 @@ def _told(of: Constraint, moving: Sequence[Symbol]) -> Relation:
 
 
 def _together(constraints: Sequence[Constraint], moving: Sequence[Symbol]) -> dict[int, Relation]:
-    """Return index of a constraint -> y = a, for constraints that only together give coordinates constant values."""
+    """Return a mapping from the index of a constraint to a relation y = a, for constraints that only together give
+    coordinates constant values."""
     residuals = {
         i: each.residual for i, each in enumerate(constraints) if not each.in_rates and _fixed(each, moving) is None
     }
@@ -263,7 +264,8 @@ def _together(constraints: Sequence[Constraint], moving: Sequence[Symbol]) -> di
 
 
 def positions_kept(motion: Quantity) -> KeptPositions:
-    """Return the coordinates that several constraints together keep constant, also if some constraints alone do so.
+    """Return the constant coordinates, their values, and the constraints that together fix these values. Some of the
+    constraints may fix a coordinate alone.
 
     motion   one of the equations of motion
     """
@@ -372,7 +374,7 @@ def constraint_rate(of: Quantity, number: int = 0, key: str | None = None) -> Qu
 
 
 def _steps(problem: _Problem, wanted: Sequence[Symbol]) -> tuple[Quantity, ...]:
-    """Return the steps of these unknowns. Unknowns in their formulas are derived first."""
+    """Return the steps of these unknowns. If a formula contains other unknowns, these are derived first."""
     rates = [constraint_rate(problem.lagrangian, i) for i in range(len(problem.constraints))]
     forces = {each.force: each for each in problem.constraints}
     order, every = _isolated(problem), [*problem.used, *rates]
@@ -427,8 +429,8 @@ class _Isolation:
 
     @property
     def _constant(self) -> dict[Quantity, Relation]:
-        """Return each equation q_ddot = 0 of a constraint q = constant, with this constraint; empty if unknowns are
-        eliminated, or if all equations have this form."""
+        """Return a mapping from each equation q_ddot = 0 to its constraint q = constant. The mapping is empty if
+        unknowns are eliminated, or if all equations have this form."""
         constraints = self.problem.constraints
         first = len(self.problem.used)
         numbers = [i - first for i in self.found.equations if i >= first]
@@ -444,8 +446,8 @@ class _Isolation:
 
     @cached_property
     def _substituted(self) -> tuple[Substitution, ...]:
-        """Return the substitutions that eliminate the other unknowns; empty if there are too many, or if the number of
-        these unknowns is not one less than the number of equations."""
+        """Return the substitutions that eliminate the other unknowns. The result is empty if there are too many of
+        these unknowns, or if their number is not one less than the number of equations."""
         eliminated = self.found.eliminated
         if not 0 < len(eliminated) == len(self.equations) - 1 or len(eliminated) > MOST_SUBSTITUTED:
             return ()
@@ -479,8 +481,8 @@ class _Isolation:
 
     @property
     def named(self) -> dict[str, Any]:
-        """Return the eliminated unknowns, and the values of coordinates, rates and accelerations from constraints that
-        are substituted in the equations."""
+        """Return the eliminated unknowns, and the values that constraints give to coordinates, rates and accelerations
+        in the equations."""
         eliminated = {f"eliminated_{i}": each for i, each in enumerate(self.found.eliminated, 1)}
         known, moving = self.problem.known, self.problem.moving
         fixed_ones = constant_ones(known, moving)
@@ -832,7 +834,7 @@ def _in_a_field(matrix: ImmutableDenseMatrix) -> tuple[DomainMatrix, dict[Expr, 
     """Return the matrix with symbols in place of sines, cosines and roots, and the symbol of each replaced function."""
     found = sorted(matrix.atoms(Function), key=str)
     powers = sorted((p for p in matrix.atoms(Pow) if not p.exp.is_Integer), key=str)
-    bases: dict[Expr, Expr] = {}  # expanded base -> the form that all roots of it use
+    bases: dict[Expr, Expr] = {}  # expanded base -> the form of this base in all roots
     roots = {
         p: Pow(bases.setdefault(p.base.expand(), p.base), Rational(1, p.exp.q)) if p.exp.is_Rational else p
         for p in powers

@@ -165,7 +165,7 @@ def _differentiated(place: Iterable[Expr], moving: Sequence[Symbol]) -> list[For
 
 def _velocity(mover: Mover, moving: list[Symbol]) -> list[Quantity]:
     """Return the steps of the rates of the components that change; empty if only one component changes, or if a
-    component has no step."""
+    changing component has no step."""
     known = dict(mover.at.found)
     changing = [k for k, c in enumerate(mover.place) if c.has(*moving) or depends_on_time(c)]
     return [rate_of(known[k]) for k in changing] if all(k in known for k in changing) and len(changing) > 1 else []
@@ -267,7 +267,7 @@ def kinetic_energy_of(system: System, symbol: str | None = None, key: str = "kin
     system   the particles and bodies that move
 
     Here v is the speed of a particle or of a centre of mass, and I is about the centre of mass. If a body is held at a
-    point about which its inertia is given or can be derived, the body has no term with v, and I is about this point.
+    point about which its inertia is given or can be derived, I is about this point, and the body has no term with v.
     Separate steps derive the square of each speed, each inertia that is not given and, in space, each angular velocity.
     Second route: half the sum of m v.v over mass points, with their positions differentiated as functions of t.
     Errors: the moments of inertia of a body are known only about a point other than the required one.
@@ -319,9 +319,9 @@ def kinetic_energy_of(system: System, symbol: str | None = None, key: str = "kin
 
 
 def _made_of(system: System, moved: Sequence[Mover], turnings: Sequence[Turning]) -> str:
-    """Return the word for the parts of the kinetic energy of a single body: "both" for the motion of the centre of mass
-    and the rotation about it, "axis" or "point" for a rotation about a fixed axis or point. The word for any other
-    system is "any"."""
+    """Return the word for the parts of the kinetic energy of a single body. The word is "both" for the motion of the
+    centre of mass and the rotation about it, and "axis" or "point" for a rotation about a fixed axis or point. The word
+    for any other system is "any"."""
     if system.particles or len(system.bodies) != 1 or len(turnings) != 1:
         return "any"
     if moved:
@@ -353,7 +353,7 @@ def _behind(system: System) -> list[Quantity]:
     return [lettered(value) for placed in system.bodies for value in getattr(placed.body, "values", ())]
 
 
-# Terms with the same coordinate are put together if this makes the energy longer by at most this number.
+# Terms with the same coordinate are collected if this makes the `length` of the energy greater by at most this number.
 LITTLE_LONGER = 2
 
 
@@ -452,7 +452,7 @@ def potential_energy_of(system: System, symbol: str | None = None, key: str = "p
     )
 
 
-FEW_SPRINGS, SHORT = 4, 6  # greatest number of extensions that a sentence names, and their greatest length
+FEW_SPRINGS, SHORT = 4, 6  # greatest number of extensions in a sentence, and greatest `length` of their formulas
 
 
 def _stretches(springs: Sequence[Any], moving: Sequence[Symbol]) -> dict[str, tuple[Expr, Expr]]:

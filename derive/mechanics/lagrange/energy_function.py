@@ -121,7 +121,7 @@ def energy_function(of: Quantity, symbol: str | None = None, key: str = "energy_
     of   the Lagrangian, J
 
     Second route: T_2 - T_0 + U, where T_2 and T_0 are the parts of T of degree 2 and 0 in the rates. For a given L, the
-    second route is the rate of h by the energy identity, and a check is the derivative of L with respect to a common
+    second route is the rate of h by the energy identity. A check is then the derivative of L with respect to a common
     factor of all rates, minus L.
     Outcomes: energy (h is conserved and is T + U); conserved (h is conserved but is not T + U); changing_energy
     (h is T + U, but L contains the time); changing (h is not T + U, and L contains the time); work_energy (h is T + U,
@@ -216,7 +216,7 @@ def energy_function_rate(of: Quantity, key: str | None = None) -> Quantity:
 
     def along_the_motion(found: Relation) -> tuple[Any, Any]:
         work = [rate(q) * (matter.inertia_along(q) - matter.force_along(q)) for q in moving]
-        work += [c.multiplier * c.velocity(moving) for c in (kept.constraints if kept else ())]  # zero for the motion
+        work += [c.multiplier * c.velocity(moving) for c in (kept.constraints if kept else ())]  # zero along motions
         by_time = by_functions_of_time(of.value, moving)
         both = [found.left, found.right, int(found.operator == "=")]
         return ImmutableDenseMatrix(both), ImmutableDenseMatrix([by_time, by_time - Add(*work), 1])

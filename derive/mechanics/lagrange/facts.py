@@ -60,7 +60,7 @@ class FromLagrangian(Fact):
 class Energies(Fact):
     """The kinetic and the potential energy of a Lagrangian, and its term for magnetic fields, if there is one."""
 
-    missing = "is not a Lagrangian from `lagrangian`"
+    missing = "is not a Lagrangian that `lagrangian` returned"
     kinetic: Quantity
     potential: Quantity
     magnetic: Quantity | None = None

@@ -20,28 +20,30 @@ from derive.steps.signs import sign_known
 from derive.steps.step import is_zero
 
 ZERO = Integer(0)
-MOST = 4  # greatest number of constraints that are compared in pairs
+MOST = 4  # greatest number of constraints that are examined
 
 
 @dataclass(frozen=True)
 class KeptPositions:
-    """The constant values of coordinates, and f of each constraint f = 0 of those that together keep these values."""
+    """Coordinates with their constant values, and the left sides f of the constraints f = 0 that together fix these
+    values."""
 
     values: dict[Symbol, Expr]
     residuals: tuple[Expr, ...]
 
 
 def fixed_together(residuals: Sequence[Expr], moving: Sequence[Symbol]) -> dict[Symbol, Expr]:
-    """Return coordinate -> its constant value, for coordinates that at least two of the constraints fix together.
+    """Return a mapping from coordinates to their constant values, for coordinates that at least two of the constraints
+    fix together.
 
     residuals   f of each constraint f = 0 between coordinates
     moving      all coordinates
 
-    If the constraints hold where as many coordinates as constraints are zero, and are independent there, these
-    coordinates are zero. Otherwise sums and differences of two constraints are examined, and constraints from which
-    coordinates are eliminated, because they may contain a single coordinate. If this coordinate has a single admissible
-    value, it is fixed; an angle whose sine vanishes is taken to be zero. The result is then empty unless the values
-    satisfy exactly as many constraints as there are values.
+    First, look for as many coordinates as there are constraints, such that all constraints hold, and are independent,
+    where these coordinates are zero: they are then fixed at zero. Otherwise, look for a formula with a single
+    coordinate: a sum or difference of two constraints, or a constraint from which other coordinates are eliminated. If
+    this coordinate has a single admissible value, it is fixed; an angle whose sine vanishes is taken to be zero. The
+    result is then empty unless the values satisfy exactly as many constraints as there are values.
     """
     if not 1 < len(residuals) <= MOST or any(map(depends_on_time, residuals)):
         return {}
@@ -60,8 +62,8 @@ def is_fixed_by(residual: Expr, values: Mapping[Symbol, Expr]) -> bool:
 
 
 def _all_zero(residuals: Sequence[Expr], moving: Sequence[Symbol]) -> dict[Symbol, Expr]:
-    """Return as many coordinates as there are constraints, all zero, if the constraints hold there for all values of
-    the other coordinates and are independent."""
+    """Return a set of coordinates with the value zero, as many as there are constraints. Where they are zero, all
+    constraints hold for all values of the other coordinates, and are independent."""
     inside = [q for q in moving if any(f.has(q) for f in residuals)]
     for some in combinations(inside, len(residuals)):
         zero = dict.fromkeys(some, ZERO)
@@ -73,7 +75,8 @@ def _all_zero(residuals: Sequence[Expr], moving: Sequence[Symbol]) -> dict[Symbo
 
 
 def rates_at_rest(residuals: Sequence[Expr], moving: Sequence[Symbol]) -> dict[Symbol, Expr]:
-    """Return rate -> 0, for the rates that vanish if all these constraints between rates hold."""
+    """Return the rates that vanish if all these constraints between rates hold, each with the value 0. Return an empty
+    mapping if the constraints do not fix all their rates at 0."""
     rates = [rate(q) for q in moving if any(f.has(rate(q)) for f in residuals)]
     if not 1 < len(residuals) == len(rates):
         return {}
@@ -125,8 +128,8 @@ def _without_root(f: Expr) -> Expr:
 
 
 def _only_root(f: Expr, q: Symbol) -> Expr | None:
-    """Return the only admissible zero of a function of one coordinate; zero for a multiple of its sine. None if there
-    are several zeros, none, or no formula for them."""
+    """Return the only admissible root q of f(q) = 0. For a multiple of sin(q), return 0. Return None if there are
+    several admissible roots or none, or if no formula for them is known."""
     if f.has(sin(q), cos(q)):
         return ZERO if not tidied(f / sin(q)).has(q) else None
     try:

@@ -1,8 +1,8 @@
 """Lagrange's equations: the Lagrangian, and the equation of motion for each coordinate.
 
-Second routes start from positions and forces (`derive.mechanics.model.dalembert`): a momentum is the sum of
-m v . dr/dq over mass points, plus the sum of e A . dr/dq over charges e in magnetic fields. An equation of motion
-follows from d'Alembert's principle.
+Second routes start from positions and forces (`derive.mechanics.model.dalembert`). A momentum is the sum of m v . dr/dq
+over mass points, plus the sum of e A . dr/dq over charges e in magnetic fields. An equation of motion follows from
+d'Alembert's principle.
 """
 
 from __future__ import annotations
@@ -231,8 +231,8 @@ def _without_common_factor(left: Expr, moving: Sequence[Symbol]) -> Expr:
 def _in_whole_numbers(terms: Sequence[Expr]) -> list[Expr]:
     """Make all numeric factors integers: 2 l theta_ddot + 3 g sin(theta), not l theta_ddot/3 + g sin(theta)/2.
 
-    If the terms have fractional coefficients and a factor is a sum with denominators in some terms only, such as a
-    moment of inertia I + M a^2/4, all terms remain unchanged.
+    All terms remain unchanged if they have fractional coefficients and a factor is a sum with denominators in some
+    terms only, such as a moment of inertia I + M a^2/4.
     """
     apart: list[tuple[Expr, list[Expr]]] = []
     for term in terms:

@@ -54,7 +54,7 @@ def noether(
     gained   F, a formula in coordinates and time, if the shift adds epsilon dF/dt to L; by default zero
 
     Separate steps show that L is invariant up to dF/dt, and derive the momenta.
-    Second route: the time derivative of Q as a function of t is the sum of xi (m a - f) . dr/dq with the forces f; this
+    Second route: the time derivative of Q as a function of t is the sum of xi (m a - f) . dr/dq with the forces f. This
     sum vanishes by d'Alembert's principle. Also, Q + F is the sum of m v . dr over the mass points, and of e A . dr
     over charges e in magnetic fields. Here epsilon dr is the displacement by the shift.
     Check: for a given L, Q + F follows from the first-order changes of L if the rates change.
@@ -64,7 +64,7 @@ def noether(
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 13.7.
     """
     xi = _formulas(of, shift)
-    gain = _plain(gained, "gained", of)
+    gain = _plain(gained, "function `gained`", of)
     changed = _change(of, xi, gain, key)
     matter = of.needed(Matter)
     moving = [q.symbol for q in coordinates_of(of)]

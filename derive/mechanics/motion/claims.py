@@ -107,7 +107,7 @@ def arrives_as_told(facts: Judged, outcome: str) -> bool:
 
 
 def turned_first(facts: Judged) -> bool:
-    """Whether, numerically, the motion turns back before it comes to the place, and the sign of the result is opposite
+    """Whether, numerically, the motion turns back before it comes to the place. The sign of the result must be opposite
     to the sign of the rate at the start."""
     (come,) = facts.inputs["arrivals"]
     q, squared, start = come.begun.coordinate, with_numbers(come.squared), with_numbers(come.begun.start)
@@ -139,7 +139,7 @@ def _is_reached_just_where(come: Arrival, told: Relation | None) -> bool:
     def is_reached(point: Point) -> bool | None:
         sign = sign_at(value, point)
         if sign == 0 and told is not None and told.operator == ">":
-            return None  # the motion may only approach the place
+            return None  # the motion may approach the place without reaching it
         return None if sign is None else sign >= 0
 
     conditions = [] if told is None else [with_numbers(told)]
@@ -249,7 +249,7 @@ def by_energy(facts: Judged, fact: ByEnergy) -> bool:
 
 
 def steady(facts: Judged, fact: Steady) -> bool:
-    """Whether the steady motion has the constant values of the sentence, and the result is a condition of this
+    """Whether the steady motion has the constant values that the sentence states, and the result is a condition of this
     motion."""
     told = {v.left: v.right for role, v in facts.inputs.items() if role.startswith(("stays_", "turns_"))}
     held = {**fact.values, **{rate(s): v for s, v in fact.rates.items()}}
@@ -286,12 +286,13 @@ def slips_in_the_stated_sense(facts: Judged, outcome: str) -> bool:
     x, y = next(each for each in constraint.forces if each.of is not None).direction
     side = facts.inputs["side"]
     across, wanted = {"up": (y, -1), "down": (y, 1), "right": (x, -1), "left": (x, 1)}[facts.words["sense"]]
-    has_height = sign_found(y) in (1, -1)  # otherwise the sentence states the horizontal component
+    has_height = sign_found(y) in (1, -1)  # if not, the sentence states left or right
     return (facts.words["sense"] in ("up", "down")) == has_height and sign_found(side * across) == wanted
 
 
 def names_its_slider(facts: Judged, outcome: str) -> bool:
-    """Whether the sentence calls the body that would slip by its name in the contact, or "body" if it has no name."""
+    """Whether the sentence uses the name that the contact has for the slipping body, or "body" if there is no such
+    name."""
     constraint = _constraint_of(facts.quantities["friction"])
     return (
         constraint is not None
@@ -401,7 +402,7 @@ def slips_at_once(facts: Judged) -> bool:
 
 
 def never_slips(facts: Judged) -> bool:
-    """Whether, numerically, mu_s N - |F| is positive at all places tried that the motion reaches. If the sentence
+    """Whether, numerically, mu_s N - |F| is positive at all tried places that the motion reaches. If the sentence
     states a condition, mu_s N - |F| must not be positive at the start of the motion for trial numbers
     that violate it."""
     letters, distances = _letters_of_motion(facts), [Rational(n, 5) for n in range(-8, 9)]
@@ -557,7 +558,7 @@ def speeds_up(wanted: bool) -> Predicate:
 
 
 def in_flight(facts: Judged, fact: InFlight) -> bool:
-    """Whether the fact describes a free flight from the curve on which the particle was.
+    """Whether the fact describes a free flight from the curve on which the particle moved.
 
     At t = 0 the particle is at the place of the departure. Its velocity is along the curve and away from the start, and
     its speed follows from conservation of energy.
@@ -697,8 +698,8 @@ def _later(fact: InFlight) -> tuple[Expr, ...]:
 
 
 def passes(facts: Judged) -> bool:
-    """Whether the condition is equivalent to y(t) = Y for the place (X, Y) and the time t with x(t) = X, and this time
-    is numerically positive."""
+    """Whether the condition is equivalent to y(t) = Y, where (X, Y) is the place and t is the time with x(t) = X. This
+    time must be numerically positive."""
     fact, (X, Y) = facts.inputs["flight"], facts.inputs["place"]
     x, y = fact.path
     time = tidied((X - x.subs(TIME, 0)) / diff(x, TIME))

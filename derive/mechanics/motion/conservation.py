@@ -1,7 +1,7 @@
 """The rate of change of a quantity by the equations of motion, and whether the quantity is conserved.
-As in a textbook, each equation is multiplied by a factor, the products are added, and the sum turns out to be the rate
-of change of the quantity Q. The factors follow from the highest rates in the equations, usually accelerations: dQ/dt is
-linear in the highest rates, and the sum of the products must have the same coefficients.
+As in a textbook, each equation is multiplied by a factor, and the products are added. The sum turns out to be the rate
+of change of the quantity Q. The factors follow from the highest rates in the equations, usually accelerations. The rate
+dQ/dt is linear in the highest rates, and the sum of the products must have the same coefficients.
 """
 
 from __future__ import annotations
@@ -102,7 +102,7 @@ def _multipliers(own_rate: Expr, equations: Sequence[Quantity], unknown: Sequenc
     matrix = Matrix([[diff(_equation(equation).residual, a) for a in unknown] for equation in equations])
     wanted = Matrix([diff(own_rate, a) for a in unknown])
     if wanted.has(*unknown) or own_rate.has(*(rate(a) for a in unknown)):
-        raise Rejected(Complaint("wrong-argument", "the quantity has higher rates than the equations of motion give"))
+        raise Rejected(Complaint("wrong-argument", "the rate of the quantity contains higher rates than the equations"))
     factors = [tidied(factor) for factor in matrix.T.LUsolve(wanted)]
     common = gcd_list([factor.as_coeff_Mul()[0] for factor in factors if factor != 0] or [Integer(1)])
     return common, [factor / common for factor in factors]
@@ -222,7 +222,7 @@ def _sum(
 
 def _gathered(of: Sequence[tuple[Quantity, Expr]], moving: Sequence[Symbol], highest: Sequence[Symbol]) -> list[Form]:
     """Return the line "terms with highest rates = (c_1 + c_2 + ...) P" if all other terms are multiples of one
-    product P; otherwise return an empty list."""
+    product P. Otherwise return an empty list."""
     with_rates, rest = [], []
     for equation, factor in of:
         number, moved = factor.as_independent(*moving, as_Add=False)

@@ -195,13 +195,14 @@ def _acceleration(energy: Quantity, q: Coordinate, motion: Quantity | None) -> E
                 "wrong-argument",
                 message,
                 help=Spelled(
-                    "give the equation of motion as `motion=...`", "add `results: motion_theta`, its equation of motion"
+                    "give the equation of motion as `motion=...`",
+                    f"add `results: motion_{q.symbol.name}`, the equation of motion of {q.symbol.name}",
                 ),
             )
         )
     factor = tidied(diff(left, q.acceleration))
     if factor == 0 or factor.has(q.acceleration):
-        message = f"`speed_from_energy`: the motion does not give {q.acceleration.name}"
+        message = f"`speed_from_energy`: the equation of motion does not determine {q.acceleration.name}"
         raise Rejected(Complaint("wrong-argument", message))
     return tidied(-left.xreplace({q.acceleration: ZERO}) / factor)
 
@@ -306,7 +307,7 @@ def period_by_energy(squared: Quantity, order: int = 2, symbol: str | None = Non
     known = squared.needed(ByEnergy)
     q, amplitude, value = known.coordinate, known.start, explicit(squared.value)
     if not isinstance(amplitude, Symbol) or known.start_rate != 0:
-        message = f"`period_by_energy` needs a release from rest at a symbol for the amplitude, unlike `{squared.key}`"
+        message = f"`period_by_energy`: the motion of `{squared.key}` must start from rest at a symbol, the amplitude"
         raise Rejected(Complaint("wrong-argument", message))
     if not is_zero(value.subs(q, -q) - value):
         message = f"`period_by_energy`: `{squared.key}` is not the same at {q.name} and -{q.name}"

@@ -18,7 +18,7 @@ class Steady(Fact):
     """A steady motion: constant values of coordinates, constant rates of cyclic coordinates, and its conditions, which
     are expressions that vanish in this motion."""
 
-    missing = "is not a condition of a steady motion from `steady_motion`"
+    missing = "is not a condition of a steady motion that `steady_motion` returned"
     lagrangian: Quantity
     values: Mapping[Symbol, Expr]
     rates: Mapping[Symbol, Expr]
@@ -106,11 +106,11 @@ class InFlight(Fact):
     kept           the constraint on the motion before the flight
     coordinate     the coordinate of the motion before the flight, and its value at the departure
     letter         the symbol that the author gave to the value at the departure; None without a symbol
-    orbit          the circle on which the particle was; None if it was not on a circle
+    orbit          the circle on which the particle moved; None if it did not move on a circle
     conditions     the conditions on the symbols under which the constraint is lost
     """
 
-    missing = "is not a motion in free flight, as `flight` yields it"
+    missing = "is not a component of a free flight that `flight` returned"
     path: tuple[Expr, Expr]
     matter: Matter
     point: MassPoint

@@ -76,7 +76,8 @@ class Motion:
         return all(self.allows(begin + (at - begin) * part, point) for part in (Integer(1), *PARTS))
 
     def reached(self, side: int, point: Mapping[Symbol, Expr]) -> Iterator[Expr]:
-        """Yield trial places on one side of the start, in their order, until no motion is allowed at one of them."""
+        """Yield trial places on one side of the start, in their order, before the first place that the motion cannot
+        reach."""
         begin = value_at(self.start, point)
         far = (begin + side * (abs(begin) + 1) * part for part in PARTS)
         return takewhile(lambda here: self.allows(here, point), far)
@@ -162,7 +163,7 @@ def is_first(motion: Motion, place: Expr) -> Verdict:
 
 
 def is_never_reached(motion: Motion) -> Verdict:
-    """Check numerically that |F| < mu_s N at all places tried that the motion reaches from its start."""
+    """Check numerically that |F| < mu_s N at all tried places that the motion reaches from its start."""
 
     def is_so(point: Mapping[Symbol, Expr]) -> bool | None:
         if not motion.margin(value_at(motion.start, point), point) > 0:

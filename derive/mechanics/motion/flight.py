@@ -230,7 +230,7 @@ class Departure:
         found = signs_of(self.value - known.start) - {None}
         if own == -1 or len(found) != 1 or found == {0}:
             message = f"`flight`: it is not known whether {self.q} increases on the way to the place of departure"
-            help_line = f"choose the direction in which {self.q} increases as the direction of the motion"
+            help_line = f"define {self.q} so that it increases during the motion"
             raise Rejected(Complaint("sign", message, help=help_line))
         return 1 if found == {1} else -1
 
@@ -264,7 +264,7 @@ class Departure:
 
     @cached_property
     def orbit(self) -> Orbit | None:
-        """The circle on which the particle was; None if it was not on a circle.
+        """The circle on which the particle moved; None if it did not move on a circle.
 
         For the place P(q) of the particle, with an angle q, the centre of a circle is P + P''. The centre and the
         radius must not depend on q.
@@ -413,8 +413,9 @@ def free_flight(lost: Quantity, at: Any = None, key: str = "flight") -> tuple[Qu
 
     The result has two steps, `flight_x` and `flight_y`: the components of the place, in m, as functions of the time t
     since the departure. A separate step yields the speed v_1 at the departure; the velocity is along the curve on which
-    the particle was. For a body that rolled, a third step, `flight_spin`, has the constant angular velocity, in rad/s.
-    It is assumed that contact is lost, and that a rolling body rolls until it departs. No other force than its weight
+    the particle moved. For a body that rolled, a third step, `flight_spin`, has the constant angular velocity, in
+    rad/s.
+    It is assumed that contact is lost, and that a rolling body rolls until it departs. No force other than its weight
     may act on the particle or body that flies.
     Second route: Lagrange's equations for the coordinates of the place, without the forces of the lost contact. Checks:
     Newton's second law, and the place and velocity at the departure, by conservation of energy. Witness: the motion of
@@ -654,7 +655,7 @@ def landing(flight: Sequence[Quantity], on: Surface | None = None, key: str = "l
     flight   the two components of the flight, from `free_flight`
     on       a fixed plane; by default the circle of the motion before the flight
 
-    The distance from the plane is a polynomial of degree 2 or less in the time; the flight ends at the first time after
+    The distance from the plane is a polynomial of degree 2 or less in the time. The flight ends at the first time after
     the departure at which this distance vanishes. For the circle, the squared distance from the centre minus the
     squared radius is t^3 (a t + b). The factor t^3 is due to the departure, where the particle is on the circle, moves
     along the circle, and needs no constraint force. If a t + b has no zero at a positive time, the particle does not
@@ -689,8 +690,8 @@ def _ends(first: Quantity, second: Quantity, on: Surface | None, key: str) -> tu
         return (_misses(first, second, target, key),)
     if back is not None and sign_known(back - time) != 1:
         message = (
-            "`lands`: it is not known whether the particle reaches the plane before it meets its circle again, "
-            f"at the time {back}"
+            f"`lands`: the particle meets its circle again at the time {back}, "
+            "and it is not known whether it reaches the plane earlier"
         )
         raise Rejected(Complaint("not-decided", message, help="leave `on` out, or state with `assume:` which is first"))
     return _landed(first, second, time, target, key, parents)
@@ -947,7 +948,8 @@ def _component_there(when: Quantity, path: Quantity, i: int, key: str) -> Quanti
     def orbit(found: Expr) -> tuple[Any, Any]:
         ends = [found if k == i else c for k, c in enumerate(there)]
         dx, dy = (end - start for end, start in zip(ends, begin, strict=True))
-        across = v[0] * dy - v[1] * dx  # the displacement perpendicular to the first velocity, times the speed
+        # the displacement perpendicular to the initial velocity, times the initial speed
+        across = v[0] * dy - v[1] * dx
         return 2 * across * (v[0] * a[1] - v[1] * a[0]), (a[1] * dx - a[0] * dy) ** 2
 
     return establish(

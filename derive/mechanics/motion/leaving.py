@@ -88,7 +88,8 @@ def leaves_contact(force: Quantity, letter: Letter, start: Value, key: str = "le
     value, unknown = tidied(explicit(number_of(force))), unknown_of("leaves_contact", letter)
     enforcer = _enforcer(force)
     if enforcer in ("rail", "rod", "joint", "motor", "friction"):
-        message = f"`leaves_contact`: `{force.key}` is the force of a {enforcer}, which may have either sign"
+        of = enforcer if enforcer == "friction" else f"a {enforcer}"
+        message = f"`leaves_contact`: `{force.key}` is the force of {of}, which may have either sign"
         raise Rejected(Complaint("no-contact", message, help="give a normal force or the tension of a string"))
     if sign_known(value) == 1:
         return establish(
@@ -109,7 +110,9 @@ def leaves_contact(force: Quantity, letter: Letter, start: Value, key: str = "le
         raise _unsolvable_contact(force, unknown)
     if sign_known(at_start) != 1:
         message = f"`leaves_contact`: `{force.key}` is not known to be positive at {unknown} = {start}"
-        raise Rejected(Complaint("no-contact", message, help="give the value at which the surfaces touch"))
+        raise Rejected(
+            Complaint("no-contact", message, help="give a `start` at which the surfaces touch or the string is taut")
+        )
     result = _place_of_loss(force, pushing, unknown)
     solved = result.right
     speed = ByEnergy.behind(force, letter_of(unknown))
@@ -169,7 +172,9 @@ def _place_of_loss(force: Quantity, pushing: Expr, unknown: Expr) -> Relation:
         result = None
     if result is None or result.left != unknown:
         message = f"`{force.key}` is not linear in {unknown}, so the place where it vanishes has no closed form here"
-        help_line = "ask for this force, and plot it under `drawings` to show where it vanishes; no flight begins there"
+        help_line = (
+            "ask for this force, and plot it under `drawings` to show where it vanishes; `flight` needs a closed form"
+        )
         raise Rejected(Complaint("no-condition", message, help=help_line))
     return result
 

@@ -167,8 +167,8 @@ def _sign_of_difference(relation: Relation) -> int | None:
 
 
 def _same_truth(found: Relation, contact: Friction, side: int, mark: str) -> Verdict:
-    """Check for random numbers that the result is equivalent to side*F <= mu_s*N, or for the mark ">" to side*F >
-    mu_s*N."""
+    """Check for random numbers that the result is equivalent to side*F <= mu_s*N; if `mark` is ">", to
+    side*F > mu_s*N."""
     F, N, mu, difference = map(with_numbers, (contact.F, contact.N, contact.limit.coefficient, found.residual))
 
     def is_so(point: Mapping[Symbol, Expr]) -> bool | None:

@@ -114,7 +114,7 @@ def solved_line(contact: Friction, result: Relation, excess: Expr) -> Form:
     """Return the line with the solved relation, which is equivalent to the line before."""
     alone, solved = result.sides
     if alone == contact.limit.coefficient:
-        # The lines differ by the factor N > 0, so no factor of N is zero.
+        # Division by N gives this line from the line before; N is positive, so none of its factors is zero.
         pushing = Mul.make_args(contact.N)
         bases = [each.as_base_exp()[0] for each in pushing if not each.is_number]
         return Form(result, "solved", nonzero=(*pushing, *bases, *(each.expand() for each in pushing if each.is_Pow)))

@@ -244,7 +244,7 @@ def _in_results(
     turning = [q for q in coordinates.values() if q.symbol not in held and q not in rates]
     if len(symbols) not in (0, len(turning)):
         free = ", ".join(q.rate.name for q in turning) or "none"
-        message = f"`steady` needs one symbol for each free cyclic rate ({free}), but `symbol` has {len(symbols)}"
+        message = f"`steady` needs one symbol for each free cyclic rate ({free}), but `symbol` lists {len(symbols)}"
         help_line = "give a list of symbols in this order, or the value of a rate under `values`"
         raise Rejected(Complaint("wrong-argument", message, argument="symbols", help=help_line))
     for q, letter in zip(turning, symbols, strict=len(symbols) > 0):

@@ -110,7 +110,7 @@ def _arrival(
         raise _unknown_sign(of, come, ahead)
     if of.fact(SignedRate) is None or place in (oo, -oo):
         message = (
-            f"`{of.key}`: the motion turns back before {unknown} = {place}, so `{root.key}` has the other sign there"
+            f"`{of.key}`: the motion turns back before {unknown} = {place}, so `{root.key}` has the opposite sign there"
         )
         raise Rejected(
             Complaint("sign-of-rate", message, help=f"substitute {unknown} = {place} into `{root.key}` instead")
@@ -119,8 +119,8 @@ def _arrival(
 
 
 def words_of(arrivals: Sequence[Arrival]) -> dict[str, str]:
-    """Return the word `lasts` for a sentence that states when the motion comes to these places; empty if nothing has to
-    last."""
+    """Return the word `lasts`, which names the contact or the tension that must last until the motion comes to these
+    places. Return an empty mapping if the sentence states no condition, or if nothing has to last."""
     lasting = next((each.lasts for each in arrivals if each.reached is not None and each.lasts), "")
     return {"lasts": lasting} if lasting else {}
 
@@ -196,7 +196,7 @@ def _turns_back(come: Arrival, sense: int) -> bool:
         ahead = (each for each in QUARTERS if sign_known(sense * (each - come.begun.start)) == 1)
         return any(sign_known(tidied(squared.xreplace({q: each}))) == -1 for each in ahead)
     if sense == -1 and q.is_nonnegative:
-        squared, sense = squared.xreplace({q: 1 / q}), 1  # a distance decreases to zero
+        squared, sense = squared.xreplace({q: 1 / q}), 1  # 1/q goes to infinity as the distance q goes to zero
     above, below = (part.as_poly(q) for part in tidied(squared).as_numer_denom())
     if above is None or below is None:
         return False

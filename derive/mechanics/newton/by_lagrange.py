@@ -26,7 +26,7 @@ from derive.steps.step import Fact, Quantity
 
 @dataclass(frozen=True)
 class MovedAlone(Fact):
-    """The changes of the coordinates in the displacement that belongs to a law: the sum of Lagrange's equations, each
+    """The changes of the coordinates in the displacement that belongs to a law. The sum of Lagrange's equations, each
     times the change of its coordinate, is this law. For a law of one body, only this body moves in the displacement.
     """
 
@@ -34,7 +34,7 @@ class MovedAlone(Fact):
     changes: tuple[tuple[Symbol, Expr], ...]
 
 
-@lru_cache(maxsize=16)  # each equation of a system needs its Lagrangian
+@lru_cache(maxsize=16)  # each equation of motion needs the Lagrangian of its system
 def lagrangian_behind(system: System) -> Quantity:
     """The Lagrangian of a system, for second routes; it is not shown."""
     with unrecorded():

@@ -96,8 +96,8 @@ def _still(value: Expr, moving: Any) -> Expr:
 
 
 def rate_of_angular_momentum(facts: Judged, outcome: str) -> bool:
-    """Whether the left side is the rate of change of the body's angular momentum about the point: the sum of m r x a
-    over the particles of the body. The direction in which the coordinate rotates the body is positive.
+    """Whether the left side is the rate of change of the body's angular momentum about the point. This rate is the sum
+    of m r x a over the particles of the body. The direction in which the coordinate rotates the body is positive.
     """
     moving, angle = list(facts.inputs["moving"]), facts.inputs["angle"]
     arm = tuple(a - b for a, b in zip(facts.inputs["place"], facts.inputs["about"], strict=True))
@@ -198,7 +198,7 @@ def same_as_several(facts: Judged) -> bool:
 
 
 def same_equation(facts: Judged) -> bool:
-    """Whether the law of the one body and the result are the same equation, up to a factor without rates."""
+    """Whether the law of one body and the result are the same equation, up to a factor without rates."""
     law, found = (explicit(each).residual for each in (facts.quantities["newton"].value, facts.result))
     rates = {rate(q, n) for each in facts.quantities.values() for q in each.coordinates for n in (1, 2)}
     letters = sorted(law.free_symbols & found.free_symbols, key=lambda s: (not s.name.endswith("_ddot"), s.name))

@@ -1,4 +1,4 @@
-"""Conservation of energy, and the equation of motion of a system with one coordinate as its consequence."""
+"""Conservation of energy, and the equation of motion that follows from it for a system with one coordinate."""
 
 from __future__ import annotations
 

@@ -46,7 +46,7 @@ def second_law(system: System, q: Coordinate, key: str | None = None, at_rest: b
 
     system   particles, bodies that move in a plane, and the forces on them
     q        a coordinate that moves the centre of mass of one body without rotation
-    at_rest  whether the system is at rest, so that the forces add up to zero
+    at_rest  whether the system is at rest; the forces then add up to zero
 
     Second route: Lagrange's equations, for a displacement in which only this body moves.
     Outcomes: alone (the system has one mass), of_several (the mass of this body differs from all other masses), alike

@@ -1,9 +1,10 @@
 """Single particles and bodies of a system: displacements in which only one of them moves, and the forces on it.
 
 Suppose that the coordinates allow one body to move along a direction while all other bodies stay at rest. Then Newton's
-second law for this body along this direction contains only forces that the description names. The forces that the
-coordinates replace do no work in such a displacement, so they have no component along the direction. An example is the
-tension of a string whose length the coordinates keep constant.
+second law for this body along this direction contains only forces that the description names. If all values
+of the coordinates satisfy a constraint, the force that maintains it does no work in such a displacement, so this force
+has no component along the direction. An example is the tension of a string whose length does not depend on the
+coordinates.
 
 Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapters 3 and 7.
 """
@@ -140,8 +141,8 @@ class Alone:
 
     @cached_property
     def forces(self) -> tuple[Force, ...]:
-        """The forces and couples on this body, including its weight, without the forces that the coordinates
-        replace."""
+        """The forces and couples on this body, including its weight, without the forces of constraints that all values
+        of the coordinates satisfy."""
         return tuple(force for force, on in _forces(self.system) if on is self.part)
 
 

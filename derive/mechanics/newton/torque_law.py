@@ -78,8 +78,8 @@ def torque_law(
     q        a coordinate that rotates one body
     about    "contact" for a point of contact; the angular momentum about this point also has the term M r x v of the
              centre of mass. By default, torques are about the fixed axis of the body, or else about its centre of mass
-    at_rest  whether the system is at rest, so that the torques add up to zero. The torques are then about the point
-             with the most unknown forces, if the coordinates let only this body rotate about such a point
+    at_rest  whether the system is at rest; the torques then add up to zero. They are about the point with the most
+             unknown forces, if the coordinates let only this body rotate about such a point
 
     Second route: Lagrange's equations, for a rotation in which only this body moves.
     Outcomes: as `second_law`.

@@ -287,7 +287,7 @@ def is_the_length_along_the_path(facts: Judged, told: Relation) -> bool:
 
 
 def is_harmonic_along_the_path(facts: Judged, told: Relation) -> bool:
-    """Whether the equation is s_ddot + omega^2 s = 0 for the s of the sentence."""
+    """Whether the equation is s_ddot + omega^2 s = 0 for the length s along the path that the sentence states."""
     s, square = facts.inputs["path"].left, facts.inputs["square"]
     left = explicit(told.left)
     stiffness = left.coeff(s)
@@ -336,7 +336,8 @@ def _may_vary(letter: Symbol, point: Point) -> Point:
 
 
 def is_free_of(facts: Judged, letter: Symbol) -> bool:
-    """Whether the answer does not depend on the symbol, although a line of a step that leads to the answer does."""
+    """Whether the answer does not depend on the symbol, although a line in the steps that lead to the answer depends on
+    it."""
     of = facts.quantities["of"]
     value = explicit(of.value.right if isinstance(of.value, Relation) else of.value)
     points = numbers([value, letter])
@@ -374,7 +375,7 @@ def is_rounded(facts: Judged, told: Amount) -> bool:
 
 
 def vanishes_there(sign_changes: bool) -> Predicate:
-    """Judge whether the answer vanishes for the stated value of a symbol or an angle, and changes its sign at this
+    """Judge whether the answer vanishes for the stated value of a symbol or an angle. It must change its sign at this
     value if and only if `sign_changes` is true."""
 
     def is_so(facts: Judged) -> bool:
@@ -421,8 +422,8 @@ def grows_without_bound_there(facts: Judged) -> bool:
 
 
 def branches_off(facts: Judged) -> bool:
-    """Whether, just below the stated value of the symbol, an equilibrium is stable and two others do not exist, and
-    just above this value the equilibrium is unstable and the two others are stable.
+    """Whether an equilibrium loses its stability to two others at the stated value of the symbol. Just below this value
+    it is stable, and the two others do not exist; just above, it is unstable, and the two others are stable.
     """
     curvature, beside = (explicit(facts.quantities[role].value) for role in ("of", "beside"))
     cosine, border = facts.inputs["cosine"], facts.result
@@ -450,7 +451,7 @@ def is_this_multiple(facts: Judged) -> bool:
 
 
 def are_in_order(facts: Judged) -> bool:
-    """Whether several values are in falling order, and the first one divided by the last one is the stated ratio."""
+    """Whether several values decrease from each to the next, and the first divided by the last is the stated ratio."""
     count = sum(role.startswith("case_") for role in facts.quantities)
     values = [explicit(facts.quantities[f"case_{i}"].value) for i in range(1, count + 1)]
 
@@ -463,10 +464,10 @@ def are_in_order(facts: Judged) -> bool:
 
 
 def first_to_arrive(facts: Judged) -> bool:
-    """Whether the accelerations are constant and in falling order.
+    """Whether the accelerations are constant, and decrease from each case to the next.
 
-    Of two bodies that are released together from rest, the one with the greater acceleration then arrives first. The
-    cases must differ in the value of one symbol, a mass or a moment of inertia, so their paths are the same.
+    If two bodies are released together from rest, the body with the greater acceleration then arrives first. The cases
+    must differ in the value of one symbol, a mass or a moment of inertia, so their paths are the same.
     """
     cases = [q for role, q in facts.quantities.items() if role.startswith("case_")]
     told = [[value for role, value in q.step.roles if role.startswith("value_")] for q in cases]
@@ -677,8 +678,8 @@ def is_only_condition(of: Quantity) -> bool:
 
 
 def holds_everywhere(facts: Judged) -> bool:
-    """Whether the condition of equilibrium holds at all positions tried for the stated value, but not for twice this
-    value. The energy behind the condition must depend on one coordinate only."""
+    """Whether the condition of equilibrium holds at all tried positions for the stated value of a symbol, but not for
+    twice this value. The energy behind the condition must depend on one coordinate only."""
     place, condition = facts.result, explicit(facts.quantities["of"].value.residual)
     if not is_only_condition(facts.quantities["of"]):
         return False

@@ -69,7 +69,8 @@ INDEPENDENT = Rule(
 
 
 def independent(view: View) -> Observed:
-    """Observations that an answer does not contain a given symbol, although the equations behind the answer do."""
+    """Observations that an answer does not contain a given symbol, although the answer was derived from equations that
+    contain this symbol."""
     for of in reversed(view.answers):
         solved = isinstance(of.value, Relation)
         value = of.value.right if solved else of.value
@@ -154,8 +155,8 @@ ANGLE = Rule(
 
 
 def angle(view: View) -> Observed:
-    """An angle that is a pure number, in degrees, and the masses, lengths and other symbols of the system on which it
-    does not depend."""
+    """An angle with a fixed value, in degrees, and the masses, lengths and other symbols of the system on which the
+    angle does not depend."""
     for of in view.answers:
         told = of.value if isinstance(of.value, Relation) else Relation(of.symbol, "=", of.value)
         is_number = isinstance(told.right, Expr) and not explicit(told.right).free_symbols
@@ -216,7 +217,8 @@ ZERO_OF = Rule(
 def zero_of(view: View) -> Observed:
     """Value of a symbol or an angle for which an acceleration, a force or a torque vanishes.
 
-    The force of a surface or a string cannot change its sign: contact is lost, or the string goes slack.
+    The force of a surface or a string is left out, because it cannot change its sign: contact is lost, or the string
+    goes slack.
     """
     for of in (
         each for each in view.values("acceleration", "force", "torque") if not _is_force_of(each, "surface", "string")
@@ -413,7 +415,7 @@ def anywhere(view: View) -> Observed:
         energy = explicit(of.parent("potential").value)
         slopes = [diff(energy, q) for q in of.coordinates]
         if len([slope for slope in slopes if not is_zero(slope)]) != 1:
-            continue  # another coordinate may still be restricted
+            continue  # the condition of another coordinate may exclude positions
         for letter in [s for s in view.of_kind("angular speed") if s in residual.free_symbols]:
             for base, _ in _factors(residual):
                 found = solved_for_letter(base, letter)

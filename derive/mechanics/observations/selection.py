@@ -94,7 +94,7 @@ def best(views: Sequence[View], most: int = MOST) -> list[Steps]:
 
 
 def confirmed(kind: Observation, view: View) -> Observed:
-    """Yield the observations of a kind; stop before the first one that its predicate does not confirm."""
+    """Yield the observations of a kind; stop at the first observation that fails its predicate or its check."""
     with suppress(Unverified, Rejected):
         yield from kind.found(view)
 

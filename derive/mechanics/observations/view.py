@@ -1,4 +1,4 @@
-"""The part of a page that an observation is about, and the common form of the steps of observations.
+"""The part of a page that an observation is about, and the function that makes the step of an observation.
 
 An observation is a step without lines of its own. The predicate in its rule decides whether the observation is true.
 """

@@ -274,8 +274,8 @@ def higher(kind: str) -> Predicate:
 
 
 def undecided(facts: Judged) -> bool:
-    """Whether the stability is undecided: all derivatives up to the eighth vanish, or the sentence states the first
-    nonzero derivative and the sign of this derivative is unknown."""
+    """Whether the stability is undecided. All derivatives up to the eighth must vanish, or the sentence must state the
+    first nonzero derivative, whose sign is unknown."""
     return bool(higher("open" if "higher" in facts.inputs else "flat")(facts))
 
 
@@ -454,7 +454,8 @@ def order_of(*orders: int, more: bool = False) -> Predicate:
 def shaped(shape: str, at_bound: bool) -> Predicate:
     """Judge by differentiation whether the first nonzero derivative, from the second on, yields this shape.
 
-    A case must be named if and only if `at_bound` is true, and the second derivative must then vanish.
+    The step must have a special case as input if and only if `at_bound` is true. The second derivative must then
+    vanish.
     """
 
     def is_so(facts: Judged) -> bool:

@@ -90,7 +90,8 @@ class Allowed:
         return ImmutableDenseMatrix([[tidied((a.T * second * b)[0]) for b in self.ways] for a in self.ways])
 
     def along_curves(self) -> MatrixBase:
-        """Return the same matrix as `matrix`, from the energy along curves on the constraints, without multipliers."""
+        """Return the same matrix as `matrix`, without multipliers: from the energy along curves that satisfy the
+        constraints."""
         count = len(self.ways)
         squares = {}
         for i, j in product(range(count), repeat=2):
@@ -148,9 +149,9 @@ class OnConstraints:
     place: Mapping[Symbol, Expr]
 
     def stability(self, key: str) -> Quantity:
-        """Stability of an equilibrium under constraints, from the second order of U along the allowed displacements.
+        """Stability of an equilibrium under constraints, from the second-order change of U in allowed displacements.
 
-        Second route: the energy along curves that stay on the constraints, to second order.
+        Second route: the energy along curves that satisfy the constraints, to second order.
         Outcomes: stable, unstable, level, depends.
         Errors: a constraint depends on the rates or on the time; the values do not satisfy a constraint; at these
         values the forces do not balance along the allowed displacements.
@@ -217,7 +218,7 @@ def _allowed(potential: Quantity, constraints: Sequence[Constraint], place: Mapp
             raise Rejected(Complaint("no-equilibrium", message))
     if len(allowed.ways) != len(allowed.coordinates) - len(constraints):
         message = f"`stability`: at {where} the gradients of the constraints are not independent"
-        raise Rejected(Complaint("constrained", message, help="write each constraint once, and without a square"))
+        raise Rejected(Complaint("constrained", message, help="write each constraint once, and f = 0, not f**2 = 0"))
     if not allowed.ways:
         message = "`stability`: the constraints allow no displacement"
         raise Rejected(Complaint("constrained", message))

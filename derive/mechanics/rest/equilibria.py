@@ -155,8 +155,8 @@ def equilibria(of: Quantity, *coordinates: Coordinate) -> tuple[Quantity, ...]:
     stays in this range. If the forces vanish for every value of a coordinate, this coordinate has no stated value.
     Keys: condition_x for the equilibrium condition of the coordinate x; for the equilibria, rest_1, rest_2, ..., or
     `rest` if there is only one.
-    Second route: the virtual work of forces and inertia at the equilibrium. For one coordinate, the zeros of the force
-    are also counted numerically, for some values of the symbols.
+    Second route: the virtual work of forces and inertia at the equilibrium. Check for one coordinate whose range does
+    not include an end: the zeros of the force are counted numerically, for some values of the symbols.
     Outcomes: always, where (the equilibrium exists under a condition), only (there is no other equilibrium); for an
     equilibrium condition: generic, zero (no force acts along this coordinate).
     Errors: a zero of the force has no closed form; there is no equilibrium; the symbols leave open whether an
@@ -292,7 +292,7 @@ def _with_zero(
 
 
 def _linear(forces: Sequence[Expr], unknown: Sequence[Symbol], state: State) -> State | None:
-    """Return the unique solution of linear forces for several coordinates; None if a force is not linear, if the
+    """Return the unique solution of linear forces for several coordinates. Return None if a force is not linear, if the
     numbers of forces and of coordinates differ, or if the solution may not be unique."""
     held = [q for q in unknown if any(force.has(q) for force in forces)]
     if len(held) < 2 or len(held) != len(forces):
@@ -372,7 +372,7 @@ def named_by(potential: Quantity, routes: Mapping[str, Route]) -> dict[str, Rout
 
 def slope_otherwise(potential: Quantity, q: Symbol) -> Expr:
     """Return dU/dq from the virtual work of the forces and of the inertia of mass points at rest. If mass points and
-    forces are unknown, return dU/dq from the first order of U in a displacement."""
+    forces are unknown, return dU/dq from the first-order change of U in a displacement."""
     matter = matter_behind(potential)
     if matter is not None:
         still = {rate(s, n): ZERO for s in matter.coordinates for n in (1, 2)}
@@ -397,9 +397,9 @@ def _names(potential: Quantity, sought: Sequence[Symbol], count: int) -> dict[Sy
 
 
 def _level_where(force: Expr, q: Symbol) -> Relation | None:
-    """Return the condition that the factors of the force that do not contain q are not zero.
+    """Return the condition that excludes a force that is zero for all values of q.
 
-    If such a factor is zero, every value of q is an equilibrium. Return None if none of these factors can be zero.
+    This force is zero if a factor that does not contain q is zero. Return None if no such factor can be zero.
     """
     factors = (f.as_base_exp()[0] for f in Mul.make_args(_factored(force).as_numer_denom()[0]))
     left = may_vanish(Mul(*(f for f in factors if not f.has(q))))

@@ -20,15 +20,15 @@ from derive.mechanics.hamilton.facts import SeenWith
 from derive.mechanics.model.dalembert import Matter
 from derive.steps.step import Fact, Quantity
 
-NEAR = Rational(1, 1000)  # distance from an equilibrium
+NEAR = Rational(1, 1000)  # distance from an equilibrium at which the energy is compared
 
 
 @dataclass(frozen=True)
 class RestOf(Fact):
-    """The potential energy from which an equilibrium was found, and the coordinates for which its conditions were
-    solved."""
+    """The potential energy from which an equilibrium was found, and the coordinates for which the equilibrium
+    conditions were solved."""
 
-    missing = "is not an equilibrium that was found"
+    missing = "is not an equilibrium that `equilibria` returned"
     potential: Quantity
     coordinates: tuple[Symbol, ...]
 

@@ -25,8 +25,8 @@ from derive.mechanics.rest.facts import matter_behind
 from derive.steps.step import Quantity
 
 DIGITS = 75
-# A growth rate counts as zero below 10^-SMALL of the largest exponent, and a gyroscopic force or an eigenvalue of M
-# below 10^-SMALL of the largest entry of its matrix.
+# A growth rate counts as zero if it is less than 10^-SMALL times the largest exponent. A gyroscopic force or an
+# eigenvalue of M counts as zero if it is less than 10^-SMALL times the largest entry of its matrix.
 SMALL = 10
 FEW = 3  # number of sets of numbers that are tried if there are no gyroscopic forces
 ELSEWHERE = Rational(3, 8)  # value of a coordinate that the energy does not contain

@@ -54,7 +54,7 @@ def signs_counted(
         changes = sum(_vanishes_between(curve, x, y) for x, y in turns)
         where = tuple((str(s), str(x)) for s, x in point.items())
         if changes != len(expected):
-            message = f"the force has {changes} zeros, and {len(expected)} equilibria are listed"
+            message = f"zeros of the force: {changes}; listed equilibria: {len(expected)}"
             return Verdict(Grade.REFUTED, message, where)
         if all(abs(own - value) > LITTLE * (1 + abs(value)) for value, _ in values):
             return Verdict(Grade.REFUTED, "the equilibrium is not among those that are listed", where)
@@ -89,8 +89,8 @@ def _grid_within(known: Range) -> list[float]:
 def _vanishes_between(curve: Any, low: float, high: float) -> bool:
     """Whether the force vanishes where it changes its sign.
 
-    A force can also change its sign without vanishing: it may diverge, as at the position of a charge, or jump, as at
-    the place where a spring has the length zero.
+    A force can also change its sign without vanishing. It may diverge, as at the position of a charge, or jump, as
+    where a spring has the length zero.
     """
     sign, before = _sign(curve, low), max(abs(curve(low)), abs(curve(high)))
     for _ in range(HALVINGS):

@@ -176,7 +176,7 @@ def leading_order(
     Outcomes: minimum, maximum, inflection, conditional, flat (no order up to the eighth decides), and for a symbol
     with its value on the boundary: minimum_at_bound, maximum_at_bound, inflection_at_bound, conditional_at_bound,
     flat_at_bound.
-    Errors: U' does not vanish at q_0; the curvature does not vanish in the case of `where`; the potential energy
+    Errors: U' does not vanish at q_0; the curvature does not vanish for the value in `where`; the potential energy
     depends on the time.
     Source: Arnold, *Mathematical Methods of Classical Mechanics*, section 22.
     """

@@ -41,7 +41,7 @@ from derive.witness.facts import Rest
 
 __all__ = ["stability"]
 
-HIGHEST = 8  # the highest order that is tried on a boundary
+HIGHEST = 8  # the highest order of the energy that is tried where the curvature vanishes
 FEW = 5  # largest number of coordinates for which all directions with entries 0, 1 and -1 are tried
 SHORT = 80  # largest number of operations in a curvature that is shown before the equilibrium is substituted
 ZERO = Integer(0)
@@ -448,7 +448,7 @@ def _plain_way_down(matrix: MatrixBase, kinds: Sequence[str]) -> MatrixBase | No
 
 
 def _falling(place: Place, matrix: MatrixBase, way: MatrixBase) -> dict[str, tuple[Any, Any]]:
-    """Return the second derivative of the energy along the direction, derived twice: from the matrix and from the
+    """Return two formulas for the second derivative of the energy along the direction: from the matrix, and from the
     energy."""
     along = coefficient_along(place.energy, place.values, dict(zip(place.coordinates, way, strict=True)), 2)
     return {

@@ -1,4 +1,4 @@
-"""Find the values of a symbol for which an equilibrium is stable; a higher order of the energy decides whether the
+"""Find the values of a symbol for which an equilibrium is stable. A higher order of the energy decides whether the
 value on the boundary is one of them.
 """
 
