@@ -158,7 +158,6 @@ def _worth(page: Mapping[str, Any]) -> str:
 
 
 def _asked(parts: Iterable[tuple[Any, Any]]) -> Iterator[Change]:
-    """Yield the changes of parts and of the answers that they ask for."""
     for old, new in parts:
         name = _name(old, new)
         if old is _NO_PART or new is _NO_PART:

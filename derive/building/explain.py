@@ -68,7 +68,6 @@ def _value(step: Step, notation: Notation) -> str:
 
 
 def _text(sections: list[Section], notation: Notation) -> str:
-    """Return the text of the sections in two columns: each heading, and next to it its lines."""
     lines = []
     for heading, told in sections:
         texts = [line for each in told for line in _wrapped(inline_text(each, notation))]

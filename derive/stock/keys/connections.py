@@ -142,7 +142,6 @@ class SurfaceKeys(Record):
             rejected("unused-key", message, self.places["side"], "leave it out")
 
     def _curve(self, written: Tree, places: Places, letters: InLetters) -> tuple[Any, ...]:
-        """Return the arguments of `curve`."""
         for name in ("along", "normal", "centre", "radius"):
             if name in self.places:
                 message = f"`{name}` does not belong to a curve `y`"

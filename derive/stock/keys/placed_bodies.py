@@ -114,7 +114,6 @@ class MovingBodyKeys(BodyKeys, QuotedKeys):
         return Deferred(held, (body, turned, point), named, place=self.places[""])
 
     def _check_used(self) -> None:
-        """Reject keys without effect."""
         own = {"moments", "middle", "rim", "mass", "turned", "centre", "held", "on", "across", "from", "to", "along"}
         beside = {
             "moments": [name for name in self.values_at if name not in own],

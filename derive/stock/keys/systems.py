@@ -308,7 +308,6 @@ def _landed_on(written: SystemKeys) -> set[str]:
 
 
 def _check_surfaces_used(written: SystemKeys, faults: Faults) -> None:
-    """Report a surface that no contact and no flight names."""
     used = {str(each.on) for each in written.contacts} | _landed_on(written)
     if used <= {str(name) for name in (*written.surfaces, *written.bodies)}:
         for name in written.surfaces:
@@ -320,7 +319,6 @@ def _check_surfaces_used(written: SystemKeys, faults: Faults) -> None:
 
 
 def _check_pulleys(written: SystemKeys, faults: Faults) -> None:
-    """Report an unused pulley, and a pulley with the name of another object."""
     over = {str(place.name) for each in written.strings for place in each.over if place.name is not None}
     known = {*written.pulleys, *written.bodies, *written.particles, *written.points}
     for name in written.pulleys:
