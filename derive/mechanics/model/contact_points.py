@@ -52,9 +52,9 @@ def _foot(placed: PlacedBody, curve: Curve) -> tuple[Location, Expr]:
             return foot, distance
     message = f"the place where {placed.body.name} touches the curve is unknown: a coordinate must describe this place"
     help_line = (
-        "use a coordinate x for the horizontal distance of the contact from the origin of the curve; the centre "
-        "of a body above the curve is then at [x - R*f'/sqrt(1 + f'**2), f + R/sqrt(1 + f'**2)]; for a normal force, "
-        "write a positive length h instead of R"
+        "use a coordinate x for the horizontal distance of the point of contact from the origin of the curve; the "
+        "centre of a body above the curve is then at [x - R*f'/sqrt(1 + f'**2), f + R/sqrt(1 + f'**2)]; for a normal "
+        "force, write a positive length h instead of R"
     )
     raise Rejected(Complaint("no-contact", message, help=help_line))
 
