@@ -1,4 +1,4 @@
-"""`python -P -m derive` is the command `derive`."""
+"""`python -P -m derive` runs the command `derive`."""
 
 from __future__ import annotations
 

@@ -34,7 +34,7 @@ class Place:
 
 
 class Spelled(str):
-    """A help line for a script; `in_file` is the help line for a YAML file whose keys call the verb, or None."""
+    """A help line for an error in a script; `in_file` is the help line for the same error in a YAML file, or None."""
 
     in_file: str | None
 
@@ -51,7 +51,7 @@ class Spelled(str):
 class Complaint:
     """One error or warning: a stable code, a message that can be read alone, a place, notes, and at most one help line.
 
-    argument   the wrong argument of a verb: in a file that calls the verb, the error is shown at this argument's key
+    argument   the wrong argument of a verb; in a YAML file, the error is shown at the key for this argument
     """
 
     code: str
@@ -120,7 +120,7 @@ class OutOfTime(BaseException):
     """Raised when the time limit is reached during work; its fields describe this work.
 
     waited    whether the work was only waiting, without using the processor
-    doing     what the work was doing, innermost first
+    doing     descriptions of the work under way, innermost first
     answers   the names of the answers that the work was deriving, innermost first
     finished  the keys of the steps that earlier calls of verbs established
     kept      whether the finished steps are stored for the next attempt

@@ -97,7 +97,8 @@ class Opened:
         derivation, values = self._solved.derivation, self._solved.values
         steps = {step.key: step for step in derivation.steps}
         if key not in steps:
-            help_line = did_you_mean(key, steps) or "its answers are " + ", ".join(f"`{each}`" for each in self.answers)
+            answers = ", ".join(f"`{each}`" for each in self.answers)
+            help_line = did_you_mean(key, steps) or f"the answers of the problem are {answers}"
             raise Misused(Complaint("no-such-step", f"no step is called `{key}`", help=help_line))
         step, forms = steps[key], values[key].chain if key in values else ()
         numbers = [form for form in forms if form.because in NUMBERS]

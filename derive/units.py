@@ -161,7 +161,7 @@ def _factors(text: str, place: Place | None) -> Iterator[tuple[str, int]]:
             wanted = True
             break
     if wanted:
-        rejected("unknown-unit", f"`{text}` is not a unit", place, "write it as `kg m^2/s`")
+        rejected("unknown-unit", f"`{text}` is not a unit", place, "write a unit such as `kg m^2/s`")
 
 
 def _check(name: str, power: int, text: str, place: Place | None) -> None:

@@ -156,13 +156,16 @@ SAID: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
     "acc_where": (("provided that cos q ≠ 0",), ()),
     "beats4": (("x_1 = A, x_2 = B, ẋ_1 = v, ẋ_2 = u at t = 0",), ("all else zero",)),
     "break_no_gravity": (("Terms of higher order, if there are any, decide",), ("that were neglected",)),
-    "con_scaled": (("multiplier times the gradient", "whose length is √10"), ("give the force of",)),
+    "con_scaled": (("multiplier times the gradient", "the magnitude of this gradient is √10"), ("give the force of",)),
     "con_stab": (("U has a minimum on the constraints and the equilibrium is stable",), ("unstable",)),
     "f01_leaves_not_reached": (
         ("(θ̇)² = -g/(3L), which is negative: the motion turns back before",),
         ("until", "contact"),
     ),
-    "f07_multiplier_called_force": (("whose length is 2l", "give the multiplier"), ("give the force of",)),
+    "f07_multiplier_called_force": (
+        ("the magnitude of this gradient is 2l", "give the multiplier"),
+        ("give the force of",),
+    ),
     "f16_nutation_timeout": (("The momentum p_ψ keeps its initial value C w",), ()),
     "f17_rod_points_up": (
         ("No force outside L acts along q",),

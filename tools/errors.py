@@ -39,8 +39,9 @@ def messages() -> dict[str, list[str]]:
     """Return the codes of errors and warnings in the modules of derive, each with its messages in the order of the
     modules."""
     found: dict[str, list[str]] = {}
-    for file in sorted((ROOT / "derive").rglob("*.py")):
-        for code, message in _raised_in(ast.parse(file.read_text(encoding="utf-8"))):
+    sources = (file.read_text(encoding="utf-8") for file in sorted((ROOT / "derive").rglob("*.py")))
+    for source in (each for each in sources if any(name in each for name in _RAISING)):
+        for code, message in _raised_in(ast.parse(source)):
             told = found.setdefault(code, [])
             if message and message not in told:
                 told.append(message)
@@ -48,9 +49,9 @@ def messages() -> dict[str, list[str]]:
 
 
 def _raised_in(module: ast.Module) -> Iterator[tuple[str, str]]:
-    names = _named_texts(module)
-    functions = [node for node in ast.walk(module) if isinstance(node, ast.FunctionDef)]
-    for call in (node for node in ast.walk(module) if isinstance(node, ast.Call)):
+    names, nodes = _named_texts(module), [*ast.walk(module)]
+    functions = [node for node in nodes if isinstance(node, ast.FunctionDef)]
+    for call in (node for node in nodes if isinstance(node, ast.Call)):
         at = _code_at(call)
         if at is not None:
             message = call.args[at + 1] if len(call.args) > at + 1 else ast.Constant("")
@@ -63,9 +64,10 @@ def _raised_in(module: ast.Module) -> Iterator[tuple[str, str]]:
 
 def _code_at(call: ast.Call) -> int | None:
     """Return the position of the code among the arguments of a call, or None if the call reports no error."""
-    if ast.unparse(call.func).rpartition(".")[2] not in _RAISING:
+    function = getattr(call.func, "attr", getattr(call.func, "id", ""))
+    if function not in _RAISING:
         return None
-    return 1 if ast.unparse(call.func).endswith("_stopped") and len(call.args) > 1 else 0 if call.args else None
+    return 1 if function.endswith("_stopped") and len(call.args) > 1 else 0 if call.args else None
 
 
 def _named_texts(scope: ast.AST, before: float = float("inf")) -> dict[str, list[ast.expr]]:

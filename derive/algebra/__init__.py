@@ -1,1 +1,1 @@
-"""Expressions, and how to decide whether two expressions are equal; no laws of physics and no pages."""
+"""Expressions, and how to decide whether two expressions are equal. The package contains no laws of physics."""

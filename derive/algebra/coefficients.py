@@ -28,9 +28,9 @@ class Coefficient(NamedTuple):
     """The coefficient of one product of powers of the symbols.
 
     `whole()` returns the coefficient, and `terms` is the number of its terms. The coefficient may be a factor without
-    sines and cosines times a factor of sines and cosines only. Then `angles` is the second factor, and
-    `written(number, other)` returns the product of a number, the first factor and another form of the second factor,
-    with common factors in front. For any other coefficient, `written` is None.
+    sines and cosines times a factor of sines and cosines only. Then `angles` is the second factor. If `other` is
+    another form of `angles`, `written(number, other)` returns `number` times the first factor times `other`, with
+    common factors in front. For any other coefficient, `written` is None.
     """
 
     whole: Callable[[], Expr]
@@ -40,8 +40,8 @@ class Coefficient(NamedTuple):
 
 
 class Factored(NamedTuple):
-    """A sum with the common factors of its terms in front; `is_prime` is true only if the sum is known not to be a
-    product of other sums."""
+    """A sum with the common factors of its terms in front. `is_prime` is true if the sum is known not to be a product
+    of other sums."""
 
     value: Expr
     is_prime: bool
@@ -67,8 +67,8 @@ def coefficients(value: Expr, letters: Sequence[Symbol]) -> list[tuple[tuple[int
 
 
 def is_multiplied_out(value: Expr) -> bool:
-    """Whether the value is a sum of products of rational numbers and positive integer powers; the base of each
-    power is a symbol, or the sine or cosine of a symbol."""
+    """Whether each term of the value is a product of rational numbers and of positive integer powers of symbols,
+    sines of symbols and cosines of symbols."""
     return all(_is_power(factor) for term in Add.make_args(value) for factor in Mul.make_args(term))
 
 

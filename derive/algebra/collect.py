@@ -25,9 +25,9 @@ def by_accelerations(value: Expr, moving: Sequence[Symbol]) -> Expr:
 def with_constants_in_front(value: Expr, moving: Sequence[Symbol]) -> Expr:
     """Write the common factors of a sum in front of it: (2/5) m a^2 (phi_ddot + psi_ddot cos(theta)).
 
-    The common factors are a number, constants, sines and cosines. The sum is unchanged if the number and the constants
-    are not the whole coefficient of any term, m l^2 theta_ddot + m g l sin(theta), or if no constant is common and all
-    coefficients are integers.
+    The common factors are a number, constants, sines and cosines. A sum such as m l^2 theta_ddot + m g l sin(theta) is
+    unchanged, because the common number and constants are not the whole coefficient of any term. It is also unchanged
+    if no constant is common and all coefficients are integers.
     """
     terms = Add.make_args(value)
     if len(terms) < 2:
@@ -49,7 +49,7 @@ def with_constants_in_front(value: Expr, moving: Sequence[Symbol]) -> Expr:
 
 
 def _shared(powers: Sequence[dict[Expr, Expr]]) -> dict[Expr, Expr]:
-    """The bases that occur in all terms, each with its least power; a base with a symbolic power is included only if
+    """The bases that occur in all terms, each with its least power. A base with a symbolic power is included only if
     its power is the same in all terms."""
     found = {base: {each[base] for each in powers} for base in powers[0] if all(base in each for each in powers)}
     return {base: min(of) for base, of in found.items() if len(of) == 1 or all(n.is_Rational for n in of)}
@@ -144,8 +144,10 @@ def _level(found: Expr, value: Expr, moving: Sequence[Symbol]) -> Expr:
 
 
 def _with_differences(value: Expr, moving: Collection[Symbol]) -> Expr:
-    """Combine a coordinate with the constant from which it is measured, or with another coordinate: k (y - l) - m g,
-    not k y - m g - k l, and k x + K (x - y), not k x + K x - K y."""
+    """Combine a coordinate with the constant from which it is measured, or with another coordinate.
+
+    For example, k y - m g - k l becomes k (y - l) - m g, and k x + K x - K y becomes k x + K (x - y).
+    """
     terms = list(Add.make_args(value))
     for q in moving:
         for term in [each for each in terms if each.has(q) and not _varies(each / q, moving)]:
@@ -179,8 +181,8 @@ def _varies(term: Expr, moving: Collection[Symbol]) -> bool:
 
 def with_weights_in_front(value: Expr, moving: Sequence[Symbol], weights: Collection[Symbol]) -> Expr:
     """Take the common number and constants of all terms of a kinetic energy to the front, (1/2) m (r_dot^2 +
-    r^2 phi_dot^2). If there is no common number, or no mass or moment of inertia among these constants, put terms with
-    the same numerical factor and the same constants in one bracket.
+    r^2 phi_dot^2). If there is no common number, or if no common constant contains a mass or a moment of inertia, put
+    terms with the same numerical factor and the same constants in one bracket.
     """
     letters = {*moving, *(rate(q) for q in moving), TIME}
     terms = [_apart(term, letters) for term in Add.make_args(value)]
@@ -292,8 +294,10 @@ def _with_its_rates(coefficient: Coefficient, rates: list[tuple[Symbol, int]], h
 
 
 def _with_one(product: Expr) -> Expr:
-    """Divide a sum by the denominator if one of its terms then has no denominator, and if this is not longer:
-    (1 + r^2/p^2) r_dot^2, not (p^2 + r^2) r_dot^2/p^2, and R^2 + h^2/(4 pi^2), not (pi^2 R^2 + h^2/4)/pi^2."""
+    """Divide a sum by the denominator if one of its terms then has no denominator, and if this is not longer.
+
+    For example, (p^2 + r^2) r_dot^2/p^2 becomes (1 + r^2/p^2) r_dot^2.
+    """
     above, below = product.as_numer_denom()
     sums = [part for part in Mul.make_args(above) if part.is_Add]
     number, letters = below.as_coeff_Mul()
@@ -384,8 +388,8 @@ def spread_or_by_terms(value: Expr, *others: Expr) -> Expr:
     """Return one product or a sum of tidy terms, whichever is shorter; `others` are further forms of the value, whose
     tidy terms are also tried.
 
-    If a sine or cosine remains in the denominator, return the tidy terms of the first of the others, or of the value if
-    there are no others.
+    If a sine or cosine remains in the denominator, return the tidy terms of the first form in `others`, or of the value
+    if `others` is empty.
     """
     if tidied(value).as_numer_denom()[1].has(sin, cos):
         return by_terms(others[0] if others else value)

@@ -64,8 +64,8 @@ def encoded(expr: Any, name: Callable[[Dummy], str] | None = None) -> list[Any]:
 
 @lru_cache(maxsize=4096)
 def _assumptions(symbol: Symbol) -> dict[str, bool]:
-    """Return assumptions with which SymPy makes an equal symbol, because SymPy does not record which assumptions were
-    written."""
+    """Return assumptions that make an equal symbol. SymPy does not record the assumptions with which the symbol was
+    made."""
     usual: tuple[dict[str, bool], ...] = ({}, {"real": True}, {"positive": True}, {"nonnegative": True})
     for assumptions in usual:
         if Symbol(symbol.name, **assumptions) == symbol:

@@ -85,8 +85,8 @@ LEAST_SURE_FIRST = (Grade.REFUTED, Grade.SAMPLED, Grade.APPROXIMATION, Grade.DEF
 
 
 class Compared(StrEnum):
-    """What is compared, if anything: two lines of a calculation, or the result with a second route, a check or a
-    simulated motion."""
+    """What is compared, if anything: two lines of a calculation, or the result of a step and a second route, a check
+    or a simulated motion."""
 
     LINES = "lines"
     ROUTE = "route"
@@ -121,8 +121,8 @@ def equal(left: Any, right: Any, nonzero: Sequence[Expr] = ()) -> Verdict:
     """Compare two scalars, two matrices entry by entry, or two relations.
 
     The grade of a matrix is the grade of its least certain entry. Relations count as equal if they are found to be
-    equivalent. `nonzero` lists factors that may be divided out: factors of an equation are known not to vanish, and
-    factors of an inequality are known to be positive.
+    equivalent. `nonzero` lists factors that may be divided out. In equations these factors are known not to vanish, and
+    in inequalities they are known to be positive.
     """
     given: tuple[Any, Any] = (left, right)
     if not all(isinstance(value, Basic | MatrixBase | int) for value in given):
@@ -278,8 +278,8 @@ def _refutation(sample: Sample) -> Verdict:
 
 
 def _equivalent(left: Any, right: Any, nonzero: Sequence[Expr]) -> Verdict:
-    """Decide whether two equations or inequalities are equivalent. The main test is the ratio of their residuals: for
-    inequalities its sign must be known, for equations it must not vanish."""
+    """Decide whether two equations or inequalities are equivalent. The main test is the ratio of their residuals: the
+    sign of the ratio of two inequalities must be known, and the ratio of two equations must not vanish."""
     if not (isinstance(left, Relation) and isinstance(right, Relation)):
         return Verdict(Grade.REFUTED, "a relation against a value")
     if left.has(*UNDEFINED) or right.has(*UNDEFINED):
@@ -408,7 +408,7 @@ def _same_mark(left: str, right: str, sign: int) -> bool:
 
 
 def _both_squared(left: Relation, right: Relation) -> bool:
-    """Whether squaring both sides of one relation gives the other, up to a positive factor; the sides that are squared
+    """Whether squaring both sides of one relation gives the other, up to a positive factor. The sides that are squared
     must be known not to be negative.
     """
     for squares, roots in ((left, right), (right, left)):

@@ -162,8 +162,8 @@ class CarriedRate(VectorNode):
     with the angular velocity omega. Arguments: A, omega, and the coordinates that move; without coordinates, A changes
     in the body only if it contains the time.
 
-    The value is the rate of the components plus the rate of the rotated vector. The second rate is not computed as
-    omega x A: R(t) A is differentiated, where R(t) is the rotation by |omega| t about omega.
+    The value is the rate of the components plus the rate of the rotated vector. The rate of the rotated vector is not
+    computed as omega x A: R(t) A is differentiated, where R(t) is the rotation by |omega| t about omega.
     """
 
     def _evaluated(self, a: Matrix, omega: Matrix, *moving: Symbol) -> ImmutableMatrix:
@@ -342,8 +342,8 @@ class Partial(ScalarNode):
 class TimeRate(ScalarNode):
     """df/dt along a motion. Arguments: f, then the coordinates that move.
 
-    The value follows from the chain rule, with the partial derivative with respect to the time; it includes the rates
-    of prescribed functions.
+    The value follows from the chain rule, with the partial derivative with respect to the time. This derivative
+    includes the rates of prescribed functions.
     """
 
     def doit(self, **hints: Any) -> Expr:

@@ -145,8 +145,8 @@ class FunctionRing(TrigRing):
             return False
 
     def angle(self, angle: Expr) -> Expr:
-        """The angle itself; for an angle that `TrigRing` does not handle, the first earlier angle that is equal to it,
-        if there is one."""
+        """Return the angle. An angle that `TrigRing` does not handle is replaced by the first earlier angle that is
+        equal to it, if there is one."""
         try:
             return super().angle(angle)
         except Outside:

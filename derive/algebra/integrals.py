@@ -102,8 +102,8 @@ def _antiderivative_of_factor(inside: Expr, x: Symbol) -> Expr | None:
 
 @lru_cache(maxsize=1024)
 def _odd_powers(inside: Expr, x: Symbol) -> Expr | None:
-    """The antiderivative of sin^p(u) cos^q(u), with u linear in x, if p or q is odd, by a substitution: c = cos u in
-    sin^3 u = (1 - cos^2 u) sin u. None for any other product, and for a single sine or cosine."""
+    """The antiderivative of sin^p(u) cos^q(u), with u linear in x, if p or q is odd. It is found by a substitution,
+    such as c = cos u in sin^3 u = (1 - cos^2 u) sin u. None for any other product, and for a single sine or cosine."""
     powers = dict(factor.as_base_exp() for factor in Mul.make_args(inside))
     angle = next((f.args[0] for f in powers if isinstance(f, sin | cos)), None)
     if angle is None or powers.keys() - {sin(angle), cos(angle)}:
@@ -156,7 +156,7 @@ def _chord_integral(outside: Expr, inside: Expr, y: Symbol, lower: Expr, upper: 
     """The integral of y^m (w^2 - y^2)^(k/2) from -w to w: the substitution y = w sin u gives w^(m+k+1) times a number.
     None for any other integral.
 
-    The result is also None if it is not known that w >= 0, because the root is w cos u only for w >= 0.
+    The result is also None if w may be negative, because the root is w cos u only for w >= 0.
     """
     m, k = 0, 0
     for base, exponent in (factor.as_base_exp() for factor in Mul.make_args(inside)):

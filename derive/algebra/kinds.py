@@ -26,8 +26,8 @@ class Kind:
     unit      the coherent SI unit as text
     positive  whether symbols of this kind are positive; symbols of the other kinds are only real
     signed    whether a minus sign is allowed in the value of a positive kind, where it reverses a direction
-    angles    the powers of the radian that a unit of the kind may have: 1 or 0 for an angular speed (rad/s or 1/s),
-              only 1 for an angle
+    angles    the powers of the radian that a unit of the kind may have: 1 for an angle; 1 or 0 for an angular speed
+              (rad/s or 1/s)
     """
 
     dimension: Dimension
@@ -144,8 +144,8 @@ def common(terms: Iterable[Any], of: Callable[[Any], Dimension | None]) -> Dimen
 
 
 def unit_of_dimension(dimension: Dimension) -> str:
-    """The coherent SI unit of a quantity without a kind: the unit of the kind with this dimension if there is only one
-    such kind, else a product of units.
+    """The coherent SI unit of a quantity without a kind. If exactly one kind has this dimension, the result is the unit
+    of this kind; else it is a product of units.
 
     Energy and torque have the same dimension, so a quantity of this dimension has the unit N m, which is correct for
     both.

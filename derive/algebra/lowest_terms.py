@@ -67,7 +67,7 @@ def factored(value: Expr) -> Expr:
 
 
 def shared_factor(values: Sequence[Expr]) -> Product:
-    """The common factor of all nonzero values, divided by their common denominator; the numerical factor is
+    """The greatest common factor of all nonzero values, such as a/6 for a/2 and a b/3. Its numerical factor is
     positive."""
     parts = [part for value in values if (part := _with_plus_first(_factors(value))).number]
     if not parts:

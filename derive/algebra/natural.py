@@ -1,7 +1,8 @@
 """An expression written with named quantities: l/(m r_0^2) for G^2 M^2 m^3/l^3 with r_0 = l^2/(G M m^2).
 
-A named quantity eliminates one symbol of its formula. Among the choices of quantities and symbols, the shortest form is
-kept. Its length is the number of operations (`length`), plus two for each of its symbols.
+A named quantity eliminates one symbol of its formula. Several choices of quantities and of eliminated symbols are
+tried, and the shortest form is kept. Its length is the number of operations (`length`), plus two for each of its
+symbols.
 """
 
 from __future__ import annotations

@@ -137,7 +137,7 @@ def _carried_out(expr: Basic) -> Value:
 def _definite(integral: Integral) -> Expr:
     """Evaluate a definite integral by the rules of `derive.algebra.integrals` or, if these do not apply, by SymPy.
 
-    If the rules do not apply to an integral with a root, the result is `nan`, which is equal to no value: for such an
+    If the rules do not apply to an integral with a root, the result is `nan`, which is equal to no value. For such an
     integral, SymPy may return a wrong value or may not terminate.
     """
     integrand = explicit(integral.function)

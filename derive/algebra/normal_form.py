@@ -100,7 +100,7 @@ def _hides_angles(expr: Expr) -> bool:
 
 
 def _with_common_angles(expr: Expr) -> Expr:
-    """Write an expression that hides angles (`_hides_angles`) in sines and cosines of smaller angles."""
+    """Use sines and cosines of smaller angles in an expression that hides angles (`_hides_angles`)."""
     if not _hides_angles(expr):
         return expr
     expr = expr.replace(lambda e: isinstance(e, tan), lambda e: sin(e.args[0]) / cos(e.args[0]))

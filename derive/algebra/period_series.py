@@ -77,7 +77,7 @@ def half_swing(f: Expr, q: Symbol, amplitude: Expr, digits: int) -> Rational | N
     """The numerical integral of dq/sqrt(f) from -A to A; None if f is not positive between -A and A, or if the result
     does not converge.
 
-    With q = A sin u, the integrand 1/sqrt(f/(A cos u)^2) is periodic and has the same value at u and pi - u, so the
+    With q = A sin u, the integrand 1/sqrt(f/(A cos u)^2) is periodic and has the same value at u and pi - u. So the
     mean of equidistant values converges fast.
     Source: Trefethen, Weideman, *SIAM Review* 56 (2014), section 3.
     """

@@ -160,8 +160,8 @@ def _fits(letter: Any, number: Expr) -> bool:
 
 
 def without_abs(value: Any) -> Any:
-    """Remove each absolute value if the ranges of symbols or the assumed relations determine the sign of its argument,
-    and write (sin(a)^3)^(2/3) as sin(a)^2 where sin(a) > 0."""
+    """Remove each absolute value if the ranges of symbols or the assumed relations determine the sign of its argument.
+    Also write (sin(a)^3)^(2/3) as sin(a)^2 where sin(a) > 0."""
     known = _KNOWN.get()
     if not hasattr(value, "atoms") or not (value.free_symbols & known.keys() or known_order().touches(value)):
         return value
@@ -206,15 +206,15 @@ def _drawn_out(root: Pow) -> Expr | None:
 
 
 def sign_within(expr: Expr) -> int | None:
-    """The common sign, 1 or -1, of the values of an expression at all points that are inside the ranges of the symbols
-    and satisfy the assumed relations; None if no common sign is known. The ends of the ranges are left out."""
+    """The sign of an expression, 1 or -1, if it is known to be the same at all points that the ranges of the symbols
+    and the assumed relations allow; else None. The ends of the ranges are left out."""
     signs = [_sign_of_factor(factor) for factor in Mul.make_args(expr)]
     return None if None in signs else prod(sign for sign in signs if sign)
 
 
 def strict_sign_within(expr: Expr) -> int | None:
-    """The sign as for `sign_within`, if it is the same at the ends that belong to the ranges; None if it is unknown or
-    differs there."""
+    """The sign that `sign_within` finds, if the expression also has this sign at the ends that belong to the ranges;
+    else None."""
     sign = sign_within(expr)
     if sign is None:
         return None

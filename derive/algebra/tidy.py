@@ -150,8 +150,8 @@ def _of_two_letters(function: type, angle: Expr) -> Expr:
 
 
 def _two_turning(term: Expr) -> tuple[int, dict[type, set[Symbol]]] | None:
-    """The sign of a term, and the angles of its sines and of its cosines, if it is plus or minus a product of two sines
-    or cosines with different symbols as angles; else None."""
+    """The sign of a term, and the angles of its sines and of its cosines. The result is None unless the term is plus or
+    minus a product of two sines or cosines of different symbols."""
     number, product = term.as_coeff_Mul()
     if abs(number) != 1 or len(product.args) != 2 or not product.is_Mul:
         return None

@@ -23,13 +23,13 @@ from derive.errors import Complaint, Misused, did_you_mean
 
 _WORD = re.compile(r"(?<![\\A-Za-z])(?P<word>[A-Za-z]{2,})")
 _SUBSCRIPT = re.compile(r"(?<=[A-Za-z])_(?P<sub>[A-Za-z0-9]{2,})")
-LONGEST = 2000  # characters of an assumed equation
+LONGEST = 2000  # the greatest number of characters in an assumed equation
 MOST_SYMBOLS = 1000
 
 
 @dataclass(frozen=True)
 class Assumed:
-    """An equation that holds in the whole document."""
+    """An equation that is assumed to hold in the whole document."""
 
     left: Node
     right: Node
@@ -41,7 +41,9 @@ def assumed_of(text: str) -> Assumed:
     if len(text) > LONGEST:
         raise Misused(Complaint("assumption", f"an assumed equation has at most {LONGEST} characters"))
     if text.count("=") != 1:
-        raise Misused(Complaint("assumption", f"`{text[:80]}` is not an equation", help='such as "rho = M/(6 a^3)"'))
+        raise Misused(
+            Complaint("assumption", f"`{text[:80]}` must contain exactly one `=`", help='such as "rho = M/(6 a^3)"')
+        )
     left, right = (_read(side, text) for side in text.split("="))
     return Assumed(left, right, text.strip())
 
@@ -84,8 +86,8 @@ def declared_letters(path: Path) -> dict[Identity, str]:
     except (yaml.YAMLError, UnicodeDecodeError) as error:
         raise Misused(Complaint("symbols", f"`{path}` is not a YAML file: {str(error).splitlines()[0]}")) from None
     if not isinstance(read, dict) or len(read) > MOST_SYMBOLS:
-        example = "`omega: vector`"
-        raise Misused(Complaint("symbols", f"`{path}` is not a list of letters and kinds", help=f"such as {example}"))
+        message = f"`{path}` must be a list of at most {MOST_SYMBOLS} letters with their kinds"
+        raise Misused(Complaint("symbols", message, help="such as `omega: vector`"))
     found: dict[Identity, str] = {}
     for name, kind in read.items():
         if kind not in KINDS:

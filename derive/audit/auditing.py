@@ -36,15 +36,15 @@ from derive.documents.parser import Unreadable, parsed
 from derive.documents.source import Span
 from derive.documents.syntax import Add, Cases, Diff, Int, Letter, Mat, Mul, Node, Open, Sign, Sum, Text
 
-SECONDS = 3.0  # seconds of processor time for one claim
-LEAST_SECONDS = 0.4  # the limit for a claim once a document has used much time
-USUAL_SECONDS = 0.3  # the usual processor time of a claim
-MOST_LATE = 40.0  # the limit falls linearly with the seconds beyond the usual time, and would be zero at MOST_LATE
+SECONDS = 3.0  # the limit of processor time for one claim, in seconds
+LEAST_SECONDS = 0.4  # the limit never falls below this number of seconds
+USUAL_SECONDS = 0.3  # the usual processor time for one claim, in seconds
+MOST_LATE = 40.0  # the limit falls linearly with the seconds used beyond the usual time, and would be zero at MOST_LATE
 SECONDS_OF_SEARCH = 2.0  # seconds of processor time for the search for a change that makes a claim right
 MOST_INDICES = 12
 MOST_LOST = 6  # number of missing letters that are tried as corrections of a row
-MOST_ROWS = 10  # number of the last equations, or claims in displays, that are searched for what a row lacks
-FEWEST_OPERATIONS = 3  # in a value that a later row may repeat with a slip
+MOST_ROWS = 10  # number of the last equations and displayed claims that are searched for missing letters and terms
+FEWEST_OPERATIONS = 3  # only earlier values with at least this number of operations are compared with a later value
 MOST_FIXED = 5  # number of earlier rows that are searched for a slip
 SPECIAL = frozenset({Cue.GIVEN, Cue.PUT_IN, Cue.ZERO, Cue.APPROXIMATE})  # cues that explain why a row has fewer terms
 MOST_READINGS = 8
@@ -69,7 +69,7 @@ class Audit:
 
 
 def claims_of(document: Document) -> tuple[list[Claim], Facts, list[tuple[Row, str]]]:
-    """Return the claims of a document, the facts about its letters, and the rows that are not read."""
+    """Return the claims of a document, the facts about its letters, and the rows that cannot be read."""
     nodes: dict[int, list[tuple[Node | None, str]]] = {}
     sides, equations, unread = [], [], []
     for row in document.rows:
@@ -129,7 +129,7 @@ def scope_of(document: Document, row: Row) -> int:
 
 
 def explanations(document: Document, claims: Sequence[Claim]) -> dict[int, list[Claim]]:
-    """Return for each display the claims that explain its letters in the same sentence: `..., where rho = M/V`."""
+    """Return the claims after each display that explain its letters in the same sentence: `..., where rho = M/V`."""
     by_block: dict[int, list[Claim]] = {}
     for claim in claims:
         by_block.setdefault(id(claim.row.block), []).append(claim)
@@ -282,7 +282,8 @@ class _Auditor:
         self.late += max(0.0, process_time() - begun - USUAL_SECONDS)
 
     def claims_of_sentence(self, claim: Claim) -> frozenset[int]:
-        """Return the claims in the sentence before a display that are not known to be wrong."""
+        """Return the claims that precede a display in its sentence and have a good verdict: they hold, at least
+        approximately, or define something."""
         found: list[int] = []
         block = claim.row.block
         for each in reversed(self.claims[:-1]) if block.display else ():
@@ -295,9 +296,11 @@ class _Auditor:
         return frozenset(found)
 
     def conditions_here(self, claim: Claim) -> frozenset[int]:
-        """Return the conditions of the sentence before a display that hold in a row: "with `r = l`, this becomes".
+        """Return the conditions before a display, in the same sentence, that are used in one of its rows: "with
+        `r = l`, this becomes".
 
-        A row that contains the letter is about other instants: "the energy at `x = 0` is conserved"."""
+        A condition such as `x = 0` is not used in a row that contains `x`, because the row is about other instants:
+        "the energy at `x = 0` is conserved"."""
         written = {each.identity for each in letters_in(claim.left, claim.right)}
         conditions = [self.claims[each] for each in self.known.sentence & self.known.conditions]
         return frozenset(each.number for each in conditions if written.isdisjoint(
@@ -305,7 +308,7 @@ class _Auditor:
         ))  # fmt: skip
 
     def explain(self, claim: Claim) -> None:
-        """Remember the values of letters that the sentence after this display gives."""
+        """Remember the values that the words after this display give to letters: `..., where rho = M/V`."""
         if claim.number in self.explained:
             self.known.forget(claim.number)
         for each in self.explanations.pop(id(claim.row.block), []):
@@ -345,7 +348,7 @@ class _Auditor:
         while first.before is not None:
             first = first.before
         if first.values is not None and first.values[0] in self.meaning.evaluations and new:
-            return "the first side is a value at one position or instant"
+            return "the chain begins with a value at one position or instant"
         letters = [self.meaning.symbols.get(each) for each in (*old, *new)]
         bases = {each.base.lower() for each in letters if each is not None}
         if (
@@ -473,7 +476,8 @@ class _Auditor:
             return  # a letter of an integrand may depend on the variable of integration
         in_sentence = not claim.is_step and not claim.row.block.display
         if verdict.outcome is Outcome.DEFINES and claim.values[0] in self.known.definitions:
-            self.doubt(verdict, self.change_of_value(claim))  # it may have another value in another part or case
+            # the letter may have another value in another part or case
+            self.doubt(verdict, self.change_of_value(claim))
             return
         strange = self.strange_letters(claim) if in_sentence else set()
         if in_sentence and not strange and claim.values[1].is_Atom:
@@ -483,7 +487,7 @@ class _Auditor:
             self.doubt(verdict, edit)
             return
         if edit is not None and edit.kind == "index" and not ("_" in edit.was and "_" in edit.meant):
-            return  # r and r_0 are names of one quantity, in general and in a special case
+            return  # r_0 may be the value of r in a special case
         if edit is None and not claim.is_step and claim.row.block.display and not self.may_be_special(claim):
             near = Nearness(self.meaning, self.known, [], self.shown, terms=[])
             if (lost := near.lost_term(claim.values[0] - claim.values[1])) is not None:
@@ -502,7 +506,7 @@ class _Auditor:
         verdict.why_plausible, verdict.span = WHY[edit.kind], edit.span
 
     def doubt(self, verdict: Verdict, edit: Edit | None) -> None:
-        """Leave a row undecided that may be a special case, or may contain a slip."""
+        """Leave a row undecided if one change would make it follow: it contains a slip or is a special case."""
         if edit is not None:
             verdict.outcome = Outcome.UNDECIDED
             verdict.because = f"it would follow from earlier rows with {suggestion_of(edit)}, but may be a special case"
@@ -516,14 +520,14 @@ class _Auditor:
         return Nearness(self.meaning, self.known, letters_in(right_node), self.shown).of_value(right_node, value)
 
     def with_other_indices(self, letters: list[Letter]) -> list[Letter]:
-        """Return these letters and letters of the document that differ from them only in the index."""
+        """Return the given letters and further letters of the document that differ from them only in the index."""
         bases = {(each.base, each.dots) for each in letters if each.sub}
         known = {(each.identity, each.dots) for each in letters}
         more = [each for each in self.meaning.symbols.values() if (each.base, each.dots) in bases]
         return letters + [each for each in more if (each.identity, each.dots) not in known][:MOST_INDICES]
 
     def strange_letters(self, claim: Claim) -> set[str]:
-        """Return the letters of a claim, as they are written, that the document contains nowhere else."""
+        """Return the letters that only this claim of the document contains, as they are written."""
         letters = letters_in(claim.left if claim.before is None else None, claim.right)
         return {self.shown(each.span) for each in letters if self.written[each.identity] == 1}
 
@@ -631,14 +635,14 @@ class _Auditor:
         return None if edit is not None and claim.is_step and self.repeats_a_side(claim, edit.node) else edit
 
     def near_motion(self, claim: Claim, near: Nearness, right_node: Node, letter: Symbol) -> Edit | None:
-        """Return one change after which a frequency, a period or a motion would follow from an earlier equation of
-        motion of the same part; None if no such change is found."""
+        """Return one change after which a frequency, a period or a motion would follow from an equation of motion, or
+        None. The equation of motion belongs to an earlier row of the same part."""
         assert claim.values is not None
         part = claim.row.block.part
         for equation, number in reversed(frequency_equations(letter, self.meaning, near.known)):
             if self.claims[number].row.block.part == part:
                 edit = near.of_root(right_node, letter, equation)
-                if edit is not None and edit.meant != "1":  # 2k instead of k may belong to two springs
+                if edit is not None and edit.meant != "1":  # a factor such as 2 in 2k may be right: two springs
                     return edit
         for equation, number in reversed(equations_of_motion(*claim.values, self.meaning, near.known)):
             if self.claims[number].row.block.part == part:
@@ -697,7 +701,8 @@ class _Auditor:
                 verdict.because += f"; or the slip is in line {line}"
 
     def blame_odd_dimensions(self) -> None:
-        """Report in each problem or section the row whose terms contradict the dimensions that all other rows give."""
+        """Report the row, if any, whose terms contradict the dimensions that all other rows of its problem or section
+        give."""
         by_scope: dict[int, list[Claim]] = {}
         for claim in self.claims:
             by_scope.setdefault(scope_of(self.document, claim.row), []).append(claim)
@@ -812,7 +817,10 @@ class _Auditor:
         return found[-1][0][0] if found else value
 
     def of_missing_differential(self, claim: Claim, left_side: Node) -> Verdict | None:
-        """Return the verdict on an integral without a differential; None unless one change makes the claim right."""
+        """Return a verdict if the right side lacks a differential; otherwise None.
+
+        The verdict is also None if no single change makes the claim right and `lacks_differential` is false.
+        """
         assert claim.right is not None
         if not any(isinstance(each, Int) for each in claim.right.walk()):
             return None
@@ -864,7 +872,7 @@ class _Auditor:
         assert wrong.values is not None
         again = Decision(claim, wrong.values[0], right, meaning, self.known, cues).verdict()
         if again.outcome in GOOD:
-            again.because += ", compared with the row before the slip"
+            again.because += ", compared with the side before the slip"
             return again
         return verdict
 
@@ -911,7 +919,7 @@ class _Auditor:
         return bool(simple and not block.display and Cue.GIVEN in block.cues and right.as_coeff_Mul()[1].is_Symbol)
 
     def is_condition(self, claim: Claim, verdict: Verdict) -> bool:
-        """Whether a formula in a sentence may hold in one case or at one instant only."""
+        """Whether a claim may hold in one case or at one instant only, as a formula in a sentence may."""
         if verdict.outcome in (Outcome.HOLDS, Outcome.APPROXIMATES):
             return bool(self.known.conditions & set(verdict.given))
         if claim.row.block.display or claim.number in self.explained:
@@ -967,7 +975,7 @@ class _Auditor:
         if claim.verdict.outcome is Outcome.HOLDS and not claim.verdict.given and not isinstance(left, Symbol):
             return  # an identity gives nothing new
         if not claim.row.block.display and isinstance(left, Symbol) and right.is_number and right != 0:
-            return  # a number, for example that of a drawing, is only substituted
+            return  # a number in a sentence is only substituted, for example one for a drawing
         self.known.state(sympy.expand(left - right) if sympy.count_ops(left - right) < 600 else left - right, number)
 
 
@@ -986,9 +994,7 @@ def lacks_differential(side: Node) -> bool:
 
 
 def has_implied_sum(*sides: Node) -> bool:
-    """Whether two factors of a product have the same letter as an index, as in a_i b_i: the product may stand for a sum
-    over this index.
-    """
+    """Whether two factors of a product have the same index, as in a_i b_i: a sum over this index may be implied."""
     for side in sides:
         summed = {each.index.base for each in side.walk() if isinstance(each, Sum) and isinstance(each.index, Letter)}
         for node in side.walk():

@@ -77,7 +77,7 @@ class Claim:
     verdict: Verdict | None = None
     values: tuple[Value, Value] | None = None
     decimals: tuple[tuple[Value, int], ...] = ()  # each decimal in its sides, with the number of digits after the point
-    # whether the left side is the first side of the chain, because the sides between have no value
+    # whether the right side is compared with the first side of the chain, because the sides between have no value
     from_head: bool = False
     tags: tuple[str, ...] = field(default_factory=tuple)
 
@@ -89,5 +89,5 @@ class Claim:
 
     @property
     def is_step(self) -> bool:
-        """Whether the left side is the right side of the claim before it."""
+        """Whether the right side is compared with an earlier side of the chain other than the first."""
         return self.before is not None and not self.from_head

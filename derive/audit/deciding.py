@@ -46,7 +46,8 @@ SMALL = (Rational(1, 100), Rational(1, 1000))
 
 
 def same(left: Value, right: Value) -> bool:
-    """Whether two values are equal for both signs of ±, with the same sign on both sides or with opposite signs."""
+    """Whether two values are equal. Values with ± must be equal for both signs, with the same sign in both values or
+    with opposite signs."""
     if isinstance(left, MatrixBase) != isinstance(right, MatrixBase):
         return False
     if isinstance(left, MatrixBase) and left.shape != right.shape:
@@ -293,7 +294,7 @@ class Decision:
         return Verdict(Outcome.HOLDS, "the two sides are equal")
 
     def with_signs(self, left: Value, right: Value) -> Verdict | None:
-        """Compare two sides for one sign of each absolute value: sqrt((L - x)^2) = L - x."""
+        """Compare two sides after replacing each absolute value |a| by a or -a: sqrt((L - x)^2) = L - x if L > x."""
         if isinstance(left, MatrixBase) or isinstance(right, MatrixBase):
             return None
         found = sorted((left.atoms(Abs) | right.atoms(Abs)), key=str)[:MOST_SIGNS]
@@ -388,9 +389,7 @@ class Decision:
                     return Verdict(Outcome.DIFFERS, because, used)
                 return Verdict(Outcome.APPROXIMATES, f"the error is of order {power} in {words}", used)
         if self.claim.relation in ("~", "prop"):
-            return Verdict(
-                Outcome.UNDECIDED, "the document says that this is an approximation, but not in which letter"
-            )
+            return Verdict(Outcome.UNDECIDED, "this approximation or proportionality cannot be checked")
         return None
 
     def may_be_small(self, symbol: Symbol) -> bool:
@@ -432,7 +431,7 @@ class Decision:
             if error <= self.tolerance or not self.meaning.decimals:
                 return Verdict(Outcome.APPROXIMATES, "the same bound, to the printed digits", (number,))
             if error > 2 * self.tolerance and self.meaning.units:
-                because = f"the earlier bound is {_number(sympy.N(self.right * bound / self.right, 8))} in the SI"
+                because = f"the earlier bound is {_number(sympy.N(self.right * bound / self.right, 8))} in SI units"
                 written = max((value for value, _ in self.meaning.decimals), key=Abs)
                 meant = sympy.N(written * bound / self.right, 7)
                 return Verdict(
@@ -618,8 +617,10 @@ class Decision:
 
     @cached_property
     def formula_above(self) -> Definition | None:
-        """Return the value that the row above, or the sentence before the display, gives to the left side by a formula,
-        if this row evaluates the formula: some letters of the formula have values, and this row does not contain them.
+        """The formula for the left side in the row above, or before the display in the same sentence, if this row
+        evaluates the formula; otherwise None.
+
+        A row evaluates a formula if it does not contain some letters of the formula, and one of these has a value.
         """
         if self.claim.is_step or not isinstance(self.left, Symbol) or not self.known.is_defined(self.left):
             return None

@@ -26,8 +26,8 @@ from derive.documents.parser import Unreadable, parsed
 from derive.documents.source import Format, source_of
 from derive.documents.syntax import Abs, Der, EvalBar, Fun, Letter, Node
 
-SECONDS = 5.0  # seconds of processor time for one result
-LEAST_SCORE = 3  # steps that a section must state to be compared as a second solution
+SECONDS = 5.0  # seconds of processor time for comparing one result with one section
+LEAST_SCORE = 3  # a further section is compared with the answers if it states at least this number of steps
 NAMED = (Letter, Abs, Der, EvalBar, Fun)
 
 
@@ -78,7 +78,7 @@ class _Result:
 
     @property
     def entries(self) -> list[Expr]:
-        """Return the different entries of a list or matrix that contain letters."""
+        """The entries with letters in a list or matrix, without repetitions."""
         if not isinstance(self.right, MatrixBase):
             return []
         return [each for each in dict.fromkeys(self.right) if each.free_symbols]
@@ -268,7 +268,7 @@ class _Section:
         return decision.rounded() is not None
 
     def contradicts(self, result: _Result, claim: Claim, stated: int | None) -> bool:
-        """Whether the value that a section gives to a letter differs from the derived value."""
+        """Whether the value that a claim gives contradicts the derived value."""
         if claim.values is None or claim.relation not in ("=", "~") or (stated is not None and claim.number <= stated):
             return False
         value = claim.values[1]

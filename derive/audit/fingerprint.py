@@ -1,7 +1,6 @@
 """The values of expressions at a few fixed points. Different values show quickly that two expressions are not equal.
 
-At each point, the number of a letter depends only on the letter's name, so the values of an expression are computed
-only once.
+At each point, the number of a letter depends only on the letter's name, so the values of an expression can be cached.
 """
 
 from __future__ import annotations
@@ -40,7 +39,7 @@ FUNCTIONS: dict[type, Callable[[complex], complex]] = {
 
 @lru_cache(maxsize=20_000)
 def fingerprint(value: Expr) -> tuple[complex, ...] | None:
-    """Return the values at the fixed points, or None if the expression has none there."""
+    """Return the values of an expression at the fixed points, or None if they cannot be computed."""
     try:
         return tuple(at(value, partial(_number_at, point)) for point in range(POINTS))
     except (ValueError, ZeroDivisionError, OverflowError, KeyError, TypeError):

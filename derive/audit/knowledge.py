@@ -35,7 +35,7 @@ class Known:
     seen: set[Symbol] = field(default_factory=set)  # the letters of earlier claims
     conditions: set[int] = field(default_factory=set)  # claims that may hold in one case or at one instant only
     sentence: frozenset[int] = frozenset()  # claims in the sentence before the current display
-    here: frozenset[int] = frozenset()  # its conditions for letters that the current row no longer contains
+    here: frozenset[int] = frozenset()  # conditions in `sentence` for letters that the current row does not contain
     named: set[Symbol] = field(default_factory=set)  # letters to which a display gave a value
     kept: dict[object, Any] = field(default_factory=dict)  # results that were computed from this knowledge
 
@@ -63,7 +63,7 @@ class Known:
         where.setdefault(symbol, []).append(new)
 
     def forget(self, claim: int) -> None:
-        """Forget the value that a claim gives to a letter; used before this claim itself is judged."""
+        """Forget the value that a claim gives to a letter."""
         for symbol, found in list(self.definitions.items()):
             self.definitions[symbol] = [each for each in found if each.claim != claim]
             if not self.definitions[symbol]:
@@ -97,7 +97,7 @@ class Known:
                 self.equations.append((each, claim))
 
     def with_slips(self) -> Known | None:
-        """Return the same knowledge with the wrong rows believed; None if no row is wrong."""
+        """Return the same knowledge with the values that wrong rows give; None if no row is wrong."""
         if not self.slips:
             return None
         believed = {symbol: [definition] for symbol, definition in self.slips.items()}
@@ -124,7 +124,7 @@ class Known:
         return found[-1] if found else self.computed(symbol)
 
     def surely(self, symbol: Symbol) -> Definition | None:
-        """Return the value of a letter that holds in the current row; None if it may hold elsewhere only."""
+        """Return a definition of a letter that is valid in the current row, or None."""
         found = self.latest(symbol)
         if found is None or found.claim in self.conditions:
             at = [*self.numbers.get(symbol, ()), *self.definitions.get(symbol, ())]
@@ -177,7 +177,7 @@ class Known:
         return None
 
     def is_general(self, symbol: Symbol, value: Expr) -> bool:
-        """Whether a letter such as q_i stands for each coordinate, and no letter of a value has the same base."""
+        """Whether a letter such as q_i means any coordinate, and a value contains no letter with the same base."""
         letters = self.meaning.symbols
         letter = letters.get(symbol)
         if letter is None or letter.base not in ("q", "p") and letter.sub not in INDICES_OF_COORDINATES:
@@ -189,7 +189,8 @@ class Known:
         return letter is not None and letter.dots > 0
 
     def is_kinematic(self, symbol: Symbol) -> bool:
-        """Whether a rate or derivative follows from a definition without rates."""
+        """Whether the value of a rate or derivative can be computed. For a rate, the definition must not contain
+        rates."""
         if self.computed(symbol) is None:
             return False
         letter = self.meaning.symbols.get(symbol)

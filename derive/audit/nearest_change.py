@@ -1,7 +1,7 @@
 """Whether a row that does not follow would follow after one small change. If it would, it probably contains a slip.
 
-A change is tried with numbers, at points where the earlier equations hold. A row is accused if one change makes it
-right at all points.
+A change is tried with numbers, at points where the earlier equations hold. A row is reported as wrong if one
+change makes it right at all points.
 """
 
 from __future__ import annotations
@@ -55,7 +55,7 @@ class Nearness:
         state = ("points", tuple(each.value for each in equations))
         if state not in self.known.kept:
             surface = Surface(equations, self.meaning).find(POINTS)
-            # A row that later rows contradict is accused only if all other rows agree with each other.
+            # A row that later rows contradict is reported as wrong only if all other rows agree with each other.
             refused = [each for each in equations if each not in surface.kept and each.name != OF_RATES]
             self.known.kept[state] = [] if self.written and refused else surface.points
         return [
@@ -137,7 +137,7 @@ class Nearness:
         wanted = expand(expanded(self.known, difference, sure=True)[0])
         count = len(Add_.make_args(wanted))
         if count < 2 or not any(map(self.known.is_rate, difference.free_symbols)):
-            return None  # at rest, the terms with rates are missing
+            return None  # the row may be about rest, where the terms with rates vanish
         for each in equations_of(self.known, self.meaning, sure=True, written=self.written):
             terms = Add_.make_args(expand(each.value))
             if len(terms) != count + 1 or len(terms) > MOST_TERMS_OF_EQUATION:

@@ -132,8 +132,11 @@ def spanned(rows: Sequence[Sequence[complex]], wanted: Sequence[complex]) -> boo
 
 
 def determined(rows: Sequence[Sequence[complex]], column: int, constant: int) -> complex | None:
-    """Return the number that linear equations give to one column, or None; `constant` is the column of the constant
-    terms."""
+    """Return the value of one unknown of linear equations, or None if they do not determine it.
+
+    Each row has the coefficients of one equation: `column` is the index of the unknown, and `constant` is the index of
+    the constant term.
+    """
     order = [i for i in range(len(rows[0])) if i not in (column, constant)] + [column, constant]
     matrix = [[row[i] for i in order] for row in rows]
     used = 0

@@ -37,7 +37,7 @@ WHY = {
     "extra factor": "a factor was written twice, or is superfluous",
     "term": "a superfluous term was written",
     "lost term": "a term was lost",
-    "function": "sine and cosine were exchanged",
+    "function": "one function was written for another",
     "differential": "the d of a differential was lost",
     "dots": "a dot was lost or added",
     "fraction": "numerator and denominator were exchanged",

@@ -37,7 +37,7 @@ OF_RATES = "the time derivative of an earlier equation"
 
 @dataclass(frozen=True)
 class Equation:
-    """An expression that vanishes, the claims that it comes from, and the words for it."""
+    """An expression that vanishes, the claims that it comes from, and its name in the reason of a verdict."""
 
     value: Expr
     claims: tuple[int, ...]
@@ -247,8 +247,10 @@ def equations_of_motion(place: Value, value: Value, meaning: Meaning, known: Kno
 
 
 def root_equation(letter: Symbol, meaning: Meaning, known: Known) -> tuple[Symbol, Expr, int] | None:
-    """A letter such as w_1 or x_0 may name a root of an earlier equation in w or x: return the letter without its
-    index, the last such equation and the number of its claim; otherwise None."""
+    """Return the last earlier equation in w or x that a letter such as w_1 or x_0 may be a root of; otherwise None.
+
+    The result is a tuple of w or x, the equation, and the number of the equation's claim.
+    """
     named = meaning.symbols.get(letter)
     if named is None or not named.sub or named.dots or named.marks or named.base == "t":
         return None

@@ -53,8 +53,8 @@ def _offered(problem: Problem) -> dict[str, tuple[Quantity, ...] | DeriveError]:
 
 
 def with_ancestors_of_each(found: dict[str, tuple[Quantity, ...]]) -> dict[str, tuple[Quantity, str]]:
-    """Return the answers and the steps on which they depend, by key, each with the name of one answer that needs the
-    step."""
+    """Return the steps of the answers and all steps on which these depend, by key. Each step has the name of the first
+    answer that needs it."""
     steps: dict[str, tuple[Quantity, str]] = {}
     for name, quantities in found.items():
         for key, quantity in with_ancestors(quantities).items():
@@ -88,7 +88,7 @@ def _values(found: tuple[Quantity, ...] | DeriveError, notation: Notation) -> st
 
 
 def _value(step: Step, notation: Notation) -> str:
-    """Show the value in one line, or only its symbol if the value takes several lines."""
+    """Return the value in one line. If it takes several lines, return only its symbol, or an empty text without one."""
     told = plain(named_result(step, notation))
     if "\n" in told:
         return plain(notation.layout(step.symbol)) if step.symbol is not None else ""

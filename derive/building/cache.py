@@ -74,7 +74,7 @@ def package_version(name: str) -> str | None:
 def not_kept(refused: Complaint, folder: Path | None = None) -> Complaint:
     """Return the warning that the next build will have to do some work again."""
     said = f"cannot write in `{shown_path(folder)}`{refused.message[refused.message.rindex(': ') :]}" if folder else ""
-    message = f"nothing is kept for the next build: {said or refused.message}"
+    message = f"results cannot be stored for the next build: {said or refused.message}"
     return Complaint(NOT_KEPT, message, severity="warning")
 
 
@@ -134,7 +134,7 @@ NO_CACHE = Cache()
 
 
 def cache_of_set(root: Path, set_id: str) -> Cache:
-    """Return the store of a set; a set without a folder of outputs keeps nothing."""
+    """Return the cache of a set. If the set has no folder of outputs, the cache stores nothing."""
     outputs = set_folder(root, set_id)
     return Cache(outputs / CACHE) if outputs.is_dir() else NO_CACHE
 

@@ -22,8 +22,8 @@ Blocks = Sequence[Mapping[str, Any]]
 class Change:
     """One difference between two states of a problem or of a set.
 
-    of       the sort: problem (of a set), given, points, asked, part, answer, step, order, sentence, drawing,
-             number, reference, warning
+    of       the kind of difference: problem (of a set), given, points, asked, part, answer, step, order, sentence,
+             drawing, number, reference, warning
     where    the place of the difference: a key, the label of a part, a place on the page
     before   the old text; empty if there was none
     after    the new text; empty if the text was removed
@@ -46,7 +46,7 @@ class Change:
 
 
 def changes(before: Mapping[str, Any], after: Mapping[str, Any]) -> list[Change]:
-    """Return every difference: first the differences in the input and the questions, then in results and sentences,
+    """Return the differences: first the differences in the input and the questions, then in results and sentences,
     then in drawings, numbers, references and warnings."""
     parts = list(_paired(before["parts"], after["parts"]))
     return [
@@ -158,7 +158,6 @@ def _worth(page: Mapping[str, Any]) -> str:
 
 
 def _asked(parts: Iterable[tuple[Any, Any]]) -> Iterator[Change]:
-    """Yield the changes of parts and of what they ask for."""
     for old, new in parts:
         name = _name(old, new)
         if old is _NO_PART or new is _NO_PART:
@@ -236,7 +235,8 @@ def _sentences(before: Mapping[str, Any], after: Mapping[str, Any], parts: Itera
 
 
 def _of_part(old: Mapping[str, Any], new: Mapping[str, Any]) -> Iterator[tuple[str, Blocks, Blocks]]:
-    """Yield the texts of a part to compare. The question of a new or removed part is not compared."""
+    """Yield the earlier and the present texts of a part: its question and its solution. A new or removed part yields
+    only its solution."""
     if old is not _NO_PART and new is not _NO_PART:
         yield f"{_name(old, new)}, question", _plain(old["ask"]), _plain(new["ask"])
     yield f"{_name(old, new)}, solution", old["says"], new["says"]

@@ -60,7 +60,8 @@ class ClassRecord:
         return [code for code, name in self.students.items() if _comparable(name) == wanted]
 
     def unknown(self, student: str) -> Complaint:
-        """Return the error about an answer of a student who is not in the class."""
+        """Return the error about an answer whose student is not named, is not in the class, or has a name that several
+        students have."""
         if not student.strip():
             message = f"the problem has variants, but no student of the class of `{self.set_id}` is named"
             return Complaint("no-such-student", message, help="give the code of the student in the column `student`")
@@ -72,12 +73,12 @@ class ClassRecord:
         return Complaint(
             "no-such-student",
             f"the class of `{self.set_id}` has no student with the code or the name `{shown}`",
-            help=help_line or f"the roster or `build/{self.set_id}/class/answers.csv` has the codes",
+            help=help_line or f"look up the code in the roster or in `build/{self.set_id}/class/answers.csv`",
         )
 
 
 def _comparable(text: str) -> str:
-    """Return a code or a name without differences of case, of spaces, and of how Unicode encodes accents."""
+    """Return a code or a name in a form that does not depend on case, spaces, or the Unicode encoding of accents."""
     return " ".join(unicodedata.normalize("NFC", text).split()).casefold()
 
 

@@ -43,8 +43,8 @@ MADE = ".made"
 ANSWERS = "answers"
 KINDS = (SHEET, KEY, SOLUTIONS)
 COLUMNS = ("student", "name", "problem", "part", "answer", "formula", "value", "unit", "figures")
-AT_ONCE = 10  # the number of students in one job
-RESEED = "leave out `--seed`, or add `--reseed`; the students then get values that differ from those on their sheets"
+AT_ONCE = 10  # the greatest number of students in one job
+RESEED = "leave out `--seed`; with `--reseed`, students get values that differ from those on their present sheets"
 
 
 @dataclass(frozen=True)
@@ -204,7 +204,7 @@ def made_class(
     reseed      whether `seed` may differ from the seed with which the class was made before
     scheduler   the address of a Dask scheduler, whose workers do the jobs; by default, processes of this machine do the
                 jobs
-    ended       is called for each student whose documents were made or failed
+    ended       is called for each student when the documents are made, or when making them fails
     """
     root = root.resolve()
     begun, chosen = time.monotonic(), chosen_engine(engine)
@@ -274,8 +274,8 @@ def made_class(
 def _older(shared: ClassDocuments, students: Sequence[Student]) -> Complaint:
     names = [f"{each.name} ({each.code})" for each in students[:MOST]]
     names += [f"and {len(students) - MOST} more"] if students[MOST:] else []
-    message = f"the documents of {len(students)} students are from an earlier run: {', '.join(names)}"
-    help_line = f"correct the errors; until then `{CLASS}/{INDEX}.html` does not link these documents"
+    message = f"documents from an earlier run remain for {', '.join(names)}"
+    help_line = f"correct the errors; until then `{CLASS}/{INDEX}.html` does not link to these documents"
     return Complaint("older", message, help=help_line, severity="warning")
 
 
@@ -327,7 +327,10 @@ def why_of_class(root: Path, built: Path, engine: str | None) -> str | None:
     shared = ClassDocuments(root, set_id, heading, made.seed, chosen, 0, inputs)
     if shared.answers(Student(made.students[code], code)) is not None:
         return f"{shown} is up to date"
-    why = "an input of the class has changed" if inputs != made.inputs else "its variant has an error, or it was edited"
+    changed = inputs != made.inputs
+    why = (
+        "an input of the class has changed" if changed else "the variant has an error, or a file was edited or removed"
+    )
     again = f"to bring it up to date: `derive class {set_id}`, with the same roster"
     return f"{shown} is out of date:\n  {why}\n{again}"
 
@@ -424,8 +427,8 @@ def _same_for_all(shared: ClassDocuments) -> list[Complaint]:
 
 
 def _remove_others(shared: ClassDocuments, students: Sequence[Student], before: ClassRecord | None) -> None:
-    """Remove the documents of earlier students, including the sheets that remain if the user removed the folder of the
-    class."""
+    """Remove the documents of students who are no longer in the class, even if the user has removed the folder
+    `class/`."""
     earlier = {record.stem for record in (shared.outputs / CLASS / MADE).glob("*.json")}
     earlier |= {code for code in (before.students if before else ()) if NAME.fullmatch(code)}
     for student in (Student("", code) for code in earlier - {student.code for student in students}):

@@ -79,6 +79,6 @@ class Cluster:
             return error
         if isinstance(error, self._dask.KilledWorker):
             return BuildFailed(
-                Complaint("worker-died", f"{job.name}: each worker of the cluster that tried it was lost")
+                Complaint("worker-died", f"{job.name}: each worker of the cluster that began this job was lost")
             )
         return Bug(f"{type(error).__name__}: {error}", "on a worker of the cluster")

@@ -40,7 +40,7 @@ def since_build(root: Path, problem_id: str, detail: str | None, limit: float) -
     if detail and detail != before["detail"]:
         message = f"the last build of `{problem_id}` has the detail `{before['detail']}`, not `{detail}`"
         raise Misused(
-            Complaint("other-detail", message, help=f"`derive build {problem_id} --detail {detail}` builds that detail")
+            Complaint("other-detail", message, help=f"first build it: `derive build {problem_id} --detail {detail}`")
         )
     after = done(_job(root, root, problem_id, before["detail"], limit))
     recorded = Manifest.read(set_folder(root, problem_id.partition("/")[0])).engine
@@ -75,7 +75,7 @@ def built_page(root: Path, problem_id: str) -> Page:
         message = f"`{shown_path(file)}` is not a file that a build wrote"
         raise Misused(Complaint("not-built", message, help=fix)) from None
     if not isinstance(page, dict) or any(key not in page for key in _SAYS):
-        message = f"`{shown_path(file)}` was written by an earlier version of derive, which stored no sentences"
+        message = f"`{shown_path(file)}` was written by an earlier version of derive, and lacks entries to compare"
         raise Misused(Complaint("not-built", message, help=fix))
     return page
 

@@ -59,7 +59,7 @@ def _packages() -> Finding:
 
 def _templates() -> Finding:
     folder = templates_of(Path(FOLDER)).folders[-1]
-    return Finding("templates", True, f"{shown_path(folder)}, and `templates` of a course for files of its own")
+    return Finding("templates", True, f"{shown_path(folder)}; a course can have templates of its own in `templates`")
 
 
 def _tex(name: str | None) -> list[Finding]:

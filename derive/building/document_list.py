@@ -1,4 +1,4 @@
-"""The list of documents on the page of a set for a browser."""
+"""The list of documents on the web page of a set."""
 
 from __future__ import annotations
 
@@ -26,8 +26,8 @@ _EXPORTED = re.compile(rf"[\w-]+-(?:{'|'.join(EXPORT_SUFFIX)})\.(?:{'|'.join({*E
 
 @dataclass(frozen=True)
 class Paper:
-    """A document: its name, for each of its files the address and the name of the format, and whether it is older than
-    its problems."""
+    """An entry of the list. `files` has a pair for each file: its address and the name of its format; `is_older` says
+    whether the document is older than its problems."""
 
     name: str
     files: tuple[tuple[str, str], ...]
@@ -95,8 +95,8 @@ def older_in(root: Path, manifest: Manifest) -> list[str]:
 
 
 def update_list(root: Path, set_id: str, manifest: Manifest) -> None:
-    """Update the list of documents on the page of a set, with a mark at each document that is older than its problems,
-    unless a user has edited this page."""
+    """Update the list of documents on the page of a set, unless a user has edited this page. The list marks the
+    documents that are older than their problems."""
     page = manifest.folder / f"{INDEX}.html"
     if not manifest.holds(page.name):
         return

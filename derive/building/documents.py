@@ -32,7 +32,7 @@ def named_documents(heading: ProblemSet, record: Manifest, asked: Collection[str
     """Update and return the documents of the set; remove the files of documents that the set no longer has.
 
     If the record is empty, for example because another user built the set, each PDF with the name of a document counts
-    as requested. Otherwise it would stay without an update.
+    as requested. Otherwise no later build would update these PDFs.
     """
     own = [kind for kind, _ in heading.documents]
     others = {*(file for _, file in heading.documents), *(each.rpartition("/")[2] for each in heading.problems)}

@@ -172,7 +172,8 @@ def _letters(cache: Cache, font: str, texts: Collection[str]) -> Mapping[str, Le
 
 
 def _as_assumed(problem: Problem, found: dict[Symbol, float], given: Collection[Symbol]) -> dict[Symbol, float]:
-    """Return the numbers, with some substitutes changed so that the numbers satisfy the assumed relations."""
+    """Return the numbers. If they violate an assumed relation, change numbers of symbols that have no given value, so
+    that the relations hold."""
     relations = [each.relation for each in problem.assumed]
     if all(_holds(each, found) for each in relations):
         return found
@@ -194,8 +195,8 @@ def _holds(relation: Relation, numbers: Mapping[Symbol, float]) -> bool:
 
 
 def numbers_of(problem: Problem, placement: Placement | None, drawing: Recorded | None = None) -> dict[Symbol, float]:
-    """Return a number for each symbol of a problem and of a drawing: a number of the drawing, a given value, or a
-    substitute."""
+    """Return a number for each symbol of a problem and of a drawing: the number that the drawing specifies, else the
+    given value, else a number that is chosen here."""
     said = dict(placement.values) if placement else {}
     if isinstance(drawing, Drawing) and drawing.mode is not None:
         sketch = placement_of(problem, drawing.mode.like)

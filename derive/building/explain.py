@@ -52,7 +52,7 @@ def _wanted(key: str | None, steps: Mapping[str, Step]) -> Iterable[str]:
     of_verbs = {step.rule.rpartition(".")[2]: step.key for step in reversed(list(steps.values()))}
     known = {**of_verbs, **standing_in(steps.values()), **{each: each for each in steps}}
     if key not in known:
-        listed = "`derive explain` without a step lists them"
+        listed = "`derive explain` without a step lists the steps of the problem"
         raise Misused(Complaint("no-such-step", f"no step is called `{key}`", help=did_you_mean(key, known) or listed))
     return [known[key]]
 
@@ -68,7 +68,6 @@ def _value(step: Step, notation: Notation) -> str:
 
 
 def _text(sections: list[Section], notation: Notation) -> str:
-    """Return the text of the sections in two columns: each heading, and next to it its lines."""
     lines = []
     for heading, told in sections:
         texts = [line for each in told for line in _wrapped(inline_text(each, notation))]

@@ -57,7 +57,7 @@ def cannot_write(path: Path, error: OSError) -> BuildFailed:
 
 
 def of_system(error: OSError, what: str = "the system refuses") -> BuildFailed | None:
-    """Return an error that names the resource that the system lacks; None if the error has another cause."""
+    """Return a failure that names the resource that the system lacks; None if `error` has another cause."""
     reason = _SHORT.get(error.errno or 0)
     return BuildFailed(Complaint("system", f"{what}: {reason}")) if reason else None
 

@@ -43,7 +43,7 @@ def grade_answers(
     """Return the result of each row by the number of the row. With a class, each answer is compared with the variant of
     its student.
 
-    If a worker fails, new workers judge its answers.
+    If a job with several answers fails, its answers are divided between two new jobs.
     """
     found: dict[int, Result] = {}
     waiting: dict[Job, tuple[str, Sequence[Asked]]] = {}

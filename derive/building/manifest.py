@@ -138,7 +138,7 @@ class Manifest:
         return all(read(path) == content for path, content in self.typeset_from.get(document, {}).items())
 
     def is_older(self, document: str, recipe: Recipe, read: Callable[[str], str]) -> bool:
-        """Return whether the PDF of a document, or an export, exists but is older than its inputs."""
+        """Return whether the PDF of a document, or an export, exists but its inputs have changed since it was made."""
         before = self.recipes.get(self.typeset_by.get(document, ""), {})
         was, is_now = ({k: v for k, v in each.items() if k not in OPTIONS} for each in (before, recipe))
         file = document if document in self.exports else f"{document}.pdf"
@@ -146,7 +146,7 @@ class Manifest:
 
     @property
     def document_files(self) -> list[str]:
-        """The names of the documents of the whole set and of its page for a browser, without suffixes."""
+        """The file names, without suffixes, of the documents of the whole set and of its web page."""
         return [*(file for _, file in self.documents), INDEX]
 
     def all_outputs(self) -> list[str]:

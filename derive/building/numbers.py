@@ -52,7 +52,7 @@ class _Answer:
 
     @property
     def in_form(self) -> Place | None:
-        """The place in the file where the form of this answer asks for a number; None if the form does not."""
+        """The place in the file where the form of this answer asks for a number; None if the form asks for none."""
         form = self.part.form_of(self.asked)
         if form.units:
             return form.units[0].place
@@ -64,8 +64,8 @@ def faults_of_numbers(
 ) -> list[Complaint]:
     """Return errors and warnings about the numbers of the answers.
 
-    It is an error if a form asks for a number that does not exist. There is a warning if some letters of an answer have
-    numbers, but the answer has none.
+    It is an error if a form asks for a number that does not exist. Another answer without a number leads to a warning
+    if all its letters have numbers, or if one of them has a number that no other result uses.
 
     values     the steps that evaluate answers numerically, by key
     drawings   the drawings of the problem

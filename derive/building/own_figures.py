@@ -42,7 +42,7 @@ def _converted(figure: OwnFigure, alt: str) -> tuple[bytes, bytes]:
         width, height = (float(each) for each in size.groups()) if size else (0.0, 0.0)
         if not 0 < width <= LARGEST or not 0 < height <= LARGEST:
             message = f"`{figure.path}` measures {width:.0f} by {height:.0f} points; at most {LARGEST:.0f} are allowed"
-            raise Rejected(Complaint("figure", message, figure.place, help="save it with a smaller page"))
+            raise Rejected(Complaint("figure", message, figure.place, help="reduce the size of the figure"))
         wide = figure.width or min(width / POINTS_PER_CM, WIDEST, HIGHEST * width / height)
         if wide * height / width > HIGHEST * 1.001:
             message = f"with this width the figure is {wide * height / width:.1f} cm high; at most {HIGHEST:g} cm fit"
@@ -67,4 +67,5 @@ def _page(figure: OwnFigure, folder: Path, form: str, width: float | None) -> by
         return bytes(typst.compile(folder / "page.typ", root=folder, format=form, timestamp=0))
     except Exception as error:
         message = f"`{figure.path}` cannot be read: {str(error).splitlines()[0][:200]}"
-        raise Rejected(Complaint("figure", message, figure.place, help="save it again in this format")) from None
+        help_line = f"save the figure again as {figure.kind.upper()}"
+        raise Rejected(Complaint("figure", message, figure.place, help=help_line)) from None

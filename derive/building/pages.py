@@ -53,7 +53,7 @@ class Wanted:
     only        the formats; by default all formats of a build
     evidence    how much the page shows about its checks
     documents   other documents, such as the key, hints or a rubric
-    width       for a fragment, which another LaTeX document includes: the width of the text there, in centimetres
+    width       the text width, in centimetres, of the LaTeX document that includes a fragment
     """
 
     detail: str | None = None

@@ -29,7 +29,7 @@ DRAWING = ("derive.render.drawing.picture", "derive.render.drawing.plotting")
 def preload(root: Path, derives: bool, draws: bool, set_id: str = "") -> None:
     """Load the phrases, the templates and the modules that workers need.
 
-    With `set_id`, also read the reference of this set.
+    With `derives` and `set_id`, also read the reference of this set.
     """
     for name in (*PRINTING, *(DERIVING if derives else ()), *(DRAWING if draws else ())):
         import_module(name)

@@ -45,7 +45,7 @@ def course_at(root: Path, revision: str, set_id: str) -> Iterator[Path]:
 
 
 def _copy(root: Path, revision: str, files: Sequence[tuple[bytes, bytes]], folder: Path) -> None:
-    """Write files, given by the names of their objects and their paths, into a folder."""
+    """Write files into a folder; `files` has pairs of the name of a git object and the path of its file."""
     contents = _contents(root, revision, [name for name, _ in files])
     for (_, path), content in zip(files, contents, strict=True):
         target = folder / os.fsdecode(path)
@@ -90,7 +90,7 @@ def _commit(root: Path, revision: str) -> str:
     named = not revision.startswith("-") and revision.isprintable()
     found = _git(root, "rev-parse", "--verify", "--quiet", f"{revision}^{{commit}}") if named else None
     if found is None or found.returncode:
-        help_line = "name a commit, a branch or a tag: `HEAD`, `HEAD~1`, `main`; `git log` lists them"
+        help_line = "name a commit, a branch or a tag: `HEAD`, `HEAD~1`, `main`; `git log --all` lists the commits"
         raise Misused(Complaint("no-such-revision", f"git finds no revision `{revision}` here", help=help_line))
     return found.stdout.decode().strip()
 

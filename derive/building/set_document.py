@@ -1,4 +1,4 @@
-"""Whole documents from solved problems: one solution, all documents of a set, and the pages of a set for a browser."""
+"""Whole documents from solved problems: one solution, all documents of a set, and the web pages of a set."""
 
 from __future__ import annotations
 
@@ -116,7 +116,7 @@ def problem_main(root: Path, problem: Rendered, heading: ProblemSet) -> str:
 
 
 def live_page(root: Path, heading: ProblemSet, name: str, main: str) -> str:
-    """Return the page of a problem that is being written, around a main part that `problem_main` made."""
+    """Return the page of a problem that is being written; `main` is its main part, which `problem_main` made."""
     return _page(root, "live.html.j2", heading, [], name=name, main=Html(main))
 
 
@@ -127,7 +127,8 @@ def index_page(
     papers: Sequence[Paper] = (),
     for_students: bool = False,
 ) -> str:
-    """Return the page of a set: its documents and its statements. The page for students has no link to a solution."""
+    """Return the page of a set: links to its documents, and the statements of its problems. The page for students has
+    no link to a solution."""
     shown = {"papers": papers, "for_students": for_students}
     questions = numbered_in_a_row(each.card_html for each in problems)
     return _page(root, "index.html.j2", heading, _listed(problems), questions=questions, **shown)
@@ -169,7 +170,7 @@ def _check_characters(root: Path, heading: ProblemSet) -> None:
             (path, *line) for path in files for line in enumerate((root / path).read_text("utf-8").splitlines(), 1)
         )
         place = next((Place(path, n, 1, text, len(text)) for path, n, text in lines if fact in text), None)
-        help_line = "the fonts of the PDF have Latin and Greek letters"
+        help_line = "write it in Latin or Greek letters: the fonts of the PDF have no others"
         faults.error("character", f"`{fact}` cannot be printed", place, help=help_line)
     faults.stop()
 

@@ -405,7 +405,7 @@ class _Build:
             self._typeset(file, document, page, beside, rank, numbers if kind not in (SHEET, REPORT) else None)
 
     def _page(self, name: str, page: Callable[[], str]) -> dict[str, str]:
-        """Return the text of a page for a browser, by file name; report an error."""
+        """Return the text of a web page by file name; if the page cannot be made, report the error and return {}."""
         try:
             return {f"{name}.html": page()}
         except DeriveError as error:

@@ -71,7 +71,7 @@ def rendered(
 ) -> Rendered:
     """Derive a problem and print it; raise `DeriveError` if there are errors.
 
-    cache    the store of the steps and drawings of earlier builds
+    cache    the cache of the steps and drawings that earlier builds stored
     chosen   the choices of a variant; a variant is not compared with the reference of the problem
 
     The parameters after `problem_id`, other than these two, are the fields of `Wanted`.
@@ -145,7 +145,7 @@ def _check_characters(problem: Problem) -> None:
         at = unprintable(prose.text)
         if at is not None:
             message = f"`{prose.text[at]}` cannot be printed"
-            help_line = "the fonts of the page have Latin and Greek letters and the usual signs"
+            help_line = "use Latin or Greek letters and the usual signs: the fonts of the page have no others"
             faults.append(Complaint("character", message, prose.place_within(at, 1), help=help_line))
     if faults:
         raise Rejected(faults)

@@ -39,7 +39,7 @@ class Asked:
 
 @dataclass(frozen=True)
 class Staleness:
-    """The reasons in words why outputs would be made again, and the commands that make them."""
+    """The reasons why outputs would be made again, in words, and the commands that make the outputs."""
 
     of: str
     reasons: tuple[str, ...]
@@ -55,7 +55,7 @@ class Staleness:
 def left_older(
     record: Manifest, set_id: str, documents: Sequence[str], recipe: Recipe, read: Callable[[str], str]
 ) -> list[Complaint]:
-    """Warn of PDFs and exports that are older than their inputs because the last build was not asked to make them."""
+    """Return warnings about PDFs and exports whose inputs have changed since they were made."""
     built = [f"`{name}.pdf`" for name in documents if record.is_older(name, recipe, read)]
     exported = [name for name in record.exports if record.is_older(name, recipe, read)]
     found = {f"`derive build {set_id}` makes them again": built} if built else {}

@@ -20,7 +20,8 @@ def line_of_template(templates: tuple[Path, ...], printed: str, word: str) -> Pl
     """Return the line of a template that printed a line of TeX; of several such lines, the line with the longest text
     outside of tags. None if no line of a template can have printed it.
 
-    word   the part of the printed line that the caret marks, if the template contains it
+    word   the part of the printed line that the message marks; it is also marked in the template's line, if it occurs
+           there
     """
     found = [
         (len(own), -number, Place(shown_path(file), number, column + 1, line[:150], width))

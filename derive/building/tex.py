@@ -131,9 +131,9 @@ def typeset(
 
     timeout    the limit of the processor time of each run, in seconds
     log        the folder for the source and the log of a failed run
-    numbers    the store of the page numbers, for the next run
+    numbers    the stored page numbers of the last run, which this run uses and replaces
     included   the files that the source includes, such as its drawings
-    formats    the cache that stores formats
+    formats    the cache that stores TeX formats
     templates  the course's own templates; an error is reported at the line of the template that printed the TeX
     """
     failure = partial(_failure, tex, engine=engine, templates=templates)
@@ -247,7 +247,7 @@ def _too_slow(engine: Engine, source: Path, seconds: float) -> BuildFailed:
 
 def _environment(engine: Engine) -> dict[str, str]:
     """Return the environment of the engine: long messages, a fixed date and restricted access to files."""
-    kept = ("PATH", "HOME", "TMPDIR", "SYSTEMROOT")  # settings of another TeX would affect the wheel's TeX
+    kept = ("PATH", "HOME", "TMPDIR", "SYSTEMROOT")  # other variables may configure another TeX
     return {name: value for name, value in os.environ.items() if engine.name != WHEEL or name in kept} | {
         "openin_any": "p",
         "openout_any": "p",

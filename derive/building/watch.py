@@ -85,7 +85,7 @@ class _Watch:
 
         try:
             if folder_digest(self.own, "*.py") != self.loaded:
-                message = "derive itself has been edited, but its modules from before the edit are loaded"
+                message = "derive itself has been edited, but this command still uses the modules that it loaded before"
                 raise BuildFailed(Complaint("restart", message, help="stop this command and start it again"))
             edits = Edits(self._edited, wrote)
             report = built_set(self.root, set_id, options, self.shown.under_way, edits, self.shown.ended)
@@ -114,7 +114,8 @@ class _Watch:
 
 
 def seen_in(paths: Sequence[Path]) -> Seen:
-    """Return the time, size and identity of each file that authors write, among these files and in these folders."""
+    """Return the time, size and identity of each of these files, and of each file in these folders that an author may
+    have written."""
     found, waiting = dict[str, tuple[int, int, int]](), list[tuple[str, int]]()
     for path in paths:
         if path.is_file():

@@ -281,7 +281,7 @@ def died(job: Job, code: int, trace: str) -> BuildFailed:
         return too_long(job, trace)
     why = f"signal {-code}" if code < 0 else f"exit code {code}"
     message = f"{job.name} ended without a message: {why}"
-    help_ = "was memory short?" if code < 0 else "does its script end the program itself?"
+    help_ = "check whether memory is short" if code < 0 else "look for a line of its script that ends the program"
     return _stopped(job, "worker-died", message, help_, trace)
 
 
@@ -289,7 +289,9 @@ def overtaxed(job: Job, what: str, trace: str) -> BuildFailed:
     """Return the error of a worker that reached the limit of its memory or of its stack."""
     if what == TOO_DEEP:
         help_ = "look for an endless recursion in its script, or for an expression with very many brackets"
-        return _stopped(job, TOO_DEEP, f"{job.name} is nested deeper than Python allows", help_, trace)
+        return _stopped(
+            job, TOO_DEEP, f"calls or brackets in {job.name} are nested deeper than Python allows", help_, trace
+        )
     message = f"{job.name} took more than {memory_limit() / GIB:g} GiB of memory"
     help_ = "look for a value that grows without bound, or set DERIVE_MEMORY to more GiB"
     return _stopped(job, MEMORY, message, help_, trace)

@@ -1,4 +1,4 @@
-"""The table of `derive check`: for each problem its steps, their checked claims, and the grades."""
+"""The table of `derive check`: for each problem the numbers of its steps and of its checked claims, by grade."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ HEADING = (
     "problem", "steps", "proved", "sampled", "approx.", "defined", "claims", "sampled", "compared", "seconds", "verdict"
 )  # fmt: skip
 LEGEND = """\
-steps     a step has the grade of its weakest line or, if lower, the grade of its strongest route or check
+steps     a step has the lower grade of its weakest line and its strongest route or check
 claims    all compared lines, second routes and checks; the next column counts the claims that are only sampled
 compared  statements of the source that were compared, and remarks on the source"""
 _OF_STEPS = ("steps_proved", "steps_sampled", "steps_approximation", "steps_definition")

@@ -82,7 +82,7 @@ def _variants(variants: argparse.ArgumentParser) -> None:
 def _class(of_class: argparse.ArgumentParser) -> None:
     named(of_class.add_argument("set", metavar="SET", help="a set with `variants:` in its problems"), "sets")
     of_class.add_argument(
-        "--roster", required=True, metavar="FILE", help="CSV with the column name and, if you like, code"
+        "--roster", required=True, metavar="FILE", help="CSV with a column `name` and, if you like, `code`"
     )
     of_class.add_argument("--seed", metavar="TEXT", help="text that determines the variants; kept for later runs")
     of_class.add_argument("--reseed", action="store_true", help="replace a class that was made with another seed")
@@ -134,7 +134,7 @@ def _grade(grade: argparse.ArgumentParser) -> None:
     grade.add_argument("--roster", metavar="FILE", help="the roster of a class that was made on another machine")
     grade.add_argument("--seed", metavar="TEXT", help="with --roster, the seed of this class")
     grade.add_argument("-o", "--output", dest="output", metavar="FILE", help="file to write; - is standard output")
-    grade.add_argument("--format", choices=("text", "json", "csv"), help="(default text; csv into a file)")
+    grade.add_argument("--format", choices=("text", "json", "csv"), help="(default text, or csv if -o names a file)")
     _time_limit(grade)
     grade.add_argument("-j", dest="jobs", type=_count, default=0, metavar="N", help="problems at once")
     grade.add_argument("-q", "--quiet", action="store_true", help="show only errors and warnings")
@@ -171,7 +171,7 @@ def _solve(solve: argparse.ArgumentParser) -> None:
     typed = sorted([*formats(), *TYPESET])
     solve.add_argument("--format", choices=typed, default="text", metavar="F", help=", ".join(typed))
     solve.add_argument("-o", dest="output", metavar="FILE", help="file to write; - is standard output")
-    solve.add_argument("--width", metavar="LENGTH", type=_width, help="of the text around a fragment, such as 10.8cm")
+    solve.add_argument("--width", metavar="LENGTH", type=_width, help="text width for a fragment, such as 10.8cm")
     _detail(solve)
     _evidence(solve)
     _engine(solve)
@@ -180,7 +180,7 @@ def _solve(solve: argparse.ArgumentParser) -> None:
 
 def _explain(explain: argparse.ArgumentParser) -> None:
     named(explain.add_argument("id", metavar="ID", help="such as hw9/block"), "ids")
-    key = explain.add_argument("key", nargs="?", metavar="STEP", help="the key of a step (default: list them)")
+    key = explain.add_argument("key", nargs="?", metavar="STEP", help="the key of a step (default: list all steps)")
     named(key, "steps")
     _text_or_json(explain)
     _time_limit(explain)
@@ -308,7 +308,7 @@ def _count(text: str) -> int:
 def _documents(text: str) -> tuple[str, ...]:
     documents = tuple(text.split(","))
     if odd := [kind for kind in documents if kind not in DOCUMENTS]:
-        message = f"`{odd[0]}` is not a document: name some of {', '.join(DOCUMENTS)}, with commas between them"
+        message = f"`{odd[0]}` is not a document: choose from {', '.join(DOCUMENTS)}, and put commas between several"
         raise argparse.ArgumentTypeError(message)
     return documents
 

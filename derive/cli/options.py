@@ -10,7 +10,7 @@ import sys
 from collections.abc import Container, Sequence
 from typing import NoReturn
 
-# Each command with its purpose, its operands, and an example of them.
+# Each command with its purpose, its operands, and an example of operands and options.
 _COMMANDS = {
     "init": ("begin a course in a new folder", "FOLDER", "mycourse --title Mechanics"),
     "new": ("begin a problem that you can build at once", "SET/PROBLEM", "hw10/wheel --like library/rod_pendulum"),
@@ -97,7 +97,7 @@ def parser_of_commands(words: Container[str] | None = None) -> argparse.Argument
     """Return the parser of all commands; if `words` are given, commands that are not among them get no options."""
     parser = _Parser(
         prog="derive",
-        usage="%(prog)s [--root FOLDER] COMMAND ...   (derive COMMAND --help explains one)",
+        usage="%(prog)s [--root FOLDER] COMMAND ...   (derive COMMAND --help explains it)",
         description="Worked solutions of mechanics problems: derived, checked line by line, typeset.",
         epilog=_AFTERWARDS,
         formatter_class=_Screen,

@@ -73,7 +73,7 @@ def problem_id_of(text: str) -> str:
 def new_id_of(text: str) -> str:
     """Return the id of a new problem from the id or path that the user wrote.
 
-    The path of a file or a folder that exists may begin anywhere; any other path begins with `problems/`.
+    A file or a folder that exists may be named by any path to it. Any other path begins with `problems/`.
     """
     with suppress(OSError, ValueError, RuntimeError):  # it is not the path of a file in the folder `problems`
         file, root = Path(text).expanduser(), found_root(None)

@@ -1,7 +1,7 @@
-"""Values under construction: the data of each part of an expression, and the checks when parts are combined.
+"""The parts of an expression while it is read, each with its value and dimension, and the operations that combine them.
 
-The readers of plain expressions and of LaTeX build their values here. The terms of a sum must have the same dimension.
-A divisor that is known to be zero is rejected, and so is a value that would be too large, before it is computed.
+The readers of plain expressions and of LaTeX use these operations. The terms of a sum must have the same dimension. A
+divisor that is known to be zero is rejected. A value that would be too large is rejected before it is computed.
 """
 
 from __future__ import annotations
@@ -29,8 +29,7 @@ MAX_EXP_ARGUMENT = 100
 
 @dataclass(frozen=True)
 class Declared:
-    """A letter that is declared, that replaces a number, or that a description introduces: its symbol, kind and
-    range."""
+    """A letter, with its symbol, its kind of quantity and its range."""
 
     name: str
     symbol: Symbol
@@ -47,7 +46,7 @@ class Term:
     """A value under construction: its expression, its dimension, and its place in the text.
 
     start, end   the places in the text where the value begins and ends
-    size         a bound for the digits and degrees of the value
+    size         an estimate of the degree of the value and of the number of its binary digits
     terms        a bound for the number of terms of the value after multiplying out
     kind         the kind of the value, if it is a single declared letter
     """
@@ -128,7 +127,8 @@ class Arithmetic:
                 "dimension" if exponent.dimension != NUMBER else "expression", message, exponent.start, exponent.end
             )
         if abs(number) > MAX_EXPONENT or number.q > MAX_EXPONENT:
-            message = f"the exponent is too large: {MAX_EXPONENT} is the largest exponent and the largest denominator"
+            message = f"an exponent must be from -{MAX_EXPONENT} to {MAX_EXPONENT}"
+            message += f", with a denominator of at most {MAX_EXPONENT}"
             self.refuse("too-large", message, exponent.start, exponent.end)
         whole = max(1, -(-abs(number.p) // number.q))
         size, terms = base.size * whole, base.terms**whole
@@ -141,8 +141,9 @@ class Arithmetic:
     def _raised_to_letters(self, base: Term, exponent: Term) -> Term:
         """Return a power whose exponent has letters, such as (r/a)**n. The base must be dimensionless and positive."""
         if base.dimension != NUMBER:
-            message = f"`{self.shown(base)}` is {base.is_a}, but `{self.shown(exponent)}` needs a dimensionless base"
-            self.refuse("dimension", f"{message}, such as `(r/a)**n`", base.start, exponent.end)
+            message = f"`{self.shown(base)}` is {base.is_a}, but the exponent `{self.shown(exponent)}`"
+            message += " needs a dimensionless base, such as `(r/a)**n`"
+            self.refuse("dimension", message, base.start, exponent.end)
         if not base.expr.is_positive:
             message = f"the base `{self.shown(base)}` of the exponent `{self.shown(exponent)}`"
             self.refuse("expression", f"{message} is not known to be positive", base.start, base.end)

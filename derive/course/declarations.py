@@ -1,4 +1,4 @@
-"""The letters that a file declares, each with its kind and, if one is stated, its range."""
+"""The letters that a file declares, each with its kind and with the range that the file states for it."""
 
 from __future__ import annotations
 
@@ -37,7 +37,8 @@ def read_range(name: str, node: Scalar, kind: str, signed: bool = False) -> Rang
     if not (greatest - least).is_extended_positive:
         rejected("range", f"nothing lies between {least} and {greatest}", node.place)
     if about_kind(kind).positive and not about_kind(kind).signed and not signed and least.is_negative:
-        rejected("range", f"`{name}` is {kind_with_article(kind)}, which is positive", node.place)
+        message = f"`{name}` is {kind_with_article(kind)}, which is positive, but its range begins below zero"
+        rejected("range", message, node.place)
     return Range(least, greatest, (found[1] == "[", found[4] == "]"), " ".join(node.text.split()))
 
 
@@ -53,7 +54,7 @@ def _end(name: str, node: Scalar, kind: str) -> Expr:
     except Rejected as refusal:
         if refusal.complaints[0].code != "undeclared-symbol":
             raise
-        rejected("range", f"the ends of a range are numbers, but `{text}` has letters", node.place)
+        rejected("range", f"the ends of a range must be numbers, but `{text}` has letters", node.place)
     bare = expr.is_Rational and unit_of_kind(kind) != ""
     if not expr.is_zero and (bare or dimension != dimension_of_kind(kind)):
         wanted.refuse("missing-unit", f"`{node.text.strip()}` needs a unit: {wanted.must_be_it}", node.place)
@@ -81,8 +82,8 @@ def check_name(word: Word, faults: Faults) -> None:
 
 
 def range_of_sort(name: str, sort: SortOfLetter, faults: Faults) -> Range | None:
-    """Return the range that a declaration states. Return None if it states no range, if its range has an error, or if
-    it only states that the quantity is positive and its kind is always positive.
+    """Return the range that a declaration states. Return None if the declaration states no range, if the range has an
+    error, or if the declaration states only that the quantity is positive, and its kind already implies this.
     """
     with faults:
         if sort.ends:

@@ -55,7 +55,7 @@ def _defined(
     constant = {each: letter for each, letter in known.items() if each not in moving}
     value, dimension = read_expression(formula.scalar, constant)
     if not value.free_symbols:
-        message = f"`{name}` would be the number {value}, so it replaces no letters"
-        rejected("wrong-argument", message, formula.place, "define it by letters, as in `omega_0: sqrt(k/m)`")
+        message = f"`{name}` would be the number {value}, but the value of its formula must contain letters"
+        rejected("wrong-argument", message, formula.place, "such as `omega_0: sqrt(k/m)`")
     symbol = Symbol(name, real=True, positive=True) if is_positive(value) else Symbol(name, real=True)
     return Defined(name, symbol, "number", formula=value, of_dimension=dimension)

@@ -99,7 +99,8 @@ def number_with_unit(scalar: Scalar, wanted: Wanted, symbols: Mapping[str, Decla
         wanted.refuse("wrong-kind", f"{wanted.must_be_it}, but `{text}` is {is_a}", scalar.place, help_line)
     if wanted.kind == "angular speed" and "Hz" in unit.names:
         help_line = f"write `{text.replace('Hz', 'rev/s')}` for turns"
-        wanted.refuse("ambiguous-unit", f"`{text}` could be turns or radians", scalar.place, help_line)
+        message = f"`{text}` could mean turns per second or radians per second"
+        wanted.refuse("ambiguous-unit", message, scalar.place, help_line)
     if misfit(unit, wanted.kind, unit.dimension):
         is_a = f"{kind_with_article(wanted.kind)}, which is not measured in `{unit.text}`"
         wanted.refuse("wrong-unit", f"{wanted.must} {is_a}", scalar.place)

@@ -16,7 +16,7 @@ KEY, HINTS, RUBRIC = MORE = ("key", "hints", "rubric")
 DOCUMENTS = (*OF_EVERY_SET, *MORE)
 ON_A_PAGE = (SHEET, *MORE)  # each of these documents is also built as a single page for a browser
 LOGO = "logo.png"  # the name of the logo in the folder where TeX runs
-INDEX = "index"  # the page of a set for a browser
+INDEX = "index"  # the name of the page that shows a set in a browser
 # Folders of a set's outputs: the files that students may see, and the documents of a class for the instructor.
 STUDENTS, CLASS = "students", "class"
 
@@ -60,5 +60,6 @@ class EvidenceShown(StrEnum):
 
     NONE = "none"  # nothing
     END = "end"  # at the end of the solution, a note that counts the checks
-    # the note and, next to each display of formulas, its grade and, if there is room, a second route or a check
+    # this note and, next to each display of formulas, its grade of evidence; also a second route or a check, if there
+    # is room
     MARGIN = "margin"

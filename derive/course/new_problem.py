@@ -31,7 +31,7 @@ def begun(
 
     Raise `Misused` if the name is taken or not allowed, or if the pattern or problem `like` does not exist.
 
-    template      a function that returns the file of a template; the folder `new` has the patterns
+    template      a function that returns the file of a template; the templates in the folder `new` are the patterns
     schemas       the folder of the schemas for editors
     like          a pattern by its name, or the id of a problem
     pattern_root  the folder of the course that has the problem `like`
@@ -62,7 +62,7 @@ def _for_editors(folder: Path, schema: Path) -> str:
 
 
 def _new_set(root: Path, set_id: str, name: str) -> str:
-    """Return the text of the file of a new set; the course is left out if `course.yaml` states it."""
+    """Return the text of the file of a new set; the key `course` is left out if `course.yaml` has it."""
     shared = mapping_in(root, COURSE, "a course") if (root / COURSE).is_file() else None
     course = "" if shared and shared.get("course") else "course: Mechanics\n"
     return f"{course}{NEW_SET.format(set_id)}  - {name}\n"

@@ -1,8 +1,8 @@
 """A figure that the author supplies: the key `figure:` of a problem names a PDF, SVG or PNG file next to the problem.
 
 Another program made the file, so its place, size and format are checked. The private data of drawing programs are
-removed from an SVG. An SVG is rejected if it has a script, a reference to another file, or an element that is not a
-shape, text, a style or an embedded picture.
+removed from an SVG. An SVG is rejected if it has a script, a reference to another file, or an element that a plain
+drawing does not need.
 """
 
 from __future__ import annotations
@@ -65,7 +65,7 @@ def read_figure(
     """Return the figure of a problem; None without the key `figure:` or after an error in its keys. The path in
     `written` is relative to the folder of the file `problem`.
 
-    After an error of the file, the figure is empty, so that prose may still mention it.
+    If the file is rejected, an empty figure is returned, so that prose may still mention it.
     """
     if written is None or written.file is None or written.alt is None:  # a missing key is already reported
         return None
@@ -132,8 +132,8 @@ def _pixels(png: bytes) -> int:
 
 
 def shapes_of(content: bytes) -> tuple[bytes, str]:
-    """Return an SVG without the private data of drawing programs, and ""; or no content, and why the SVG is
-    rejected."""
+    """Return an SVG without the private data of drawing programs, and the reason why it is rejected. If it is accepted,
+    the reason is empty; otherwise the SVG is empty."""
     try:
         text = _DOCTYPE.sub("", content.decode("utf-8-sig"))
         if "<!DOCTYPE" in text or "<!ENTITY" in text:
@@ -152,7 +152,8 @@ def shapes_of(content: bytes) -> tuple[bytes, str]:
 
 
 def _unwanted(tree: ElementTree.Element) -> str:
-    """Remove the private data of drawing programs from an SVG; return what else is not allowed in it, or ""."""
+    """Remove the private data of drawing programs from an SVG. Stop at the first content that is not allowed, and
+    return an error message about it; return "" if everything else is allowed."""
     for element in tree.iter():
         for child in list(element):
             space, _, name = child.tag[1:].rpartition("}")

@@ -51,22 +51,22 @@ class Range:
 class Placement:
     """The settings of one drawing; derive chooses the settings that are left out.
 
-        view      the azimuth and the elevation of the direction from which a drawing in space is seen, in degrees
-        like      the name of the drawing whose contents this drawing repeats
-        marks     the marks that the problem adds to the drawing
-        without   the labels of marks that the drawing leaves out
-        plot      the plotted answer, or the two answers or formulas of a path
-        curves    several answers that are plotted together
-        labels    the names of the axes of a path, in place of its formulas
-        surfaces  the names of the surfaces that are drawn with a path
-        then      the value that curves keep after the range
-        up        the ends of the vertical axis of curves
-        energies  the energies that are drawn as lines in the plot of a potential energy
-        per       the quantities by which the axes of a plot are divided
-        panels    whether curves are together in one panel or apart
-    levels, over   for a phase portrait: the value on each curve, and the ranges of the two axes; for a bifurcation
-                   diagram, `over` has the range of the vertical axis
-        letters   the letters that formulas of a plot may contain, by name
+    view      the azimuth and the elevation of the direction from which a drawing in space is seen, in degrees
+    like      the name of the drawing whose contents this drawing repeats
+    marks     the marks that the problem adds to the drawing
+    without   the labels of marks that the drawing leaves out
+    plot      the plotted answer, or the two answers or formulas of a path
+    curves    several answers that are plotted together
+    labels    the names of the axes of a path, in place of its formulas
+    surfaces  the names of the surfaces that are drawn with a path
+    then      the value that curves keep after the range
+    up        the ends of the vertical axis of curves
+    energies  the energies that are drawn as lines in the plot of a potential energy
+    per       the quantities by which the axes of a plot are divided
+    panels    whether curves are together in one panel or apart
+    levels    the values of the answer on the curves of a phase portrait
+    over      the ranges of the two axes of a phase portrait, or of the vertical axis of a bifurcation diagram
+    letters   the letters that formulas of a plot may contain, by name
     """
 
     key: str
@@ -199,7 +199,7 @@ def width_of(node: Tree | None, faults: Faults) -> float | None:
 def _values(
     written: Table[Word, Tree], symbols: Table[str, Declared], faults: Faults
 ) -> tuple[tuple[Symbol, Expr], ...]:
-    """Read the numbers for letters, or their proportions such as `h: 2*R`."""
+    """Read the values of letters in a drawing: numbers, or expressions in other letters such as `h: 2*R`."""
     found: list[tuple[Symbol, Expr]] = []
     for name, value in written.items():
         # A coordinate of the script is not declared.

@@ -79,7 +79,7 @@ class Problem:
     reference: str = ""
     variations: tuple[Variation, ...] = ()
     is_variant: bool = False
-    in_prose: tuple[Given, ...] = ()  # values of a description that prose mentions by their paths
+    in_prose: tuple[Given, ...] = ()  # values of a description that prose mentions, as in `<<body.sides>>`
     figure: OwnFigure | None = None
     units: tuple[Word, ...] = ()  # the units of answers that the set prefers
     warnings: tuple[Complaint, ...] = field(default=(), repr=False, compare=False)
@@ -195,7 +195,7 @@ def problem_and_faults(root: Path, problem_id: str, chosen: Chosen | None = None
         faults.stop()  # givens with a letter of unknown kind cannot be read
     pinned = pinned_by(written.symbols, written.values, written.given, written.places, script, faults)
     pinned = _by_method(pinned, written, script, faults)
-    brought_in = pinned.described.letters if pinned.described else {}  # coordinates have their own kinds
+    brought_in = pinned.described.letters if pinned.described else {}
     moving = pinned.described.letters if pinned.described else {}
     defined = read_defined(written.define.formulas, pinned.symbols, moving, faults)
     drawings = placements(written.drawings, {**brought_in, **pinned.symbols}, len(written.parts), of_drawings)
@@ -422,7 +422,7 @@ def solving(problem: Problem, record: Run) -> Iterator[None]:
     defined = {each.name: problem.places.get(f"define.{each.name}") for each in problem.defined}
     record.defined_at = {name: place for name, place in defined.items() if place}
     record.letters = _letters_of(problem)
-    seed(1)  # SymPy chooses points at random when it factors; the same points give the same page in the same time
+    seed(1)  # SymPy chooses random points when it factors; with the same points, page and running time are the same
     with deriving(problem, record):
         for declared in problem.letters:
             _assume_range(declared)
@@ -510,7 +510,8 @@ def pinned_by(
         moving |= dict.fromkeys(_names_under(given, "functions") - {*symbols}, "a function of the time")
     for name in [name for name in moving if name in numbers]:
         place = next(word.place for word in numbers if word == name)
-        faults.error("changes", f"`{name}` is {moving[name]}, which has no value", place, help="leave it out here")
+        message = f"`{name}` is {moving[name]}, so it cannot have a number"
+        faults.error("changes", message, place, help="leave it out here")
     values = read_numbers({name: node for name, node in numbers.items() if name not in moving}, symbols, faults)
     if script is None:
         return Pinned(symbols, (), values)

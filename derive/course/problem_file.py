@@ -75,7 +75,7 @@ def sort_of_letter(node: Tree, name: str, faults: Faults, kinds: Iterable[str] =
     known = kind in kinds
     if not known:
         help_line = did_you_mean(kind, kinds) or f"the kinds are {', '.join(kinds)}"
-        message = f"the kind of `{name}` must be one that is known, but it is {shape_of(node)}"
+        message = f"the kind of `{name}` must be a known kind, but it is {shape_of(node)}"
         faults.error("unknown-kind", message, node.place, help=help_line)
     sort = SortOfLetter(kind if known else next(iter(kinds)))
     sort.known, sort.positive = known, positive == POSITIVE
@@ -85,7 +85,7 @@ def sort_of_letter(node: Tree, name: str, faults: Faults, kinds: Iterable[str] =
 
 
 def schema_of_sorts(kinds: Iterable[str]) -> dict[str, Any]:
-    """Return the JSON schema of what may be declared for a letter."""
+    """Return the JSON schema of the declaration of a letter."""
     plain = list(kinds)
     pattern = rf"^({POSITIVE} )?({'|'.join(plain)}) in [\[(].+,.+[\])]$"
     return {
@@ -206,10 +206,10 @@ class MarkKeys(Record):
 
     mark: str | None = key(
         "what is drawn: a `point`, a solid `line`, a `dashed` line, a dimension line for a `length`, the `arrow` of a "
-        "vector, the arc of an `angle`, the curved arrow of a `turn`, a dashed `circle`, "
-        "the dashed `cone` that a drawn vector describes, or a solid `curve`. For one `body`, also: the `masses` of "
-        "its parts, its `centre_of_mass`, its `principal_axes`, the `direction` of the axis of `moment_about`, or the "
-        "`element` of its integrals",
+        "vector, the arc of an `angle`, the curved arrow of a `turn`, a dashed `circle`, the dashed `cone` that a "
+        "drawn vector describes, or a solid `curve`. With `solve: body`, also: the `masses` of its parts, its "
+        "`centre_of_mass`, its `principal_axes`, the `direction` of the axis of `moment_about`, or the `element` of "
+        "its integrals",
         one_of(MARKS),
         required=True,
     )
@@ -275,7 +275,7 @@ class DrawingKeys(Record):
         as_written(TEXT.schema, "statement, the letter of a part, a step, or hidden"),
     )
     caption: Prose | None = key("what the drawing shows, in prose", PROSE_OR_NOTHING)
-    width: Tree | None = key("width without labels, such as `5 cm`", as_written(TEXT.schema, "a length"))
+    width: Tree | None = key("the width, not counting the labels: `5 cm`", as_written(TEXT.schema, "a length"))
     like: Word | None = key(
         "if `solve` is `system`, `body` or `rotation`: the name of the drawing whose contents this further drawing "
         "repeats, with marks or values of its own",
@@ -289,7 +289,7 @@ class DrawingKeys(Record):
     )
     without: tuple[Word, ...] = key(
         "if `solve` is `system`, `body` or `rotation`: letters such as `[x, y]`; the drawing leaves out the marks that "
-        "have them as labels, such as dimension lines in a figure of forces",
+        "have them as labels, such as dimension lines in a force diagram",
         list_of(TEXT, "a list of letters such as `[x, y]`", each="a letter"),
     )
     view: tuple[float, float] | None = key(
@@ -299,7 +299,7 @@ class DrawingKeys(Record):
         VIEW,
     )
     values: dict[Word, Tree] = key(
-        "numbers or proportions to draw with: `h: 2*R`, `theta: 40 deg`", mapping_of(SCALAR, _NUMBERS)
+        "letters and their values in the drawing: `h: 2*R`, `theta: 40 deg`", mapping_of(SCALAR, _NUMBERS)
     )
     plot: tuple[Formula, ...] | None = key(
         "if `solve` is `system`, `body` or `rotation`: the answer whose curve is drawn, such as `potential_energy`; or "
@@ -327,7 +327,7 @@ class DrawingKeys(Record):
     )
     levels: tuple[Formula, ...] = key(
         "for a phase portrait: the values of the answer on its curves, such as `[-5 J, m*g*l]`; the curve of a value "
-        "in letters is thick",
+        "with letters is thick",
         list_of(FORMULA, "a list of values such as `[-5 J, m*g*l]`"),
     )
     over: dict[Word, tuple[Formula, ...]] = key(

@@ -39,7 +39,7 @@ THOSE_OF_EVERY_SET = tuple((kind, kind) for kind in OF_EVERY_SET)
 
 @dataclass(frozen=True)
 class ProblemSet:
-    """The heading of a set, and the ids of its problems (`hw9/block`) in order."""
+    """What a set and its course state: the heading, the ids of the problems (`hw9/block`) in order, and settings."""
 
     id: str
     course: str
@@ -130,7 +130,7 @@ class CourseKeys(Record):
     font_size: str | None = key(
         "the size of the text in PDFs, by default `11 pt`, and `10 pt` at the detail `brief`", one_of(tuple(FontSize))
     )
-    detail: str | None = key("how much algebra pages show where `--detail` states nothing", one_of(tuple(Level)))
+    detail: str | None = key("how much algebra pages show if `--detail` is not given", one_of(tuple(Level)))
     form: AnswerForm | None = key(
         "units and significant figures of the answers whose part states none: `{unit: [degree, cm], figures: 3}`; each "
         "answer uses the first unit that fits",
@@ -234,8 +234,8 @@ def known_set(root: Path, set_id: str) -> str:
 
 
 def problem_set(root: Path, set_id: str) -> ProblemSet:
-    """Return the set. Raise `Misused` if it does not exist; if its file has errors, raise one `Rejected` with all of
-    them."""
+    """Return the set. Raise `Misused` if it does not exist. If its file or the file of the course has errors, raise one
+    `Rejected` with all of them."""
     path = f"problems/{known_set(root, set_id)}/set.yaml"
     faults = Faults()
     of_course = _course(root, faults)
@@ -304,7 +304,8 @@ def logo_of_set(root: Path, set_id: str) -> str | None:
 
 
 def _shared(root: Path, set_id: str, *names: str) -> dict[str, Any]:
-    """Read these keys of the set or, if the set does not have them, of the course. Other keys are not read."""
+    """Read the keys with these names from the set or, if the set does not have them, from the course. Other keys are
+    not read."""
     faults, keys = Faults(), keys_of(CourseKeys)
     found: dict[str, Any] = {}
     for path in (COURSE, f"problems/{set_id}/set.yaml"):

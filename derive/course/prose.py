@@ -1,10 +1,10 @@
 r"""Prose as an instructor writes it: plain text with mentions and formulas.
 
 - `<<name>>` is a symbol, a given value or a derived result.
-- `<<body.sides>>` is a value inside another value.
+- `<<body.sides>>` is the value at this path of `given:`.
 - `<<eq torque>>` is the equation number of the step `torque`.
 - `<<figure axes>>` is the number of the drawing `axes`.
-- `<<problem top>>` is the number of another problem of the set.
+- `<<problem top>>` is the word "Problem" with the number of another problem of the set.
 - `$y = x^2/(2b)$` is a formula in LaTeX; between double dollar signs, a formula has a line of its own.
 - `\$` is a dollar sign.
 
@@ -41,7 +41,7 @@ _PRICE = re.compile(r"\d\s?\$|\$\s?\d", re.ASCII)
 _LATEX = re.compile(r"\\[A-Za-z]+(?:\{\w*\})*|\\[(\[]|\w(?P<power>\^)[\w{(+-]+|\b[A-Za-z](?P<below>_)[\w{]+", re.ASCII)
 _LETTER = re.compile(r"\\?((?<=\\)[A-Za-z]+|[A-Za-z])\}?(?:_(\{[^{}]*\}|\\?\w))?", re.ASCII)
 _HOW = "write one name, as `<<mass>>`, `<<eq torque>>`, `<<figure axes>>` or `<<problem top>>`"
-_DOLLAR = "a formula is between two dollar signs, `$x^2$`; write `\\$` for a dollar sign"
+_DOLLAR = "write a formula between two dollar signs, `$x^2$`; write `\\$` for a dollar sign"
 
 
 @dataclass(frozen=True)
@@ -166,7 +166,9 @@ def _check_formula(formula: TexFormula, style: str, faults: Faults) -> None:
     if inner.empty:
         faults.error("formula-in-prose", "there is no formula between these dollar signs", inner.place, help=_DOLLAR)
     elif len(inner.text) > LONGEST_IN_PROSE:
-        message = f"this formula has {len(inner.text)} characters; a formula in prose has {LONGEST_IN_PROSE} at most"
+        message = (
+            f"this formula has {len(inner.text)} characters; a formula in prose may have at most {LONGEST_IN_PROSE}"
+        )
         faults.error("too-large", message, inner.place_within(0), help="give the formula under a name in `given:`")
     elif (at := inner.text.find("<<")) >= 0:
         help_line = "write the letter itself, or end the formula before the mention"
@@ -184,9 +186,9 @@ def _check_dollars(node: Scalar, faults: Faults) -> None:
     prices = {i for found in _PRICE.finditer(rest) for i in range(*found.span())}
     lone = next((found.start() for found in re.finditer(r"\$", rest) if found.start() not in prices), None)
     if lone is not None:
-        message = "this `$` begins no formula and belongs to no price"
+        message = "this `$` belongs neither to a formula nor to a price"
         if node.text[lone : lone + 2] == "$$":
-            message = "this `$$` begins no formula"
+            message = "this `$$` does not begin a formula"
         faults.error("formula-in-prose", message, node.place_within(lone), help=_DOLLAR)
 
 

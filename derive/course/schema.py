@@ -52,7 +52,7 @@ def key(meaning: str, reader: Reader[Any], *, required: bool = False, called: st
     """Declare a field of a record; the field is read from a key of a file.
 
     called       the name of the key in the file, if it differs from the name of the field
-    instead_of   another name that people write, such as a former name: an error for it says to write this key
+    instead_of   another name that authors may write, such as a former name; the error then names this key
     """
     own = Key(meaning, reader, required, instead_of)
     return field(default_factory=reader.absent, metadata={"called": called, "key": own})
@@ -136,13 +136,13 @@ def _line(node: Tree, name: str, faults: Faults) -> Word | None:
 
 
 def refuse_comment(node: Scalar, faults: Faults) -> None:
-    """Report a text that YAML ends before a `#` that is a part of it: `Homework #3`, `Homework # 3`.
+    """Report a text that YAML cuts off before a `#`: `Homework #3`, `Homework # 3`.
 
     A space and a word after the `#` show that the author meant a comment."""
     comment = re.match(r"[ \t]+#(?=[^\s#]|[ \t]+\d)", node.source.text[node.end :])
     if comment and node.style == "" and not node.empty:
         place = node.source.place(node.end + comment.end() - 1)
-        help_line = "put the whole text in quotes, or, in a comment, a space after the `#`"
+        help_line = "put the whole text in quotes; in a comment, a space and a word follow the `#`"
         faults.error("comment-in-text", "`#` begins a comment, so the text ends before it", place, help=help_line)
 
 

@@ -58,7 +58,8 @@ class Described:
     """The description of a system, body or rotation in a problem.
 
     letters   the symbols that the description introduces, such as coordinates
-    chosen    the symbols that replace numbers; `measured` are these numbers
+    chosen    the symbols that replace numbers
+    measured  the numbers of these symbols
     told      given values other than symbols, which prose can mention by their keys
     several   the names of the bodies if there are several
     results   quantities computed from answers

@@ -1,4 +1,4 @@
-"""Entries of a problem's file without effect: declared letters, coordinates, results and keys that nothing uses."""
+"""Finds entries of a problem's file that have no effect: letters, coordinates, results and keys that nothing uses."""
 
 from __future__ import annotations
 

@@ -5,7 +5,7 @@
       theta: [30 deg, 45 deg, 60 deg]
       axis: [diagonal, x, y]                 a given direction, so the derivation differs, too
 
-A choice replaces the value in the file before the keys of the file are read, so a variant is read and derived as any
+A choice replaces the value in the file before the keys of the file are read, so a variant is read and derived like any
 other problem. The choice for a student does not depend on other problems or variations.
 """
 
@@ -109,7 +109,7 @@ def _choices(node: Tree, name: str, faults: Faults) -> tuple[Tree, ...]:
         return ()
     count = int((last - first) / step) + 1
     if not 1 < count <= MOST:
-        faults.error("variants", f"a range has 2 to {MOST} values, but this one has {count}", node.place)
+        faults.error("variants", f"a range must have 2 to {MOST} values, but this one has {count}", node.place)
         return ()
     if (end := first + (count - 1) * step) != last:
         unit = f" {found[3]}" if found[3] else ""

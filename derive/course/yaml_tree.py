@@ -1,7 +1,7 @@
 """YAML with places: every node has its place in the file, and several errors of a file are reported together.
 
 YAML is read as data: no anchors, no tags, no merge keys, one document. The pure Python parser is used by default,
-because its messages show the wrong character; a caller that reads many files can choose libyaml, which is faster.
+because its messages name the unexpected character; a caller that reads many files can choose libyaml, which is faster.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ _LINE_END = re.compile(r"\r\n|\r|\n")
 _RANGE = re.compile(r"(\w+:[ ]+)([^][(){},:'\"\n]* in [\[(][^,\n]{1,40},[^])}\n]{1,40}[])])")
 _SPACE = re.compile(r"\s*")
 _JOINED_LINES = re.compile(r"(?:\s|\\[\r\n])*")
-# characters that look like a space or like nothing, as in text that was copied from a page for a browser
+# characters that look like a space or are invisible, as in text that was copied from a web page
 _BLANK = "[\u00a0\u2000-\u200d\u202f\u205f\u2060\u3000\ufeff]"
 _BLANK_IN_KEY = re.compile(_BLANK)
 _BLANK_IN_LINE = re.compile(rf"(?:^ *|[-:,{{\[] *)({_BLANK})", re.MULTILINE)
@@ -399,7 +399,7 @@ class _Reader:
         return Mapping(tuple(pairs.values()), self.source.place(opening.start_mark.index))
 
     def refuse_cleverness(self, event: Any) -> None:
-        """Reject aliases, anchors and tags, because often something else was meant."""
+        """Reject aliases, anchors and tags, because authors often write them by mistake."""
         if isinstance(event, yaml.AliasEvent):
             help_line = "quote an expression that begins with `*`"
             self.refuse("alias", f"`*{event.anchor}` is a YAML alias", event, len(str(event.anchor)) + 1, help_line)
@@ -442,7 +442,7 @@ def _cut_at_comma(before: Tree, key: Scalar, value: Tree) -> Scalar | None:
 
 def decimal_comma(text: str, place: Place) -> Complaint:
     point = re.sub(r"(?<=\d),(?=\d)", ".", text.strip())
-    help_line = f"write `{point}`: a number in a file has a point, also if pages print a comma"
+    help_line = f"write `{point}`: a number in a file needs a decimal point, even if pages print a comma"
     return Complaint("decimal-comma", f"`{text.strip()}` has a comma in it", place, help=help_line)
 
 

@@ -1,4 +1,4 @@
-"""Reads worked documents of other authors: their formulas, the statements in these, and the words around them.
+"""Reads worked documents of other authors: the formulas, the statements in the formulas, and the words around them.
 
     source      the text of a document, and for each character of the tidied text its place in the file
     tokens      the tokens of a formula, with their places and the macros that they came from

@@ -17,7 +17,7 @@ GREEK_INDICES = frozenset({"mu", "nu", "rho", "sigma", "lambda", "kappa", "alpha
 
 @dataclass(frozen=True)
 class Choice:
-    """The alternative of an `Open` node that is read, by its index, and the rule that selects it.
+    """The choice of one alternative of an `Open` node: its `index`, and the `rule` that selects it.
 
     sure   whether the other alternatives need not be tried
     """
@@ -179,7 +179,7 @@ def _slash(node: Open, facts: Facts) -> tuple[int, str, bool]:
     bottom = near.factors[0][1].bottom if isinstance(near, Mul) and hasattr(near.factors[0][1], "bottom") else None
     if isinstance(top, Num) and isinstance(bottom, Num):
         return 0, "a fraction of numbers", False
-    return 1, "a denominator of several letters", False
+    return 1, "a denominator of several factors", False
 
 
 RULES = {

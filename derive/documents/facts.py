@@ -44,7 +44,7 @@ class Facts:
     functions: defaultdict[Identity, Counter[Identity]] = field(default_factory=lambda: defaultdict(Counter))
     products: Counter[Identity] = field(default_factory=Counter)  # letters before a bracket that is a factor
     timed: set[tuple[str, str, frozenset[str], str]] = field(default_factory=set)
-    tensors: set[Identity] = field(default_factory=set)  # bold letters before a vector, without a dot or a cross
+    tensors: set[Identity] = field(default_factory=set)  # bold I, J or Theta before a vector, without a dot or a cross
     marked: set[Identity] = field(default_factory=set)  # letters that an arrow or bold type marks as vectors
     shapes: dict[tuple[int, Identity], tuple[int, int]] = field(default_factory=dict)  # scope and letter -> its shape
     whole_arguments: Counter[Identity] = field(default_factory=Counter)
@@ -116,10 +116,11 @@ class Facts:
         return letter.identity in self.tensors if shape is None else shape[1] > 1
 
     def entries(self, letter: Letter) -> list[list[str]] | None:
-        """Return the indices of the entries of an inertia tensor, such as `xx`, with which the document writes them.
+        """Return the indices with which the document writes the entries of an inertia tensor, such as `xx`.
 
-        An entry that the document never writes is empty: it is zero, or `yy` is equal to `xx`. The result is None if
-        the document writes neither `I_xx` and `I_zz` nor the principal moments `I_1`, `I_2` and `I_3`."""
+        The text of an entry that the document never writes is empty, because the entry is zero; for `yy` it is `xx`,
+        because the two moments are then equal. The result is None unless the document writes both `I_xx` and `I_zz`, or
+        all of `I_1`, `I_2` and `I_3`."""
         written = {sub for base, sub, marks, _, label in self.seen if base == letter.base and not marks and not label}
         if {"xx", "zz"} <= written:
             found = [[a + b if a + b in written else b + a if b + a in written else "" for b in "xyz"] for a in "xyz"]

@@ -1,8 +1,9 @@
 r"""The formulas of a document in their order: headings, sentences, displays with their rows, and their statements.
 
 A display is a block of rows. A row that begins with a relation continues the chain of the row before it. A row that
-begins with a sign after an alignment mark, or that follows an open bracket, continues the last side of the row before
-it. A statement is a chain of sides, such as `a = b = c`; words and commas separate the statements of a row.
+begins with a sign after an alignment mark continues the last side of the row before it. So does a row after an open
+bracket, an operator or a relation. A statement is a chain of sides, such as `a = b = c`; words and commas separate the
+statements of a row.
 """
 
 from __future__ import annotations
@@ -67,7 +68,7 @@ WORDS = {"text", "textrm", "mbox", "textnormal", "intertext", "shortintertext", 
 
 SIGNS_OF_NOTES = ("dagger", "ddagger", "star", "ast", "square", "checkmark", "blacksquare")
 MOST_FORMULAS = 20_000
-NEAR = 400  # characters of the text before a formula that may explain it
+NEAR = 400  # number of characters before a formula that are kept as its context
 LONGEST_INLINE = 2_000  # the greatest number of characters of a formula in a sentence
 
 
@@ -420,7 +421,7 @@ class _Reading:
 
 
 def _is_mark_in_text(tokens: list[Token]) -> bool:
-    """Whether a formula only marks a place of the text: degrees after a number, `3_{rd}`, or a sign such as `(*)`."""
+    """Whether a formula is only a part of the text: degrees after a number, `3_{rd}`, or a sign such as `(*)`."""
     if tokens[0].kind is Kind.SCRIPT:
         return True
     if all(each.is_mark("(", ")", "*") or each.is_command(*SIGNS_OF_NOTES) for each in tokens):
@@ -449,7 +450,7 @@ def _without_definitions(tokens: list[Token]) -> list[Token]:
 def _simplified(tokens: list[Token]) -> list[Token]:
     r"""Leave out frames around equations and lines between rows, and write words and relations in one form.
 
-    `\qq{so}` and `\qthus` of the package physics become `\text{so}`, `\stackrel{(1)}{=}` becomes `=`.
+    `\qq{so}` of the package physics becomes `\text{so}`, and `\stackrel{(1)}{=}` becomes `=`.
     """
     found: list[Token] = []
     at = 0
@@ -530,7 +531,7 @@ def _has_double_bars(tokens: list[Token]) -> bool:
 
 
 def _with_decimal_comma(before: list[Token], rest: list[Token]) -> Token | None:
-    """Return the number `0{,}25`, whose comma is in braces, or None."""
+    """Return `0{,}25`, with its comma in braces, as the number 0.25; None if the tokens are not such a number."""
     if not before or before[-1].kind is not Kind.NUMBER or len(rest) < 3 or "." in before[-1].text:
         return None
     if not (rest[0].is_mark(",") and rest[1].kind is Kind.CLOSE and rest[2].kind is Kind.NUMBER):
@@ -628,7 +629,7 @@ def rows_of(tokens: Sequence[Token]) -> list[tuple[list[list[Token]], str, str]]
     rows: list[tuple[list[list[Token]], str, str]] = []
     cells: list[list[Token]] = [[]]
     tag = label = ""
-    inside = depth = at = 0  # depth in environments that are not split, and in braces
+    inside = depth = at = 0  # `inside` counts open environments that are not split, `depth` counts open braces
     system = False  # whether the rows are the equations of a system behind a brace
     while at < len(tokens):
         token = tokens[at]
@@ -716,7 +717,8 @@ def statements_of(cells: list[list[Token]], row: Row, before: Statement | None) 
                     if not statement.sides:
                         continue
                 else:
-                    if len(previous.sides) > 1 and not previous.sides[-1].tokens:  # repeated after a line break
+                    # a relation at the end of a row is repeated at the beginning of the next row
+                    if len(previous.sides) > 1 and not previous.sides[-1].tokens:
                         del previous.sides[-1], previous.relations[-1]
                     statement.follows = previous
                     statement.sides[0] = previous.sides[-1]

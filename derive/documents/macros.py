@@ -120,7 +120,7 @@ class _Expansion:
                 yield token
                 continue
             if depth > DEEPEST_CALLS:
-                raise TooLarge(f"the macros of this formula call each other more than {DEEPEST_CALLS} deep", token.span)
+                raise TooLarge(f"the macros of this formula are nested deeper than {DEEPEST_CALLS} levels", token.span)
             values, at = _arguments(tokens, at, macro)
             self.count(sum(map(len, values)) * sum(each.kind is Kind.PARAMETER for each in macro.body), token)
             call = Span(token.span.start, max(token.span.end, tokens[at - 1].span.end))
@@ -129,7 +129,7 @@ class _Expansion:
     def count(self, handled: int, token: Token) -> None:
         self.handled += handled
         if self.handled > 10 * MOST_TOKENS:
-            raise TooLarge("the macros of this formula have too long an expansion", token.span)
+            raise TooLarge("this formula is too long after its macros are expanded", token.span)
 
 
 def _arguments(tokens: Sequence[Token], at: int, macro: Macro) -> tuple[list[list[Token]], int]:

@@ -103,11 +103,12 @@ class Meaning:
 
     facts: Facts
     variables: tuple[Symbol, ...] = ()  # the variables of the integrals around a node, the innermost last
-    decimals: list[tuple[Expr, int]] = field(default_factory=list)  # each decimal, with its digits after the point
+    # each decimal, with the number of digits after the point
+    decimals: list[tuple[Expr, int]] = field(default_factory=list)
     units: bool = False
     scope: int = -1
-    # which letters of vectors are read as numbers: "" for none, `unmarked` for letters without an arrow or bold type,
-    # `all`, or `tensors` for all letters of vectors and of tensors
+    # which letters of vectors are read as numbers: "" for none, `unmarked` for those without an arrow or bold type,
+    # `all` for all of them, `tensors` for all of them and for the letters of tensors
     plain: str = ""
     derivatives: dict[Symbol, tuple[Letter, tuple[tuple[Symbol, int], ...], bool]] = field(default_factory=dict)
     symbols: dict[Symbol, Letter] = field(default_factory=dict)
@@ -119,7 +120,7 @@ class Meaning:
     left_out: tuple[Symbol, int] | None = None  # the letter and the order of the terms that are left out: O(x^2)
     # the symbol of a sum that is not written out -> its term, index and range
     sums: dict[Symbol, tuple[Expr, Symbol, str]] = field(default_factory=dict)
-    terms: int = 1  # the number of terms of the sums around the current node
+    terms: int = 1  # the number of terms into which the sums around the current node are written out
 
     def of(self, node: Node) -> Value:
         found = self._of(node)
@@ -221,7 +222,7 @@ class Meaning:
         raise Meaningless(reason, node.span)
 
     def unit(self, node: Text) -> Expr:
-        """Return the size of a unit in the SI."""
+        """Return the size of a unit in SI units."""
         name = node.text.removeprefix("unit ").strip()
         try:
             unit = read_unit({"sec": "s", "RPM": "rpm"}.get(name, name))
@@ -295,7 +296,7 @@ class Meaning:
     def of_pow(self, node: Pow) -> Any:
         base, exponent = self._of(node.base), self._of(node.exponent)
         if isinstance(node.base, Letter) and node.base.base == "e" and not node.base.sub and not node.base.dots:
-            if self.facts.alone[node.base.identity] == 0:  # a letter e that is never alone is Euler's number
+            if self.facts.alone[node.base.identity] == 0:  # e is Euler's number, unless it is a side of a statement
                 base = sympy.E
         if isinstance(exponent, MatrixBase):
             raise Meaningless("an exponent is a vector", node.exponent.span)
@@ -340,7 +341,7 @@ class Meaning:
                 value = value / log(self.scalar(node.base))
         elif node.name in FUNCTIONS:
             if node.name == "factorial" and not (argument.is_Integer and 0 <= argument < 50):
-                raise Meaningless("the factorial of this has no value here", node.span)
+                raise Meaningless("only factorials of whole numbers from 0 to 49 are evaluated", node.span)
             value = FUNCTIONS[node.name](argument)
         else:
             raise Meaningless(f"`{node.name}` is not a function that derive knows", node.span)
@@ -396,7 +397,7 @@ class Meaning:
             one, other = (str(self._of(each)) for each in node.entries)
             return Symbol(f"bracket({one}, {other})", real=True)  # a commutator or a Poisson bracket
         if len(node.entries) not in (2, 3):
-            raise Meaningless("this list is not a vector", node.span)
+            raise Meaningless("only lists of two or three entries are read as vectors", node.span)
         if any(isinstance(each, Condition) for each in node.entries):
             raise Meaningless("these are conditions", node.span)
         return Matrix([self.entry(each) for each in node.entries])
@@ -527,8 +528,9 @@ class Meaning:
         return total
 
     def written_with_prime(self, value: Expr, by: Symbol) -> Symbol | None:
-        """Return the symbol of dy/dx in an expression if `by` is y', because both denote the same derivative; None if
-        `by` has no prime, or if the expression does not contain dy/dx."""
+        """Return the symbol of dy/dx in an expression if `by` is y', because both denote the same derivative.
+
+        The result is None if `by` has no prime, or if the expression does not contain dy/dx."""
         letter = self.symbols.get(by)
         if letter is None or not letter.primes:
             return None
@@ -555,14 +557,14 @@ class Meaning:
                 member = self.symbols.get(symbol)
                 if member is None or symbol == index:
                     raise Meaningless(
-                        "this is the derivative of a sum with respect to a letter of one term", letter.span
+                        "the derivative of a sum with respect to a letter of one term is not computed", letter.span
                     )
                 put_in[symbol] = self.symbol(_replaced(member, sub=member.sub.replace(index.name, letter.sub)))
         return sympy.diff(term.xreplace(put_in), by)
 
     def rate_of(self, symbol: Symbol, by: Symbol, partial: bool) -> Expr:
-        """Return the derivative of a letter by another letter: a rate, a symbol for the derivative, or zero if the
-        first letter is not known to depend on the second."""
+        """Return the derivative of a letter with respect to another letter: a rate, a symbol for the derivative, or
+        zero if the first letter is not known to depend on the second."""
         if symbol in self.sums:
             term, index, bounds = self.sums[symbol]
             if self.has_index(by, index):
@@ -660,8 +662,8 @@ class Meaning:
         return value
 
     def along_variables(self, value: Any, variables: set[Symbol]) -> Any:
-        """Replace letters by their definitions in earlier rows if these contain a variable, such as r = R z/h in an
-        integral over z."""
+        """Replace letters by their definitions in earlier rows if these contain a variable of integration, such as
+        r = R z/h in an integral over z."""
         found = {}
         for symbol in value.free_symbols - variables:
             definition = self.defined(symbol)
@@ -862,7 +864,7 @@ class Meaning:
             (letter := self.symbols.get(each)) is not None and letter.base in ("r", "rho", "s")
             for each in value.free_symbols
         ):
-            raise Meaningless("this is not given by coordinates x, y, z", node.span)
+            raise Meaningless("the operand of nabla must depend on x, y or z, and not on r, rho or s", node.span)
 
         def derivative(entry: Any, axis: Symbol) -> Any:
             return self.differentiated(entry, axis, True)
@@ -879,7 +881,8 @@ class Meaning:
             return ImmutableDenseMatrix([derivative(value, axis) for axis in axes])
         elif node.kind == "squared":
             return Total(*(derivative(derivative(value, axis), axis) for axis in axes))
-        raise Meaningless("the operand of nabla does not fit", node.span)
+        message = "a gradient or a Laplacian needs a scalar, and a divergence or a curl needs a vector"
+        raise Meaningless(message, node.span)
 
     def of_cases(self, node: Cases) -> Any:
         raise Meaningless("a formula with cases has no single value", node.span)

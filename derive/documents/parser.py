@@ -423,7 +423,7 @@ class _Reader:
 
     @staticmethod
     def second(applied: Node) -> Node:
-        """Return the bracket of `maybe_applied`, so that it can be a factor of a product."""
+        """Return the bracket in a node of `maybe_applied`, so that it can be a factor of a product."""
         product = applied.alternatives[1] if isinstance(applied, Open) else applied
         return product.factors[1][1] if isinstance(product, Mul) else product
 
@@ -601,7 +601,7 @@ class _Reader:
     def primed(self, node: Node, count: int, span: Span) -> Node:
         if isinstance(node, Letter):
             return replace(node, primes=node.primes + count, span=node.span.to(span))
-        raise Unreadable("a prime is allowed only at a letter", span)
+        raise Unreadable("a prime is allowed only after a letter", span)
 
     def with_subscript(self, node: Node, value: list[Token], script: Token) -> Node:
         label = self.label(value)
@@ -615,7 +615,7 @@ class _Reader:
             return self.labelled(node, label)
         if isinstance(node, Der | Frac | Fun | Root | Apply | Open):
             return self.labelled(node, label)
-        raise Unreadable("a subscript is allowed only at a letter or a bracket", script.span)
+        raise Unreadable("a subscript is not allowed here", script.span)
 
     def labelled(self, node: Node, label: str) -> Node:
         inner = node.inner if isinstance(node, Group) else node
@@ -978,7 +978,7 @@ class _Reader:
         return Nabla(token.span.to(of.span), kind, of)
 
     def average(self, token: Token) -> Node:
-        """Read an average or a product of states as one letter; nothing else is known about its value."""
+        """Read an average or a product of states as one letter, whose value is not known."""
         words = [self.label(self.argument())]
         while (brace := self.peek()) is not None and brace.kind is Kind.OPEN:
             words.append(self.label(self.argument()))
@@ -1025,7 +1025,7 @@ class _Reader:
             return replace(inner, of=replace(inner.of, marks=inner.of.marks | {mark}), span=self.since(token))
         if isinstance(inner, Pow | Mul | Add | Open | Apply):
             return Group(inner.span, inner, "{")
-        raise Unreadable(f"`\\{token.text}` is allowed only at a letter", token.span)
+        raise Unreadable(f"the argument of `\\{token.text}` must be a letter", token.span)
 
     def command_word(self, token: Token, value: list[Token]) -> Node:
         r"""Read `\mathrm{...}` or `\operatorname{...}`: a function, a letter, a unit, or a word."""
@@ -1396,7 +1396,7 @@ class _Reader:
         if name in ("cases", "dcases", "rcases"):
             return self.cases(inner, self.since(token))
         if name not in MATRICES:
-            raise Unreadable(f"`{name}` inside of a formula is not read", token.span)
+            raise Unreadable(f"the environment `{name}` is not read inside a formula", token.span)
         if name == "array":
             _, skip = argument_at(inner, 0)
             inner = inner[skip:]

@@ -80,7 +80,7 @@ class Source:
         return [0, *(found.end() for found in re.finditer(r"\n", self.written))]
 
     def line_of(self, position: int) -> int:
-        """Return the line of the file, from 1, for a position in the tidied text."""
+        """Return the number, from 1, of the line of the file that a position in the tidied text comes from."""
         return bisect_right(self.line_starts, self._origin(position))
 
     def place(self, span: Span) -> Place:
@@ -122,7 +122,8 @@ def read_source(path: Path, shown: str | None = None) -> Source:
     kind = SUFFIXES.get(path.suffix.lower())
     if kind is None:
         known = ", ".join(sorted(filter(None, SUFFIXES)))
-        raise Misused(Complaint("unknown-format", f"`{path.name}` is not a document that derive reads", help=known))
+        message = f"`{path.name}` is not a document that derive reads"
+        raise Misused(Complaint("unknown-format", message, help=f"its name must end in one of {known}"))
     name = shown or str(path)
     try:
         if path.stat().st_size > 4 * LARGEST:
@@ -208,7 +209,10 @@ _QUOTATION = r"(?:(?<=\n\n)|\A)(?:[ \t]*>[^\n]*(?:\n|\Z))+"
 
 
 def _undo_escapes(source: Source) -> None:
-    r"""Undo the backslashes that Markdown needs: `\\(`, `\\[` for `\(`, `\[`, and `\_`, `\*` in formulas."""
+    r"""Undo the backslashes that Markdown needs: `\\(`, `\\[` for `\(`, `\[`, and `\_`, `\*` in formulas.
+
+    Also remove the `>` at the beginning of the lines of a quotation.
+    """
     if re.search(r"\\\\\(.*?\\\\\)|\\\\\[.*?\\\\\]", source.text, re.DOTALL) and "$$" not in source.text:
         source.replace(r"\\\\([()\[\]])", r"\\\1")
         source.replace(r"\\\\(?=[{}|,;!])", r"\\", within=_FORMULA)

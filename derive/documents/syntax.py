@@ -2,7 +2,7 @@ r"""The nodes of a formula as the author wrote it: signs, brackets and different
 
 An `Open` node has several readings; its `kind` says what is open:
 
-    apply        a function of a bracket, or a product with it
+    apply        a function of the bracket after a letter, or a product of the letter and the bracket
     extent       how far the argument of `\sin` reaches
     superscript  a power, a label or degrees
     letter d     a differential, or a letter

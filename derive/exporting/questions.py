@@ -22,7 +22,7 @@ class Answer:
     """One answer of a part, or one component of an answer that is a vector.
 
     sympy    the formula in plain SymPy text, in the letters of the problem
-    names    the quantities that the formula has on the page, such as mu, each with its formula
+    names    the names, such as mu, that the page uses in the formula, each with the formula for which it stands
     latex    the formula in TeX
     value    the number, or None; `unit` is its unit, and `figures` is the number of its significant figures
     """
@@ -48,8 +48,8 @@ class Answer:
 
     @property
     def letters(self) -> set[str] | None:
-        """The letters of a formula, or of all components of a vector, that learning platforms can compare; None for
-        other formulas."""
+        """The letters of the formula, or of all components of the vector; None if there are none, or if learning
+        platforms cannot compare the formula."""
         text = self.components or self.sympy
         names = set(_NAME.findall(text))
         if not re.fullmatch(r"[A-Za-z0-9_+\-*/(). ]+", text) or names & {"t", "Eq", *CONSTANTS}:

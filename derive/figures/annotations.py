@@ -31,23 +31,24 @@ from derive.figures.space import (
 )
 
 PIECES = 200  # number of short pieces of an axis; each is tested for a disc in front of it
-PAST = 0.3  # length of the part of an axis outside a body, relative to the size of the body
+PAST = 0.3  # length by which an axis extends beyond a body, relative to the size of the body
 SHORTEST = 11.0  # length of the shortest dimension line that has room for its two arrowheads, in points
-OUTSIDE = 13.0  # length of the arrows outside a shorter dimension line, in points
-FORCE = 58.0  # unit of the lengths of arrows in force diagrams, in points
+OUTSIDE = 13.0  # length of the two arrows outside a dimension line shorter than SHORTEST, in points
+FORCE = 58.0  # length of a `ForceArrow` of size 1, in points
 APPLIED = 26.0  # length of the arrow of a given force in the drawing of a system, in points
-ASIDE = 12.0  # distance between a body and its dimension line, in points
-SHORT = 3  # the components of a point are described only if they contain at most this many operations
+ASIDE = 12.0  # constant part of the shift of a dimension line, in points
+SHORT = 3  # the components of a point are described only if together they contain at most this many operations
 RING = 0.16  # radius of a rotation arrow round an axis, relative to the size of the body
 DOT = 2.6  # radius of a point that is wider than a rod, in points
 HOLLOW = 2.3  # radius of the circle for a point on a body, in points
-NEAR_TIP = 0.72  # the place of a label beside the shaft of an arrow, in units of the length of the arrow
-EYE = 3.4  # radius of the circle for an axis along the line of sight, in points
-POSITIVE = 26.0, 11.0  # distance from a particle to the arrow of a positive direction, and half its length; in points
-AROUND_BODY = 115, 169  # in degrees: the part of a circle that the arrow of a positive rotation covers
+NEAR_TIP = 0.72  # distance of a label from the start of its arrow, relative to the length of the arrow
+EYE = 3.4  # radius of the circle that shows an axis or a vector along the line of sight, in points
+POSITIVE = 26.0, 11.0  # distance from a particle to the arrow of a positive direction, and half the arrow's length
+AROUND_BODY = 115, 169  # the arrow of a positive rotation lies between these polar angles, in degrees
 ROUND = 10.0  # least radius of the arrow of a `Turn`, in points
-BROKEN = 30.0  # least height of a broken support, in points
-STAND, CLEARANCE = 16.0, 8.0  # least height of a support, and least height of a body above the ground, in points
+BROKEN = 30.0  # least height of a support that is drawn with a gap, in points
+STAND = 16.0  # least height of a support, in points
+CLEARANCE = 8.0  # least height of a body above the ground, and distance of its rotation arrow from its rim; in points
 
 
 @dataclass(frozen=True)
@@ -142,8 +143,8 @@ def _along_sight(label: Any, spot: Spot, comes: bool, towards: Spot = (-0.7, 0.7
 
 @dataclass(frozen=True)
 class AxisOfRotation(Mark):
-    """The axis through a point along a direction. It extends beyond the body at both ends, but the part before it
-    enters the body is left out if the body would hide this part.
+    """The axis through a point along a direction. It extends beyond the body at both ends, but the part
+    before the body is left out if the body would hide it.
 
     With a rate, a rotation arrow surrounds the axis near its far end, and the label is next to this arrow. The arrow is
     right-handed if the rate is positive.
@@ -171,8 +172,8 @@ class AxisOfRotation(Mark):
         return [line, *_circling(ring, plus(NOUGHT, along, sense), RING * paper.reach, self.label, paper)]
 
     def _start(self, paper: Paper, near: Vector, along: Vector) -> Vector:
-        """Return the start of the line. If the body would hide the part before the line enters the body, the line
-        starts at the body, because otherwise it would seem to leave the body through a front edge."""
+        """Return the start of the line. The part before the body is left out if the body would hide it, because the
+        line would then seem to leave the body through a front edge."""
         start = plus(near, along, -PAST * paper.reach)
         (x, y), (u, v) = paper.spots(near, start)
         is_behind = dot(along, paper.stance.eye) > 0 and is_within(
@@ -213,10 +214,10 @@ class LengthMark(_Between):
     """A dimension line between two points, shifted to one side; a length of zero is not drawn.
 
     aside    the direction of the shift; None for a shift to the left, or upwards if the line is horizontal
-    clear    the part of the shift that scales with the drawing, a length
+    clear    a length that is added to the shift, and is drawn to scale
     beyond   a further part of the shift, in points, to leave room for other dimension lines
 
-    A constant distance is added to the shift.
+    The shift is the sum of `clear`, `beyond` and the constant `ASIDE`.
     """
 
     aside: Position | None
@@ -318,8 +319,8 @@ class Arrow(Mark):
 
 @dataclass(frozen=True)
 class ForceArrow(Arrow):
-    """A force on a body that is drawn alone. `size` is the length of the arrow in units of FORCE points, so the forces
-    of several drawings have one scale.
+    """A force in the diagram of a single body. `size` is the length of the arrow in units of FORCE points, so the
+    forces of several drawings have one scale.
 
     inside   whether the arrow is inside the body; the label is then beside the shaft
     """
@@ -356,7 +357,7 @@ class PositiveDirection(_Single):
 
 @dataclass(frozen=True)
 class PositiveRotation(_Single):
-    """A thin curved arrow around a round body in the plane, in the sense in which its angle grows.
+    """A thin curved arrow around a round body in the plane, in the sense in which the angle of the body grows.
 
     radius             the radius of the body
     counterclockwise   whether this sense is counterclockwise
@@ -404,8 +405,8 @@ class AppliedForce(Arrow):
 
 @dataclass(frozen=True)
 class Projection(Arrow):
-    """The projection of a vector on the plane of x and y, and the line from its tip to this plane, both dashed. The
-    arrow of the vector is another mark with the same `size`."""
+    """The projection of a vector on the horizontal plane through its start, and the line from its tip to this plane,
+    both dashed. The arrow of the vector is another mark with the same `size`."""
 
     def pieces(self, paper: Paper) -> list[Piece]:
         start, tip = paper.numbers.vector(self.start), self.tip(paper.numbers, paper.reach)
@@ -422,8 +423,9 @@ class Projection(Arrow):
 
 @dataclass(frozen=True)
 class Cone(Arrow):
-    """The cone that a vector describes when it turns about an axis: the circle of its tip and the line opposite to the
-    vector, dashed. The arrow of the vector is another mark with the same `size`."""
+    """The cone that a vector describes when it turns about an axis: the circle of its tip, and the line from its
+    start to the opposite point of this circle, both dashed. The arrow of the vector is another mark with the same
+    `size`."""
 
     axis: Position = field(kw_only=True)
 

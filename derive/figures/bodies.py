@@ -1,4 +1,4 @@
-"""Outlines of bodies from their boundaries: relative to a point and axes of the body, or at any place and
+"""Outlines of bodies, computed from their boundaries: in axes through a point of the body, or at any position and
 orientation."""
 
 from __future__ import annotations
@@ -91,7 +91,7 @@ def seen_outline(body: Body, about: str | None = None, named: bool = True) -> li
 
 
 def _reach(body: Body, point: Point, along: Position) -> Position:
-    """Return the place at which an axis leaves a body, or the origin."""
+    """Return the place at which an axis leaves a body; the origin if this place is unknown."""
     match body.boundary:
         case Rim() as rim:
             ends = [point.seen(place) for place in rim.places(EDGE)]
@@ -126,7 +126,8 @@ def _ends_of_round(
 
 
 def _end_on(marks: Sequence[Mark], along: Position) -> Position:
-    """Return the start of the visible part of an axis: the far end of a thin rod along the axis, or the origin."""
+    """Return the start of the visible part of an axis: the far end of a thin rod from the origin along the axis, or the
+    origin."""
     for mark in marks:
         if isinstance(mark, ThinRod) and ORIGIN in (mark.start, mark.end):
             _, end = sorted((mark.start, mark.end), key=lambda place: place != ORIGIN)
@@ -143,7 +144,7 @@ def axes_at(body: Body, about: str) -> list[Mark]:
 
 
 def is_in_plane(body: Body) -> bool:
-    """Return whether a body of several parts is drawn in its plane."""
+    """Return whether a body has several parts and is drawn in its plane."""
     return hasattr(body, "parts") and body.flat_across == "z"
 
 
@@ -237,7 +238,7 @@ def widest_of(boundary: Round) -> tuple[Expr, Expr]:
 
 
 def _of_parts(parts: Sequence[Any], whole: Point, named: bool, in_plane: bool) -> list[Mark]:
-    """Return the marks of all parts; an empty list if a part, or a removed part, cannot be drawn."""
+    """Return the marks of all parts, each label once; an empty list if a part, or a removed part, cannot be drawn."""
     marks: list[Mark] = []
     for part in parts:
         body, held = part.body, part.body.point(part.of).position
@@ -274,7 +275,7 @@ def _hollow(body: Body, point: Point, aside: Position, named: bool, in_plane: bo
 
 
 def _sizes(body: Body, boundary: Boundary | None, point: Point, aside: Position) -> list[Mark]:
-    """Return lines that show the sizes of a body in any orientation."""
+    """Return lines labelled with the radius and the lengths of a body, which may have any orientation."""
     match boundary:
         case Round():
             return _round_sizes(body, boundary, point, aside)
@@ -349,7 +350,7 @@ def _measures(body: Body, boundary: Round, point: Point) -> list[Mark]:
 
 
 def _with_slice(marks: Sequence[Mark], boundary: Round, point: Point) -> list[Mark]:
-    """Add a slice at the height z from the point, with its radius and a dimension line for z."""
+    """Add a slice at the height z above the point, with its radius and a dimension line for z."""
     z = scalar("z")
     lower, upper = boundary.ends
     at = lower + CUT * (upper - lower)

@@ -22,21 +22,23 @@ from derive.algebra.relation import Relation
 from derive.errors import Complaint, Rejected, Unverified
 from derive.figures.marks import Branch, Diagram
 
-STEPS = 160  # number of steps of a branch between two changes
-GRID = 2000  # number of steps of the parameter, and of the coordinate in the second route
+STEPS = 160  # number of straight lines that draw a branch between two changes
+GRID = 2000  # number of intervals of the parameter's range, and of the coordinate's range in the second route
 HALVINGS = 80
 TRIED = (0.11, 0.37, 0.68, 0.93)  # the second route is used at these fractions of an interval of the parameter
-REAL = 1e-6  # a value counts as real if its imaginary part is at most this fraction of 1 plus the size of its real part
-CLOSE = 1e-5  # greatest distance of a zero of the slope from its branch, relative to the vertical axis
-# The energy at an equilibrium is compared with the energy at a distance of 10^-NEAR of the range, with DIGITS digits.
+# z counts as real if |Im z| <= REAL (1 + |Re z|). Values of a branch below REAL times its greatest value become zero.
+REAL = 1e-6
+CLOSE = 1e-5  # two values count as equal if their difference is smaller than this fraction of their range
+# The energy at an equilibrium is compared with the energies at the distance 10^-NEAR times the searched range on both
+# sides, with DIGITS digits.
 NEAR, DIGITS = 5, 40
 SHRUNK = 1e-6  # at a zero, the slope is smaller than this fraction of the slope beside the zero; at a pole it is larger
-# The second route also counts zeros that are beyond an end of the vertical axis by at most these fractions of its
-# length. If the problem does not state the ends of this axis, each fraction is increased by 1.
+# The second route also counts zeros beyond the lower and the upper end of the vertical axis, by at most these fractions
+# of the length of this axis. If the problem does not state the ends of this axis, each fraction is increased by 1.
 WIDENED = 0.0731, 0.0917
-EDGE = 1e-5  # zeros this close to an end of the coordinate's range are not counted; relative to the vertical axis
+EDGE = 1e-5  # zeros closer to an end of the coordinate's range than this fraction of the vertical axis are not counted
 FULL_TURN = 2 * exact_pi
-OFFSET = 0.01234  # the grid of a full turn begins here, because the slope may vanish at a multiple of pi
+OFFSET = 0.01234  # a grid of a full turn begins this fraction of a turn above -pi, because the slope may vanish at -pi
 
 Spots: TypeAlias = tuple[tuple[float, float], ...]
 State: TypeAlias = bool | None  # whether an equilibrium is stable; None if it does not exist
@@ -79,7 +81,10 @@ def bifurcations_of(
     axis: tuple[float, float] | None = None,
     is_angle: bool = False,
 ) -> Bifurcations:
-    """Return the lines of a diagram for these numbers; raise `Rejected` if no equilibrium changes within the ends.
+    """Return the lines and the changes of a diagram for these numbers.
+
+    Errors: `Rejected` if the diagram would show no equilibrium, no change, or an equilibrium far beyond the others;
+    `Unverified` if the potential energy contradicts the branches.
 
     axis       the ends of the vertical axis; by default the axis has room for all equilibria
     is_angle   whether two values of the coordinate that differ by a full turn mean the same position
@@ -98,8 +103,9 @@ def bifurcations_of(
         change for left, right in pairwise(spans) if (change := _change(left, right, places, (low, high))) is not None
     )
     if not changes:
-        message = f"no equilibrium begins, ends or changes its stability from {ends[0]:.4g} to {ends[1]:.4g}"
-        raise Rejected(Complaint("drawing", message, help="a diagram shows such a change: choose another `range`"))
+        span = f"for values of the parameter from {ends[0]:.4g} to {ends[1]:.4g}"
+        message = f"no equilibrium begins, ends or changes its stability {span}"
+        raise Rejected(Complaint("drawing", message, help="a diagram must show such a change: choose another `range`"))
     _confirm(diagram, parameter, spans, places, numbers, _searched(diagram, low, high, axis is None), is_angle)
     return Bifurcations(low, high, lines, changes)
 
@@ -194,8 +200,9 @@ def _extent(diagram: Diagram, lines: Sequence[BranchLine]) -> tuple[float, float
     usual = sorted(map(abs, values))[len(values) // 2]
     if max(abs(low), abs(high)) > 100 * max(usual, 1e-300) and usual > 0:
         name = diagram.coordinate.name
-        message = f"an equilibrium of the diagram goes to {max(low, high, key=abs):.4g}, far beyond the others"
-        raise Rejected(Complaint("drawing", message, help=f"state the vertical axis: `over: {{{name}: [..., ...]}}`"))
+        message = f"an equilibrium reaches {name} = {max(low, high, key=abs):.4g}, far beyond most other values"
+        help_line = f"state a range for the vertical axis: `over: {{{name}: [..., ...]}}`"
+        raise Rejected(Complaint("drawing", message, help=help_line))
     return (low, high) if high > low else (low - (abs(low) or 1.0), high + (abs(high) or 1.0))
 
 

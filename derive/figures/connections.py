@@ -73,23 +73,24 @@ ACROSS = column(0, 0, 1)
 ORIGIN = Symbol("O")
 # Values of coordinates that no constraint determines, relative to `Connections.size`.
 AWAY = (Rational(8, 5), Rational(6, 5), Rational(2), Rational(4, 5))
-ON_A_TABLE = (Rational(4, 5), Rational(-13, 10))  # such values on a table in space, relative to `ball_size`
-WHEEL = Rational(1, 24)  # the drawn radius of a small pulley, relative to `_span`
+ON_A_TABLE = (Rational(4, 5), Rational(-13, 10))  # the same for a table in space, relative to `ball_size`
+# The drawn radius of a small pulley, and its drawn distance from the ceiling, relative to the greatest distance between
+# two places of strings and rods.
+WHEEL, HANGER = Rational(1, 24), Rational(1, 8)
 HOOK = Rational(9, 5)  # the length of the hook that holds the axle of a pulley, relative to the radius of the pulley
-HANGER = Rational(1, 8)  # the drawn distance of a small pulley from the ceiling, relative to `_span`
 BOWL = 4  # the radius of a bowl, relative to `Connections.size`
 SPHERE = 2  # the radius of a fixed circle that a round body touches from outside, relative to `Connections.size`
 AXIS = Rational(4, 5)  # the length of the axes on a table, relative to TABLE
-TABLE = Rational(5, 2)  # the radius of a table in space on which a body moves about, relative to `ball_size`
-# The radius of any other table, relative to the greatest distance of a contact from the middle of the table.
-BEYOND = Rational(6, 5)
+# The radius of a table in space is at least BEYOND times the greatest distance of a contact from its middle. If this
+# distance changes for a body, the radius is also at least TABLE times `ball_size`.
+TABLE, BEYOND = Rational(5, 2), Rational(6, 5)
 AROUND = Rational(1, 4)  # the radius of the arrow of a motor, relative to the size of the body
 HALF_OF_ROPE = 1.2  # half the drawn thickness of a rope with mass, in points
-PAST = Rational(3, 2)  # the drawn length of a plane beyond the bodies on it, relative to their size
+PAST = Rational(3, 2)  # length of a plane beyond the last body on it, relative to `Connections.size`
 ROUND = Rational(3, 5)  # angle between the vertical and the line from the centre of a circle to a body on the circle
 EXACT = 1e-6
 SMALL = 0.08  # a component of the direction of a plane counts as zero if its size is at most this number
-FAR = Rational(8, 5)  # a wire is drawn up to this multiple of the value of its coordinate in the drawing
+FAR = Rational(8, 5)  # a wire is drawn up to FAR times the value that the coordinate of its particle has in the drawing
 
 Sort = TypeVar("Sort", bound=Connection)
 
@@ -100,7 +101,7 @@ def connections_of(system: System, sort: type[Sort]) -> list[Sort]:
 
 
 class Connections:
-    """The connections of a system, the numbers that replace their symbols in the drawing, and their marks.
+    """The connections of a system with their marks, and the values that replace symbols in the drawing.
 
     in_a_plane   whether the system moves in a plane
     start        the values of coordinates at the start of a motion, if the drawing also shows the start
@@ -378,7 +379,8 @@ class Connections:
         return max(arms, key=numeric, default=ONE)
 
     def _carries(self, of: Any) -> bool:
-        """Whether `of` carries a surface of a contact, as a wedge or a plank does, and not only its own round rim."""
+        """Whether the part `of` carries the surface of a contact, as a wedge does; the round rim of a body does not
+        count."""
         carried = [each.surface for each in self.contacts if each.surface.of == of]
         return of is not None and any(not (isinstance(each, Circle) and isinstance(of, PlacedBody)) for each in carried)
 
@@ -426,10 +428,10 @@ class Connections:
         return FloorMark(tuple(column_of(p) for p in (*blocks, *walls, *starts, *origin)), off, margins)
 
     def has_bare_origin(self, plane: Plane) -> bool:
-        """Whether a coordinate is measured along a fixed level line from the origin, and nothing is drawn there.
+        """Whether a coordinate is measured along a fixed level line from the origin, at which nothing is drawn.
 
-        If a spring, a string or a rod has a fixed end, the origin is usually an equilibrium position, so the result is
-        False.
+        If an end of a spring, a string or a rod, or a joint, is fixed, the origin is usually an equilibrium position.
+        Then the result is False.
         """
         if plane.of is not None or isinstance(plane.ground, Location) or self.start:
             return False
@@ -488,8 +490,8 @@ class Connections:
         return plane.through + low * along, plane.through + high * along
 
     def _corner(self, touch: Contact) -> Iterable[Mark]:
-        """Yield the top and the side of a table or a step with its edge at a fixed corner, below the higher part of the
-        body. The side of a step ends at the floor."""
+        """Yield the top and the side of a table or a step, whose edge is the fixed corner. The top is below the higher
+        part of the body. The side of a step ends at the floor."""
         slope = explicit(touch.tangent.components[0] * touch.tangent.components[1]).subs(self.values)
         sign = sign_known(slope)
         level = Location((ONE if (self.number(slope) if sign is None else sign) > 0 else -ONE, ZERO))
@@ -516,8 +518,8 @@ class Connections:
             yield AngleBetween(column_of(low), level, column_of(high - low), True, label=angle)
 
     def _carrier(self, plane: Plane, low: Location, high: Location) -> Iterable[Mark]:
-        """Yield the particle that carries a plane: a plank under a level plane, a wedge under a slope, or a solid
-        behind a vertical or overhanging plane. A wedge that touches a level floor is drawn on this floor."""
+        """Yield the marks of the particle that carries a plane: a plank under a level plane, a wedge under a slope, or
+        a solid behind a vertical or overhanging plane. A wedge that touches a level floor is drawn on this floor."""
         x, y = (high - low).components
         label = plane.of.mass
         if abs(self.number(y)) <= SMALL:
@@ -829,8 +831,8 @@ class Connections:
 
 def _arrows_of_motion(start: Any, place: Location) -> Iterator[Mark]:
     """Yield the arrow of a place with a prescribed motion: the velocity if it is constant, or the acceleration if it is
-    constant and the place starts from rest. For any other motion along a straight line, yield an arrow in both
-    directions.
+    constant and the place starts from rest. For any other motion along a straight line, yield two opposite
+    arrows.
     """
     rates = [ImmutableDenseMatrix([tidied(diff(c, TIME, n)) for c in place.components]) for n in (1, 2)]
     constant = next((each for each in rates if any(each) and not each.has(TIME)), None)
@@ -848,7 +850,6 @@ def _arrows_of_motion(start: Any, place: Location) -> Iterator[Mark]:
 
 
 def distance_of(start: Location, end: Location) -> Expr:
-    """Return the distance between two places."""
     return sqrt(tidied(Add(*(c**2 for c in (end - start).components))))
 
 

@@ -1,4 +1,4 @@
-"""Marks of fixed surfaces on which bodies roll, from rolling conditions that specify the point of contact."""
+"""Marks of fixed surfaces on which bodies roll. The rolling conditions specify the points of contact."""
 
 from __future__ import annotations
 

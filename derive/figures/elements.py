@@ -2,8 +2,9 @@
 
     drawing("pendulum", pivot(origin), rod(origin, bob, l), angle_mark(origin, "down", bob, theta), particle(bob, m))
 
-Points are results of `point` and `place`, all in a plane or all in space. Parts without a given size have a readable
-size. The order of the marks does not matter: particles are drawn over rods, and rods over walls.
+Points are results of `point` or `place`. The points of a mark are all in a plane, or all in space. Parts without a
+given size have a readable size. The order of the marks does not matter: particles are drawn over rods, and rods over
+walls.
 """
 
 from __future__ import annotations
@@ -84,7 +85,7 @@ def spring_mark(start: Any, end: Any, label: Any = None) -> Mark:
 def rope(*along: Any, label: Any = None) -> Mark:
     """A taut string through points and around wheels: `rope(first, pulley, second)`.
 
-    At each wheel the string is on the side that its bend requires.
+    The string passes each wheel on the outer side of its bend.
     """
     if len(along) < 2:
         raise Rejected(Complaint("wrong-argument", "a rope needs two places or more"))
@@ -160,7 +161,7 @@ def _ground(start: Any, end: Any, side: str, under: Any) -> Mark:
     (a, b), keys = vectors_of(start, end)
     solid = towards(side, a.rows)
     off = 0.0 if getattr(under, "stands", False) else UNDER.get(type(under), 0.0)
-    if off and (height := getattr(under, "height", None)) is not None:  # the height is a length of the problem
+    if off and (height := getattr(under, "height", None)) is not None:  # the height is not in points, but a length
         across = solid - (b - a) * (b - a).dot(solid) / (b - a).dot(b - a)
         a, b = (end + across * as_expr(height) / (2 * across.norm()) for end in (a, b))
         off -= under.usual[1] / 2
@@ -223,7 +224,8 @@ def way(
     formula, keys = vector_of(place)
     symbol = letter.symbol if isinstance(letter, Coordinate) else letter
     if not isinstance(symbol, Symbol) or symbol not in formula.free_symbols:
-        raise Rejected(Complaint("wrong-argument", f"`way` needs a symbol in its `place`, but {symbol} is not in it"))
+        message = f"`letter` of `way` must be a symbol in its `place`, but {symbol} is not"
+        raise Rejected(Complaint("wrong-argument", message))
     lower, upper = (as_expr(end) for end in between)
     pen = "wire" if solid else "trace"
     return WayMark(formula, symbol, lower, upper, pen, label=name_of(None, label), keys=keys)

@@ -19,8 +19,8 @@ from derive.errors import Complaint, Rejected, Unverified
 STEPS = 1009  # number of steps of the grid; it is odd, so the centre of the range is inside a step, not at its end
 POLE = 1e4  # a value above POLE times the greatest value of the grid is a pole, not an extremum
 MINIMUM, MAXIMUM = "minimum", "maximum"
-# A value at the end of the range counts as zero below this fraction of the greatest value, because the end may be
-# rounded to three figures.
+# In `zeros` and `meetings`, a value below this fraction of the greatest value counts as zero, because an end of the
+# range may be rounded to three figures.
 NEAR_ZERO = 1e-3
 NOISE = 1e-12  # a value at an extremum counts as zero below this fraction of the greatest value: it is a rounding error
 
@@ -75,7 +75,7 @@ def extrema(expr: Expr, variable: Symbol, lower: float, upper: float) -> tuple[E
             at = 0.0 if abs(at) < 1e-6 * (upper - lower) and slope(0.0) == 0 else at
             if _is_pole(f, at, xs):
                 message = f"a curve of the plot is infinite near {at:.4g}"
-                raise Rejected(Complaint("drawing", message, help="choose a range without this place"))
+                raise Rejected(Complaint("drawing", message, help=f"choose a range that does not contain {at:.4g}"))
             kind = MINIMUM if slopes[i] < 0 else MAXIMUM
             _confirm(f, at, (upper - lower) / STEPS, kind)
             found.append(Extremum(at, float(f(at)), kind))

@@ -66,7 +66,7 @@ STANDING, SHORT, SHORTEST = 47.0, Rational(12, 25), Rational(7, 20)
 ROPE = 110.0  # the drawn length of a whole rope, in points; each piece of the rope is drawn alone
 FOOT = 30.0  # half the length of the piece of a surface under a body, in points
 SLIGHT = 1e-6  # a number below this counts as zero
-NEAR = 0.3  # opposite arrows overlap if the gap between their tips is smaller than this part of an arrow
+NEAR = 0.3  # opposite arrows count as overlapping if the gap between their tips is below this part of an arrow
 ANGLE = Rational(63, 100)  # the value of an angle that has no given value, in radians
 NORMALS = ("N", "F_n", "n")  # possible symbols of a normal force that does not appear in the equations
 
@@ -118,7 +118,9 @@ def forces_as_named(
     """Return one body or particle with the forces on it, each in the direction in which its symbol is positive.
 
     leads_to  the keys of the laws of this body; the drawing is placed before these laws
-    found     as for `forces_in_state`; the lengths of the arrows have no meaning in space, or if `found` lacks a force
+    found     as for `forces_in_state`
+
+    The lengths of the arrows have no meaning in space, or if `found` lacks a force.
 
     Return None if the diagram would be incomplete.
     """
@@ -209,8 +211,8 @@ def _pull(pull: PointForce, found: Mapping[Symbol, Quantity]) -> _Drawn:
 
 
 def draw_alone(system: System, bodies: Sequence[BodyAlone]) -> list[Drawing]:
-    """Return the diagrams of bodies of a system. If the forces are known for the same trial numbers, all diagrams have
-    the same scale of forces, except that small forces are drawn larger."""
+    """Return the diagrams of bodies of a system. If one set of trial numbers fits all diagrams with known forces, these
+    diagrams have the same scale of forces, except that small forces are drawn larger."""
     scene = Connections(system)
     shares = [[_share(size) for size in own] for own in _sizes([each.forces for each in bodies], scene)]
     least = min((share for own in shares for share in own), default=1)
@@ -258,7 +260,7 @@ def _is_on_a_line(alone: BodyAlone) -> bool:
 def _diagram(system: System, alone: BodyAlone, shares: Sequence[Rational], scene: Connections) -> Drawing:
     """Return the drawing of a body, which shows its forces and the angles of their directions.
 
-    shares   the lengths of the arrows, in units of FORCE points; in space, relative to the body
+    shares   the lengths of the arrows, in units of FORCE points
     """
     of, drawn, reach = alone.of, alone.forces, _reach(alone.of, alone.forces, scene)
     outline = list(_outline(of, is_pulley=_over_pulley(system, of) is not None))
@@ -325,8 +327,8 @@ def _offset(drawn: _Drawn, of: PlacedBody, scene: Connections) -> tuple[float, f
 
 
 def _acting(system: System, of: Any) -> list[PointForce]:
-    """Return the forces of connections on a body. If there are any, a normal force that no equation contains is added:
-    the force of a fixed plane on which the coordinates keep the body."""
+    """Return the forces of connections on a body. If there are any, and the only contact that the coordinates keep is
+    with a fixed plane, the normal force of this plane is added, which no equation contains."""
     named = [force for each in connections_of(system, Connection) for force in each.on(of)]
     named += _drawn_pulls(system, of)
     return [*named, *_unnamed_normals(system, of)] if named else []
@@ -516,8 +518,8 @@ def _moves_alone(system: System, of: Any, free: Sequence[int], drawn: Sequence[A
     """Whether the coordinates allow the body to move alone, without rotation, in each direction that is perpendicular
     to the drawn forces. If not, an unknown reaction can act in that direction, such as the force of a wedge.
 
-    free    the indices of the components that change
-    drawn   the directions of the drawn forces of constraints that the coordinates fulfil
+    free    the indices of the components of the position of the body that depend on coordinates
+    drawn   the directions of the drawn forces whose constraints the coordinates fulfil
     """
     parts: list[Any] = [*system.particles, *system.bodies]
     own, places = 0, list[Expr]()

@@ -1,4 +1,4 @@
-"""Links: lines from a fixed or known point to a moving point, and their angles, from the formulas of the positions.
+"""Finds links (lines from a fixed or known point to a moving point) and their angles in the formulas of positions.
 
 A link is the line along which polar coordinates are measured; it need not be a physical part. Numerical samples
 exclude most pairs of points that are not links; algebra decides about the remaining pairs.
@@ -127,7 +127,7 @@ def _varies(value: Expr, turning: set[Symbol]) -> bool:
     """Return whether the value differs in two numerical samples."""
     others = sorted(value.free_symbols - turning, key=str)
     fixed = {letter: Float(1.31 + 0.17 * i) for i, letter in enumerate(others)}
-    # The samples also have different differences of angles, because a distance may depend only on these.
+    # The differences of the angles also differ between the samples, because a distance may depend only on them.
     angles = [{q: Float(x * (1 + 0.29 * i)) for i, q in enumerate(sorted(turning, key=str))} for x in SAMPLES]
     one, other = (float(value.xreplace({**fixed, **at}).evalf()) for at in angles)
     return abs(one - other) > 1e-9 * (1 + abs(one))

@@ -1,8 +1,9 @@
 """The marks of a drawing, as data: positions and directions are SymPy expressions in the symbols of the problem.
 
-Given numbers for the symbols, a mark returns its pieces, and a surface returns its outermost points. A mark also
-returns its description in words. `derive.render.drawing` decides which lines are hidden and where labels are.
-Positions are columns (x, y, z), or (x, y) in a plane, along the same axes for all marks of a drawing.
+Given numbers for the symbols, a mark returns its pieces (lines, areas, points and labels), and a surface returns its
+outermost points. A mark also returns its description in words. `derive.render.drawing` decides which lines are hidden
+and where labels are. Positions are columns (x, y, z), or (x, y) in a plane, along the same axes for all marks of a
+drawing.
 """
 
 from __future__ import annotations
@@ -84,8 +85,8 @@ class Mark:
 class Surface(Mark):
     """A mark that determines the size of a drawing; the surfaces of bodies also hide the surfaces behind them.
 
-    name       the id of the body in the phrases, such as "cone"; empty if the words for another surface include this
-               one
+    name       the id of the body in the phrases, such as "cone"; empty if the description of another surface
+               also describes this one
     measures   pairs of an id and a length, such as "base_radius" and R, for the description
     """
 
@@ -119,8 +120,8 @@ class ShownMode:
                 on letters without numbers; "without_small" if a displacement is too small for an arrow;
                 or "alone" for a single mass
     letters     the letters on which the ratio depends
-    moves       for each mass, in order: the mass; the directions of its displacement, such as ("right", "up"), or () at
-                rest; and the sense of its rotation, which is an element of SENSES, or "" without a rotation
+    moves       for each mass, in order: the mass; the directions of its displacement, such as ("right", "up"), or () if
+                it is not displaced; and the sense of its rotation, an element of SENSES, or "" without a rotation
     order       the order of the masses: "across" from left to right, "down" from top to bottom; empty for a single mass
     siblings    the keys of the steps of all modes that are found together; the drawings of these modes are placed after
                 the last of these steps
@@ -276,7 +277,7 @@ class Branch:
 
     @property
     def drawn(self) -> tuple[Any, ...]:
-        """Return the value and the conditions."""
+        """Return the equilibrium value and the conditions."""
         return (self.place, *self.conditions)
 
 
@@ -318,8 +319,8 @@ class Plot:
     diagram          the equilibria of a bifurcation diagram, in which `label` is their coordinate
     places           the values of the variable for which the solution has a symbol, such as r_0, with these symbols
     then             the value that the curves keep after their range
-    per              the quantities by which the axes are divided, each with its name: horizontal, vertical, and for a
-                     phase portrait the energy of the levels
+    per              divisors of the values, each with its name: on the horizontal axis, on the vertical axis, and for
+                     the energies of a phase portrait
     energies         total energies, drawn as horizontal lines in the plot of a potential energy
     """
 

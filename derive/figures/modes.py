@@ -68,7 +68,7 @@ class DisplacementArrow(Mark):
     others   the displacements of all masses; the greatest displacement has the longest arrow
     side     the direction from the mass to the arrow, if the arrow is next to the mass; None if the arrow starts at the
              mass
-    clear    the part of the distance to the arrow that scales with the drawing, a length
+    clear    a length that is added to the distance of the arrow from the mass, and is drawn to scale
     off      the other part of this distance, in points; for an arrow that starts at a mass, the radius of the mass
     room     the least distance between two masses, which limits the arrows; None without a limit
     exact    whether the lengths of all arrows are in the ratio of the displacements
@@ -139,7 +139,7 @@ class RotationArrow(Mark):
 
 @dataclass(frozen=True)
 class RestMark(Mark):
-    """A short dashed line at the position of a mass at equilibrium, perpendicular to its displacement.
+    """A short dashed line at the undisplaced position of a mass, perpendicular to its displacement.
 
     half   half the length of the line, in points
     """
@@ -164,9 +164,9 @@ def draw_modes(
     named   positions of further parts, as for `sketch`
     like    the name of the sketch of the system; the numbers of this sketch are also used here
 
-    The name of a drawing is the key of the shape. The list is empty if a sketch cannot show the system. A mode is left
-    out if the direction of a displacement depends on unknown numbers. Modes that are found together are also left out
-    if none of them oscillates or grows.
+    The name of a drawing is the key of the shape. The list is empty if a sketch cannot show the system, if a point has
+    a prescribed motion, or if a rope has mass. A mode is left out if the direction of a displacement depends on unknown
+    numbers. Modes that are found together are also left out if none of them oscillates or grows.
     """
     shapes = [each for each in steps if each.step.rule == MODE_SHAPE.name]
     if not shapes or len(system.places[0].components) != 2:
@@ -212,8 +212,8 @@ def draw_after(
     moment   the state at the impact
     after    the rates just after the impact
 
-    The result is None in space, or if a sketch cannot show the system. The directions hold for the numbers of the
-    drawing.
+    The result is None in space, or if a sketch cannot show the system. With other numbers than those of the drawing,
+    the arrows may have other directions.
     """
     things = things_of(system, named)
     if things is None or len(system.places[0].components) != 2:
@@ -264,7 +264,7 @@ class _Displaced:
         return [self._change(column_of(at)) for _, at in self.masses]
 
     def _change(self, value: MatrixBase) -> MatrixBase:
-        """Return the change of a column to first order."""
+        """Return the change of a column, to first order in the amplitudes."""
         slopes = [self._at_rest(value.diff(q)) * amplitude for q, amplitude in self.amplitudes.items()]
         return ImmutableDenseMatrix([tidied(Add(*entries)) for entries in zip(*slopes, strict=True)])
 
@@ -287,8 +287,9 @@ class _Displaced:
             return False
 
     def _along(self, displacement: MatrixBase, at: Location) -> Expr | None:
-        """Return the component of a displacement along a direction that does not depend on the mode or on unknown
-        numbers; None if there is no such direction."""
+        """Return a component of a displacement, up to a positive factor: along an axis if the displacement is parallel
+        to an axis or the ratio y/x is a number, and otherwise along the path of a coordinate. Return None if the
+        displacement is not along such a path."""
         x, y = displacement
         if x == 0 or y == 0 or tidied(y / x).is_number:
             return y if x == 0 else x
@@ -304,7 +305,7 @@ class _Displaced:
         return [self._as_in_sketch(mark) for mark in self.things], {**self.values, **self._state()}
 
     def _as_in_sketch(self, mark: Mark) -> Mark:
-        """Return the mark; a wall or a wire is drawn as in the sketch."""
+        """Return the mark for the displaced system; a wall or a wire stays as in the sketch."""
         if isinstance(mark, FixedEnd):
             return replace(mark, away=self._at_rest(mark.away))
         if isinstance(mark, WayMark):
@@ -334,7 +335,7 @@ class _Displaced:
         return sqrt(tidied(x**2 + y**2))
 
     def _rest_marks(self) -> Iterator[Mark]:
-        """Yield the rods at equilibrium as dashed lines, and the positions at equilibrium of masses without a rod."""
+        """Yield dashed lines for the undisplaced rods, and for the undisplaced positions of masses without a rod."""
         bars = [mark for mark in self.things if isinstance(mark, BarMark)]
         ends = [end for mark in bars for end in (mark.start, mark.end)]
         for mark in bars:

@@ -27,13 +27,13 @@ CASTER = 3.6  # radius of the wheels of a cart
 COIL = 4.6  # half the width of a spring
 PITCH = 5.0  # usual length of a half turn of a spring
 FEWEST = 4  # least number of half turns of a spring
-LEAD = 7.0  # length of each straight end of a spring
+LEAD = 7.0  # usual length of each straight end of a spring
 
 CYLINDER = (16.0, 8.0)  # length and width of the cylinder of a dashpot
 BESIDE_SPRING = 20.8  # distance of a dashpot from a spring between the same places
 
 BEND = 6.0  # radius of a bend of a rope
-TUBE, ALONG_TUBE = 3.0, 13.0  # half the width, and the length, of the tube at a bend of a rope
+TUBE, ALONG_TUBE = 3.0, 13.0  # half the width of the tube at a bend of a rope, and its length on each side of the bend
 SHORT = 3  # greatest number of characters in a name that is written on a block
 
 
@@ -132,7 +132,8 @@ class SpringMark(_Stretched):
 class DashpotMark(_Stretched):
     """A dashpot: a piston in an open cylinder.
 
-    beside   whether the dashpot is drawn next to a spring between the same points: above it, or to its left
+    beside   whether the dashpot is drawn next to a spring between the same points: above it, or beside it if the spring
+             is vertical
     """
 
     beside: bool = False
@@ -199,7 +200,7 @@ class RopeMark(_Piecewise):
 
 @dataclass(frozen=True)
 class RopeBelowMark(RopeMark):
-    """A string below a table. The table hides the part of the string behind it."""
+    """A string below a table. The table hides the part of the string that is behind the table."""
 
     layer: ClassVar[int] = -3
 
@@ -248,7 +249,7 @@ def _rounded(a: Spot, b: Spot, c: Spot, radius: float) -> list[Spot]:
 
 
 def _beyond(corner: Spot, end: Spot, off: float, side: float) -> Spot:
-    """Return the end of a wall of a tube. A positive `off` is on the outer side of the bend."""
+    """Return the end of a wall of a tube; if `off` is positive, the wall is on the outer side of the bend."""
     x, y = direction(corner, end)
     far = min(ALONG_TUBE, 0.6 * hypot(end[0] - corner[0], end[1] - corner[1]))
     return corner[0] + far * x - side * off * y, corner[1] + far * y + side * off * x

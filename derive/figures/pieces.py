@@ -1,4 +1,5 @@
-"""The pieces of a drawing, and the interface `Paper`, which gives a mark the data for its pieces.
+"""The pieces of which a mark consists (lines, areas, points and labels), and `Paper`, which gives a mark
+the numbers, the projection and the scale for its pieces.
 
 `derive.render.drawing` draws these pieces only.
 """
@@ -79,7 +80,7 @@ class Tag:
 
 Piece: TypeAlias = Stroke | Patch | Bullet | Tag
 Edge: TypeAlias = tuple[int, int]  # two corners, by their indices in a list
-EdgeNames: TypeAlias = tuple[tuple[Any, tuple[Edge, ...]], ...]  # pairs of a label and the edges with this length
+EdgeNames: TypeAlias = tuple[tuple[Any, tuple[Edge, ...]], ...]  # pairs of a label and the edges with this label
 
 
 class InNumbers(Protocol):

@@ -33,9 +33,10 @@ from derive.mechanics.model.system import System
 from derive.steps.step import is_zero
 
 ACROSS = column(0, 0, 1)
-# Lengths relative to the distance of the centre of mass from the fixed point. For a top of unknown shape: the height
-# and radius of its cone, and the height of the end of its stem. SHAFT: the length of the shaft of a rotating body.
-TOP, WIDE, STEM, SHAFT = Rational(4, 3), Rational(3, 5), Rational(8, 5), Rational(3, 4)
+# Lengths relative to the distance of the centre of mass from the fixed point.
+# The height and radius of the cone of a top of unknown shape, and the height of the end of its stem.
+TOP, WIDE, STEM = Rational(4, 3), Rational(3, 5), Rational(8, 5)
+SHAFT = Rational(3, 4)  # the length of the shaft of a rotating body
 STEPS = 24  # number of steps along the side of a round body
 
 
@@ -215,7 +216,8 @@ def _holder(system: System, placed: Any) -> Iterable[Mark]:
 
 
 def with_its_shape(placed: Any) -> Any:
-    """Replace a body that is given by symbols by the body whose shape these symbols describe."""
+    """Return the placed body; a body given by symbols is replaced by a body with the shape that the symbols
+    describe."""
     known = getattr(placed.body, "shape", None)
     if known is None:
         return placed
@@ -346,8 +348,8 @@ def own_angle(system: System, placed: Any, outline: list[Mark]) -> Iterable[Mark
 
 
 def _rolled_angle(system: System, placed: Any) -> tuple[Expr, int] | None:
-    """Return the coordinate that is the rotation angle of a rolling body, and its sense; None if there is no such
-    coordinate."""
+    """Return the coordinate that equals the rotation angle of a rolling body up to a sign, and this sign; None if
+    there is no such coordinate."""
     for q, value in system.known.items():
         if system.coordinates.get(q) in ("angle", None) and moving_in(system, value):
             for sense in (1, -1):
@@ -433,7 +435,7 @@ def _wheel(boundary: Round, at: Callable[[Position], Position], words: dict[str,
 
 
 def _sides(boundary: Faces, corners: tuple[Position, ...]) -> Iterable[Mark]:
-    """Yield a dimension line for each edge length with a symbol, if the body has few corners."""
+    """Yield a dimension line for each edge length with a symbol, if the body has at most four corners."""
     for length, edges in boundary.edges if len(corners) <= 4 else ():
         if length.as_coeff_Mul()[1].is_Symbol:
             start, end = (corners[i] for i in edges[-1])

@@ -1,4 +1,4 @@
-"""The names of places on the horizontal axis of a plot: the solution calls a radius r_0, and the plot marks r_0."""
+"""Names of places on the horizontal axis of a plot: if the solution derives a radius r_0, the plot names it r_0."""
 
 from __future__ import annotations
 

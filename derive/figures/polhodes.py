@@ -1,4 +1,4 @@
-"""The polhodes of a freely rotating body: the curves on a sphere on which its kinetic energy is constant.
+"""The polhodes of a freely rotating body: the curves of constant kinetic energy on a sphere.
 
 In the body, the tip of the angular momentum stays on the sphere |L| = constant and on an ellipsoid of constant energy,
 L_x^2/I_x + L_y^2/I_y + L_z^2/I_z = 2 T. The sphere has the radius 1 here. Around the axis p of the least or of the
@@ -34,7 +34,7 @@ DISTANCES = (22, 44, 64)
 STEPS = 144  # number of steps of a curve
 FACING = 0.3  # least cosine of the angle between the line of sight and the normal at an arrowhead
 EQUAL = 1e-3  # relative difference of two moments below which they count as equal
-EVERY = 8  # only every eighth point of the sections is used for the size of the drawing
+EVERY = 8  # only every eighth point of three great circles is used for the size of the drawing
 FIRST = 2  # the number that replaces the first letter without a number; the next letters have the next numbers
 
 

@@ -16,9 +16,11 @@ from sympy import Expr, Symbol, diff, lambdify
 from derive.errors import Complaint, Rejected
 
 FAR = (1e5, 3e6, 7e7)  # distances that count as infinite, in units of the size of the horizontal axis
-SAME = 1e-4  # greatest difference of a value from the value at infinity, relative to the greatest absolute value
+SAME = 1e-4  # values that differ by at most this fraction of the greatest absolute value count as equal
 STEPS = 240  # number of steps of the grid in each direction
-EDGE = 0.1  # width of a margin, relative to the horizontal axis; only a curve within a margin has an arrowhead there
+# Width of the margins at the left and the right, relative to the horizontal axis. An arrowhead is in a margin only if
+# its whole curve is in the margins.
+EDGE = 0.1
 
 
 @dataclass(frozen=True)
@@ -75,8 +77,8 @@ def portrait_of(
         ]
         if not own:
             ends = f"{np.min(heights):.4g} to {np.max(heights):.4g}"
-            message = f"no point of the phase portrait has the value {value:.4g}"
-            raise Rejected(Complaint("drawing", message, help=f"in these ranges, the values go from {ends}"))
+            message = f"the function of the phase portrait nowhere has the value {value:.4g}"
+            raise Rejected(Complaint("drawing", message, help=f"in these ranges, its values are from {ends}"))
         found += own
     return Portrait(*box[2:], values, tuple(found), tuple(_centres(expr, plane, grid, heights)))
 

@@ -38,8 +38,8 @@ from derive.steps.step import Quantity
 
 __all__ = ["arc", "arrow", "axes", "axis_of_rotation", "drawing", "plot", "point_mark", "turn", "vectors_in"]
 
-DEGREES = (34, 52, 22, 44, 16, 38)  # values of angles in the drawing
-LONG, SMALL = Rational(5, 4), Rational(1, 4)  # length of a vector and radius of an arrow, relative to the body
+DEGREES = (34, 52, 22, 44, 16, 38)  # values of angles in the drawing, in degrees
+LONG, SMALL = Rational(5, 4), Rational(1, 4)  # length of a vector and radius of a rotation arrow, relative to the body
 
 
 def drawing(
@@ -118,8 +118,8 @@ def plot(
     unit       the SI unit of a quantity without a kind
     above      the value of the symbol at which `shown` is zero; the label is then the difference between the quantity
                and its value there
-    per        a quantity by which the vertical axis is divided: its name, such as `M*g*l`, and its value in the letters
-               of the problem
+    per        a quantity by which the values on the vertical axis are divided: its name, such as `M*g*l`, and its value
+               in the letters of the problem
     """
     expr = explicit(quantity.value if shown is None else shown)
     if isinstance(expr, MatrixBase) or against not in expr.free_symbols:
@@ -148,7 +148,7 @@ def arrow(
 ) -> Mark:
     """A vector in its true direction; its length is arbitrary, because vectors of different kinds have no common scale.
 
-    vector   vector (3), along the axes of the drawing; not drawn if it vanishes
+    vector   vector (2 or 3) with components along the axes of the drawing; not drawn if it vanishes
     at       the point at which the arrow starts
     size     the length of the arrow relative to the size of the body
     label    the name of the vector, by default the symbol of the quantity

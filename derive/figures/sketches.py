@@ -42,7 +42,7 @@ from derive.mechanics.model.system import Central, Particle, System
 __all__ = ["sketch"]
 
 ZERO = Integer(0)
-FAR = Rational(8, 5)  # a curve is drawn up to this multiple of the value of its coordinate in the drawing
+FAR = Rational(8, 5)  # a curve along a coordinate is drawn up to FAR times the drawn value of the coordinate
 ECCENTRICITY = Rational(1, 2)
 WEIGHT = Rational(2, 5)  # length of the arrow of a weight, relative to the size of the drawing
 BROADSIDE = 23 * pi / 36  # rotation angle at which a rotating vertical plane faces the viewer
@@ -50,8 +50,8 @@ ON_A_TABLE = 17 * pi / 36  # rotation angle of two horizontal axes at which all 
 ALONE = (ParticleMark, PointMark, ConnectionMark, LengthMark, DistanceMark, FieldMark, GravityMark)
 UNDER_FLOOR = 16.0  # the distance from the middle of a block on a floor to the lower side of the floor, in points
 OVER_LABEL = 9.0  # the height of the label of a spring, in points
-APART = 5.0  # half the distance of the arrows of two forces at one place, in points
-BENEATH = 18.0  # the distance of dimension lines from each other, in points
+APART = 5.0  # half the distance between the arrows of two forces at one place, in points
+BENEATH = 18.0  # the distance between two dimension lines, in points
 
 
 def sketch(
@@ -86,8 +86,8 @@ def sketch(
 
 
 def things_of(system: System, named: Sequence[Location] = ()) -> tuple[list[Mark], Mapping[Symbol, Any]] | None:
-    """Return the marks of the sketch that show things, without their labels, and the numbers that replace symbols; None
-    if a sketch would not show the whole system.
+    """Return the marks of the sketch that show the parts of the system and its surroundings, without their labels, and
+    the values that replace symbols. Return None if a sketch would not show the whole system.
 
     Dimension lines, axes, angles, and the arrows of gravity and of fields are left out.
     """
@@ -188,8 +188,8 @@ class _Scene:
         return {**found, **self._carried_round()}
 
     def _carried_round(self) -> Mapping[Symbol, Any]:
-        """Return the time at which a system with a prescribed rotation is drawn; an empty mapping for any other
-        system."""
+        """Return a mapping with the time at which a system with a prescribed rotation is drawn; it is empty for any
+        other system."""
         if (rate := self._rate_round()) is None:
             return {}
         level = len(self.system.coordinates) > 1 and not moving_in(
@@ -228,7 +228,7 @@ class _Scene:
         return _Scene(self.system, self.named).marks
 
     def _between_supports(self, marks: Iterable[Mark]) -> Iterable[Mark]:
-        """Yield dimension lines for the distances of supports at the same height, on the side away from the masses."""
+        """Yield dimension lines for distances between supports at the same height, on the side away from the masses."""
         if self.rows != 2:
             return
         number = self.connections.number
@@ -360,7 +360,8 @@ class _Scene:
             yield from (ConnectionMark(foot, column_of(Location(end))) for end in ((x, ZERO, ZERO), (ZERO, y, ZERO)))
 
     def _ways(self, at: Location) -> Iterable[Mark]:
-        """Yield the curves of a point along its coordinates, except straight lines and wires. In space, also yield
+        """Yield the curve of a point along each of its coordinates, except straight lines and wires. There are curves
+        only if the number of coordinates of the point is less than 2 in a plane or 3 in space. In space, also yield
         dashed lines to a point that moves along one axis."""
         moving = [q for q in self.system.coordinates if q in moving_in(self.system, *at.components)]
         for q in moving if len(moving) < self.rows else ():
@@ -497,7 +498,8 @@ class _Scene:
                     return LengthMark(column_of(touch.at), column_of(at), aside, self._clear(at), label=q)
                 return LengthMark(column_of(start + down), column_of(at + down), column_of(-touch.normal), label=q)
         beyond = BENEATH * before if self._is_on_carrier(at) else 0.0
-        below = -1 if touch is None or not self._is_inclined(touch.surface) else 1  # above an inclined plane
+        # The dimension line is above an inclined plane, and below any other place.
+        below = -1 if touch is None or not self._is_inclined(touch.surface) else 1
         aside = ImmutableDenseMatrix([0, below] if y == 0 else [self._free_side(at), 0])
         return LengthMark(column_of(start), column_of(at), aside, self._clear(at), beyond, label=q)
 
@@ -626,7 +628,7 @@ class _Scene:
         return not any(same(end, at) for _, at in self.system.masses)
 
     def _covered(self, end: Location) -> float:
-        """Return the length of the end of a spring that a block covers, in points."""
+        """Return the length, in points, that a block covers at this end of a spring."""
         there = [particle for particle in self.system.particles if same(particle.at, end)]
         blocks = [mark for particle in there for mark in self.connections.block(particle) or ()]
         return max((BLOCK[0] / 2 for mark in blocks if isinstance(mark, BlockMark)), default=0.0)
@@ -675,8 +677,8 @@ class _Scene:
 
 
 def _along_axis(way: Sequence[Expr]) -> ImmutableDenseMatrix:
-    """Return a unit vector for a vector along an axis, in the direction in which its label is positive; return any
-    other vector unchanged. The description in words can state the direction of a unit vector."""
+    """Replace a vector along an axis by a unit vector, because the description in words can then state its direction.
+    The unit vector has the direction in which the label of the arrow is positive. Return any other vector unchanged."""
     if sum(c != 0 for c in way) > 1:
         return ImmutableDenseMatrix(way)
     return ImmutableDenseMatrix([0 if c == 0 else -1 if c.could_extract_minus_sign() else 1 for c in way])

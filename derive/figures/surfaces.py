@@ -12,7 +12,7 @@ from derive.figures.pieces import EdgeNames, InNumbers, Paper, Patch, Piece, Str
 from derive.figures.space import NOUGHT, Spot, Vector, dot, hull, plus, rim, unit
 
 UPWARDS = (0.0, 0.0, 1.0)
-SIGHT = 120  # number of steps along the line of sight
+SIGHT = 120  # number of tested points on the line from a point of a torus to the viewer
 EVERY = 8  # only every eighth point of a circle is used for the size of the drawing
 
 
@@ -253,7 +253,7 @@ class TableMark(Circle):
 
 @dataclass(frozen=True)
 class Cavity(Mark):
-    """A cavity inside a body, drawn as a blank area with a dashed outline, so that it differs from a part."""
+    """A cavity inside a body, drawn as a blank area with a dashed outline, so that it does not look like a part."""
 
     of: Surface
     layer: ClassVar[int] = 2

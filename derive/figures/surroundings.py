@@ -16,8 +16,8 @@ from derive.figures.space import NOUGHT, Spot, Vector, angle_of, direction, dot,
 # Lengths in points.
 HATCH = 4.0  # distance between two hatches, and depth of a hatch
 STAND = 9.0  # half the length of the piece of wall at a fixed end
-PEG = 2.2  # radius of a bare peg
-ABOVE = 0.1  # a part is "above" its pivot if its end is higher by at least this fraction of its length
+PEG = 2.2  # radius of the dot that replaces a fixed end with its wall
+ABOVE = 0.1  # a held part is on the side of the wall if it extends there by more than this fraction of its length
 UNDER = 20.0  # half the length of the piece of a surface under a particle
 SLIDER, RAIL = (16.0, 9.0), 22.0  # width and height of a slider, and half the length of its rail
 # Half the length of the double arrow at a moving support, and distance of this arrow from the rail.
@@ -174,7 +174,7 @@ class MovingEnd(Surface):
     """A support with a prescribed motion, with an arrow beside it.
 
     along   the direction of the motion, or one of its two directions
-    side    the side of the arrow
+    side    the direction from the support to the arrow
     joint   whether the point is a pivot
     is_to_and_fro   whether the support may move in both directions, so that the arrow is a double arrow
     motion   the label of the arrow: the constant acceleration of the support; by default no label
@@ -226,7 +226,7 @@ class MovingEnd(Surface):
 
 @dataclass(frozen=True)
 class SurfacePiece(Surface):
-    """A piece of the surface that touches a particle or a body, with its slope.
+    """A piece of the surface that a particle or a body touches; it has the slope of the surface.
 
     normal         the direction from the surface to the particle
     is_two_sided   whether the surface is a rail, which passes through the particle and has no hatches
@@ -390,7 +390,7 @@ class DistanceMark(Mark):
 
     aside      the side to which the line is shifted; by default away from the centre of the drawing
     off        the length of this shift, in points
-    back       a direction in which the two ends are also moved: from the centre of a block to the end of its spring
+    back       a direction in which both ends are also moved, such as from the centre of a block to its spring
     moved      the two lengths by which the ends are moved in this direction, in points
     on_paper   the side as a direction on the paper, in place of `aside`
     """

@@ -31,7 +31,8 @@ from derive.steps.step import is_zero
 
 ZERO, ONE = Integer(0), Integer(1)
 AXIS = Rational(3, 5)  # length of the axes of a flight, relative to the radius of the circle on which it begins
-LONG, THROWN = Rational(2, 5), Rational(4, 5)  # lengths of arrows, relative to the size of the drawing
+# Lengths of arrows, relative to the size of the drawing: of a velocity, and of the velocity of a thrown particle.
+LONG, THROWN = Rational(2, 5), Rational(4, 5)
 TURNED = (2 * pi / 15, pi / 4)  # angles of the dashed rods in the drawing of an impact
 SHIFTED = Rational(1, 4)  # displacement of the dashed bodies, relative to the length of a rod
 TURNED_ROUND = 2 * pi / 9  # angle of a dashed round body
@@ -78,7 +79,7 @@ def launch_marks(system: System, moment: Moment) -> Iterable[Mark]:
         angle = next((f.args[0] for f in along.atoms(cos) if is_zero(along - size * f)), None)
         if angle is not None and angle.is_Symbol:
             way = column_of(start) * 0 + ImmutableDenseMatrix([velocity.components[0] / size, ZERO])
-            has_axis = not any(start.components)  # the first axis starts there
+            has_axis = not any(start.components)  # the first axis starts at the origin
             yield AngleBetween(column_of(start), way, column_of(velocity) / size, not has_axis, label=angle)
     for placed in system.bodies:
         yield from _guided(system, moment, placed)
@@ -86,7 +87,7 @@ def launch_marks(system: System, moment: Moment) -> Iterable[Mark]:
 
 
 def _axes_of_flight(system: System, moment: Moment) -> Iterable[Mark]:
-    """Yield the axes of a flight that begins on a string, a rod or a circle whose centre is the origin."""
+    """Yield the axes of a flight that begins on a circle about the origin, or on a string or a rod from the origin."""
     circles = [circle for particle in system.particles for circle in circles_of(system, particle.at)]
     circles += [e.surface for e in system.parts if isinstance(e, Contact) and isinstance(e.surface, Circle)]
     origin = Location((ZERO, ZERO))
@@ -252,7 +253,7 @@ def later_marks(system: System, moment: Moment, marks: Iterable[Mark]) -> Iterab
         elif mark.label in later and isinstance(mark, AngleBetween | DistanceMark | LengthMark):
             there = _at(mark, later)
             yield there
-            if isinstance(there, AngleBetween) and radius is not None:  # the radius that has turned
+            if isinstance(there, AngleBetween) and radius is not None:  # a radius at the later angle
                 turned = there.b / sqrt(tidied(Add(*(c**2 for c in there.b))))
                 yield LineMark(there.vertex, there.vertex + radius * turned, "edge")
 

@@ -2,7 +2,8 @@
 
 The first of these tests that succeeds gives the verdict: equal; equal with the definitions of the problem; equal up to
 rounded decimals; equal under a convention; the opposite sign; another quantity of the problem; another dimension;
-letters that the problem does not have; a factor; a term; special values.
+letters that the problem does not have; a factor; a term; an approximate quantity of the problem; special values; a
+factor that contains sums.
 """
 
 from __future__ import annotations
@@ -36,9 +37,9 @@ from derive.render.notation.text import in_one_line
 from derive.steps.homogeneity import dimension_of
 
 DIFFERS = "it differs from the answer of the problem"
-LONGEST = 160  # characters of an expression in an explanation
+LONGEST = 160  # greatest number of characters of an expression in an explanation
 ROUNDS = 6  # rounds of substituting definitions
-MOST_UNKNOWN = 2  # number of unknown letters that may be other names for letters of the problem
+MOST_UNKNOWN = 2  # greatest number of unknown letters that may be other names for letters of the problem
 FEWEST_FIGURES = 2
 WITH_A_ZERO = ("potential", "lagrangian", "energy_function", "hamiltonian", "effective", "total_energy")
 
@@ -157,7 +158,8 @@ class _Comparison:
         return None
 
     def other_letters(self, value: Expr, right: Expr) -> Verdict | None:
-        """Accept a formula that is equal if letters that the problem does not have are other names for its letters."""
+        """Accept a formula that is equal after letters that the problem does not have are replaced by letters of the
+        problem."""
         unknown = [each for each in self.read.unknown if each in value.free_symbols]
         bases = list(dict.fromkeys(_without_dots(each) for each in unknown))
         if not 0 < len(bases) <= MOST_UNKNOWN:
@@ -167,7 +169,7 @@ class _Comparison:
         for goal in goals:
             free = sorted({_without_dots(each) for each in goal.free_symbols - value.free_symbols}, key=str)[:8]
             if 2 * len(bases) > len({_without_dots(each) for each in goal.free_symbols}):
-                continue  # at least half of the letters must be letters of the problem
+                continue  # at most half of the letters of the right answer may have other names
             for chosen in permutations(free, len(bases)):
                 put_in = _with_rates(dict(zip(bases, chosen, strict=True)))
                 if are_surely_equal(value.xreplace(put_in), goal):
@@ -245,8 +247,8 @@ class _Comparison:
         return any(each is not None and each.is_number and each != -1 for each in ratios)
 
     def is_rate(self, difference: Expr, moving: frozenset[Symbol]) -> bool:
-        """Whether an expression is the total time derivative of a function: Lagrange's equations of it hold
-        identically."""
+        """Whether an expression is the total time derivative of a function: as a Lagrangian, the expression satisfies
+        Lagrange's equations identically."""
 
         def along(value: Expr) -> Expr:
             return diff(value, TIME) + sum(diff(value, each) * rate(each) for q in moving for each in (q, rate(q)))

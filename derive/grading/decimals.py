@@ -76,7 +76,7 @@ def with_units(text: str) -> Iterator[tuple[str, Unit]]:
 
 def components_of(text: str, count: int) -> list[str]:
     r"""Return the decimals of a typed vector, such as `(1.5, 0, -2)`, `(1,5; 0; -2)`, `(1,5, 0, -2)` or
-    `\begin{pmatrix} 1.5 \\ 0 \end{pmatrix}`; an empty list if the text does not have this number of decimals."""
+    `\begin{pmatrix} 1.5 \\ 0 \end{pmatrix}`; an empty list if the text does not have `count` decimals."""
     plain = re.sub(r"\\(?:begin|end)\s*\{[a-z]*matrix\}|\\(?:left|right)\b|[()\[\]$]", " ", text).replace("\u2212", "-")
     for separator in (r";|\\\\", ",", r",\s"):
         entries = [re.sub(r"\s", "", with_points(each)) for each in re.split(separator, plain.strip())]
@@ -95,7 +95,7 @@ class Typed:
 
 
 def figures_of(text: str) -> int:
-    """Return the significant figures of a plain decimal as it is typed; zeros at the end of a whole number count."""
+    """Return the number of significant figures of a typed decimal; zeros at the end of a whole number count."""
     digits = re.sub(r"[eE].*|\\cdot.*|\\times.*", "", text)
     return len(re.sub(r"\D", "", digits).lstrip("0"))
 

@@ -87,7 +87,7 @@ class _Statement:
     texts: tuple[str, ...]
     relations: tuple[str, ...]
     fault: Unread | None = None
-    head: tuple[Read, ...] = ()  # the readings of the first side, if the statement is not read
+    head: tuple[Read, ...] = ()  # the readings of the first side, if another side cannot be read
 
     @property
     def last(self) -> tuple[Read, ...]:
@@ -206,7 +206,8 @@ class _Grading:
         return replace(statement, read=replace(statement.read, sides=sides))
 
     def of_each_name(self, statement: _Statement) -> list[_Statement]:
-        """Return a chain and an equation for each name inside it: also `y'' = -a` for `x'' = -y'' = a`."""
+        """Return a statement; for a chain of equations, also return an equation for each answer named inside the chain:
+        `x'' = -y'' = a` also gives `y'' = -a`."""
         asked = [target.symbol for target in self.part.targets]
         found = [statement]
         if statement.read is None or not statement.is_equation:
@@ -222,7 +223,8 @@ class _Grading:
         return found
 
     def with_results_of_others(self, statements: list[_Statement]) -> list[_Statement]:
-        """Return the statements with the values of other statements: `y'' = -x''` after `x'' = ...`."""
+        """Return the statements after the results of other statements are substituted: with `x'' = a`, `y'' = -x''`
+        becomes `y'' = -a`."""
         if any(target.is_relation for target in self.part.targets):
             return statements
         allowed = {each for target in self.part.targets for each in getattr(target.value, "free_symbols", ())}
@@ -270,7 +272,7 @@ class _Grading:
         return _Statement(ReadStatement((right,), (), written), texts[1:], ())
 
     def head_of(self, written: TypedStatement) -> tuple[Read, ...]:
-        """Return the readings of the letter before the equals sign of a number with a unit."""
+        """Return the readings of the left side of a statement such as `v = 3 m/s`; () if it cannot be read."""
         if len(written.sides) < 2:
             return ()
         try:
@@ -352,7 +354,7 @@ class _Grading:
         self, targets: list[Target], statements: list[_Statement]
     ) -> dict[str, tuple[Verdict, list[_Statement]]] | None:
         """Judge equations of motion together: other equations are right if they give the same accelerations. Return
-        None if they do not, or if each answer is right on its own.
+        None if they give other accelerations, if each is right on its own, or if they cannot be judged together.
         """
         if not 1 < len(targets) == len(statements) or not all(target.is_relation for target in targets):
             return None
@@ -392,7 +394,7 @@ class _Grading:
         return found
 
     def of_list(self, statements: list[_Statement], target: Target) -> tuple[Verdict, list[_Statement]] | None:
-        """Judge the entries of a list that several statements give by name, such as `r = ..., theta = ...`; None if not
+        """Judge the entries of a list that several statements give by name, such as `r = ..., theta = ...`; None unless
         exactly one statement gives each entry."""
         used = []
         for symbol in target.symbol:
@@ -507,7 +509,7 @@ class _Grading:
         return self.text[span.start : span.end].strip()
 
     def unequal_side(self, statement: _Statement) -> Read | None:
-        """Return a side in an equation, other than a name, that differs from the last side; None if no side does."""
+        """Return a side of an equation, other than a name, that differs from the last side; None if no side does."""
         if statement.is_single or statement.read is None:
             return None
         first = 0 if statement.name is None and len(statement.read.sides) == 2 else 1
@@ -535,7 +537,7 @@ class _Grading:
                     )
                     found = verdict_on_value(read, alone, self.key)
                     if found.is_right and goal.operator != "=":
-                        found = Verdict(Outcome.CONVENTION, f"as the border of the condition {target.text}")
+                        found = Verdict(Outcome.CONVENTION, f"as the limiting case of the condition {target.text}")
                     verdicts.append(self.with_reading(found, statement, read))
                 elif (
                     goal.operator == "=" and isinstance(goal.left, sympy.Function) and are_equal(read.value, goal.right)
@@ -633,11 +635,12 @@ class _Grading:
             return found
         mark, goal = statement.relations[-1] if statement.relations else "", target.value.operator
         if mark in ("", "=", "~"):
-            return replace(found, outcome=Outcome.CONVENTION, because=f"as the border of the condition {target.text}")
+            told = f"as the limiting case of the condition {target.text}"
+            return replace(found, outcome=Outcome.CONVENTION, because=told)
         if mark[0] != goal[0]:
             return replace(found, outcome=Outcome.SIGN, because="the inequality has the wrong direction")
         if mark != goal:
-            told = "whether the condition includes its border is left open"
+            told = "whether the limiting case is included is not judged"
             return replace(found, outcome=Outcome.CONVENTION, because=told)
         return found
 

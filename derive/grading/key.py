@@ -43,7 +43,7 @@ from derive.steps.homogeneity import dimension_of, dimension_table
 from derive.steps.step import Step
 
 ONE: Expr = Integer(1)
-# a relation whose left side contains one of these states the value of the left side
+# if the left side of a relation contains one of these, the relation states the value of its left side
 _NAMED_RATES = (TimeRate, CarriedRate, BodyRate, Slope, At)
 
 
@@ -103,7 +103,7 @@ class Key:
 
     steps         each step of the derivation with its value, to recognise an answer to another question
     definitions   the value of each symbol that a step introduces
-    allowed       symbols that the problem defines, such as beta = b/2m; an answer may contain them
+    allowed       defined symbols that an answer may contain, such as beta = b/2m
     points        whether the problem has points; without points each part counts 1
     momenta       the values of momenta that are also variables of the Hamiltonian
     """

@@ -29,10 +29,10 @@ _ORDER = tuple(Outcome)
 
 @dataclass(frozen=True)
 class Verdict:
-    """A verdict with its reason, what was read, and the answer with which it was compared.
+    """A verdict with its reason, the reading of the typed text, and the right answer with which the text was compared.
 
     target   the key of the right answer; empty if the typed text was compared with no answer
-    marked   the typed text with a caret under the place that is not read
+    marked   the typed text with a caret under the place that cannot be read
     """
 
     outcome: Outcome
@@ -71,7 +71,7 @@ def share_of(outcome: Outcome, own: Fraction, whole: Fraction) -> Fraction:
 
     A right answer earns all points. An answer with one slip (a sign, a factor, a term) earns the points of the steps
     before it, or half of the points if the rubric has no such steps. An answer that holds only for special values earns
-    a quarter of the points. Every other answer earns nothing here.
+    a quarter of the points. Every other answer earns nothing.
     """
     if outcome in RIGHT:
         return whole

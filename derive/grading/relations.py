@@ -72,8 +72,8 @@ def _are_equivalent(one: Relation, other: Relation) -> bool:
 
 
 def _are_equivalent_with_cosines(typed: Relation, goal: Relation) -> bool:
-    """Whether two equations are equivalent after the denominators of tangents, cotangents and secants are removed. The
-    right equation must have no solution where a denominator vanishes."""
+    """Whether two equations are equivalent after the denominators of tangents, cotangents, secants and cosecants are
+    removed. The correct equation, `goal`, must have no solution where a denominator vanishes."""
     if not (typed.operator == goal.operator == "=" and typed.residual.has(tan, cot, sec, csc)):
         return False
     quotients = (
@@ -128,8 +128,8 @@ def _renamed(typed: Relation, goal: Relation, comparison: _Comparison) -> Verdic
 
 
 def _with_function(typed: Relation, goal: Relation) -> Relation | None:
-    """Return a condition on an angle as a condition on its tangent, sine or cosine, if the problem states it so; else
-    None."""
+    """Return a condition on an angle as a condition on its tangent, sine or cosine, if the right answer has this form;
+    else None."""
     left = goal.left
     if not isinstance(left, sin | cos | tan) or typed.left != left.args[0]:
         return None
@@ -153,7 +153,7 @@ def angle_of(target: Target, name: Any) -> Target | None:
 
 def _wrong_inequality(typed: Relation, goal: Relation, key: Key) -> Verdict:
     for operator, because, outcome in (
-        (STRICT.get(typed.operator), "whether the condition includes its border is left open", Outcome.CONVENTION),
+        (STRICT.get(typed.operator), "whether the limiting case is included is not judged", Outcome.CONVENTION),
         (TURNED.get(typed.operator), "the inequality has the wrong direction", Outcome.SIGN),
         (STRICT.get(TURNED.get(typed.operator, ""), ""), "the inequality has the wrong direction", Outcome.SIGN),
         (
@@ -167,11 +167,11 @@ def _wrong_inequality(typed: Relation, goal: Relation, key: Key) -> Verdict:
     if typed.operator == "=" and goal.operator not in ("=", "!="):
         for operator in ("<", ">", "<=", ">="):
             if _are_equivalent(Relation(typed.left, operator, typed.right), goal):
-                return Verdict(Outcome.CONVENTION, f"as the border of the condition {shown(goal, key)}")
+                return Verdict(Outcome.CONVENTION, f"as the limiting case of the condition {shown(goal, key)}")
     if typed.left == goal.left and isinstance(goal.left, Symbol):
         ratio = factor_between(typed.right, goal.right)
         if ratio is not None and ratio.is_number:
-            return Verdict(Outcome.FACTOR, f"the border is {shown(ratio, key)} times the right one")
+            return Verdict(Outcome.FACTOR, f"the limiting value is {shown(ratio, key)} times the right one")
     return Verdict(Outcome.DIFFERENT, "it is another condition")
 
 

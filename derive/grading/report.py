@@ -19,7 +19,7 @@ def points(value: Fraction) -> str:
 
 
 def one_as_text(problem: str, graded: Graded) -> str:
-    """Return the verdict on one answer, with what was read before it."""
+    """Return how one answer was read, the verdict on it with its reason, and the credit, as text."""
     verdict = graded.verdict
     lines = [f"read as {verdict.reading}"] if verdict.reading else []
     lines.append(f"{problem} ({graded.part}): {verdict.outcome}")
@@ -31,7 +31,7 @@ def one_as_text(problem: str, graded: Graded) -> str:
 
 
 def explained(verdict: Verdict) -> str:
-    """Return the reason of a verdict in one line, and the text at the place that is not read."""
+    """Return the reason for a verdict in one line, with the text at the place that cannot be read."""
     if not verdict.marked:
         return verdict.because
     text, caret = verdict.marked.split("\n")

@@ -20,7 +20,7 @@ from derive.audit.fingerprint import CLOSE, differ, fingerprint
 from derive.audit.time_limit import FAULTS
 from derive.grading.outcomes import Outcome
 
-MOST_TERMS = 60  # number of terms of a sum that are searched
+MOST_TERMS = 60  # greatest number of terms of a sum that are searched
 MOST_PROPOSALS = 600
 SHORTEST = 10  # the greatest number of operations in a ratio that is shown
 _BASES = (Integer(1), pi, 1 / pi, sqrt(2), sqrt(3), pi**2, 1 / pi**2, sqrt(5), sqrt(6), sqrt(7), sqrt(pi))
@@ -171,7 +171,7 @@ def special_values(answer: Expr, right: Expr, kinds: Mapping[Symbol, object], an
     """Return special values of the letters for which a wrong answer equals the right one, as text; "" if none is found.
 
     kinds    letter -> its kind; two letters of the same kind may be set equal
-    angles   letters that may be zero
+    angles   letters that may be 0 or pi/2
     """
     free = answer.free_symbols | right.free_symbols
     for one, other in combinations(sorted(free & set(kinds), key=str), 2):

@@ -1,7 +1,7 @@
 r"""The text of an answer, tidied: ASCII and Unicode become LaTeX, and the answer is split into statements.
 
-`7/24 M a^2 w^2`, `theta_ddot = -g/l sin(theta)` and `½mv²` become LaTeX that `derive.documents` parses. Every change
-keeps track of the place in the typed text.
+`7/24 M a^2 w^2`, `theta_ddot = -g/l sin(theta)` and `½mv²` become LaTeX that `derive.documents` parses. For each
+change, the place in the typed text is recorded.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ _DEFINED = re.compile(
 
 
 class Unread(Exception):
-    """The reason why an answer is not read, and the place in the tidied text."""
+    """The reason why an answer cannot be read, and the place in the tidied text."""
 
     def __init__(self, message: str, span: Span | None = None):
         super().__init__(message)
@@ -73,7 +73,7 @@ def typed(text: str, names: Names) -> Typed:
     if not text.strip():
         raise Unread("the answer is empty")
     if odd := re.search(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\ud800-\udfff]", text):
-        raise Unread("this character is not part of a formula", Span(odd.start(), odd.end()))
+        raise Unread("this character is not allowed in an answer", Span(odd.start(), odd.end()))
     source = source_of(text, Format.PLAIN, "answer")
     try:
         return _typed(source, names)
@@ -197,7 +197,8 @@ def _read_commas(source: Source, notes: list[str]) -> None:
 
 
 def with_points(entries: str) -> str:
-    """Return entries that are separated by other signs than a comma, such as `1,5; 0; 2`, with decimal points."""
+    """Return entries with decimal points in place of decimal commas; the entries are not separated by commas, as in
+    `1,5; 0; 2`."""
     return re.sub(r"(?<=\d),(?=\d)", ".", entries)
 
 
@@ -317,7 +318,7 @@ def _wrapped(tokens: list[Token]) -> list[Token]:
 
 
 def _without_cells(tokens: list[Token]) -> list[Token]:
-    """Leave out the signs `&` outside matrices, which only align rows."""
+    """Leave out each `&` outside a matrix, because it only aligns rows."""
     found, depth = [], 0
     for token in tokens:
         depth += token.is_command("begin") - token.is_command("end")

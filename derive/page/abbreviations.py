@@ -12,7 +12,7 @@ from derive.steps.step import Step, is_zero
 
 
 def shortened(steps: Sequence[Step]) -> Callable[[Step, Any], Any]:
-    """Return a function of a step and an expression that replaces named square roots by their symbols."""
+    """Return a function with the arguments step and expression; it replaces named square roots by their symbols."""
     letters: list[tuple[Any, Any]] = []
     known: dict[str, list[tuple[Any, Any]]] = {}
     for step in steps:

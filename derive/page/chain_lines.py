@@ -24,7 +24,7 @@ EQUATION_OF = "equation_of_"  # in a reason, <<equation_of_ROLE>> prints the num
 
 @dataclass(frozen=True)
 class ChainLine:
-    """`left relation right` with a reason; a line that continues a chain has a left side only if it is a relation."""
+    """`left relation right` with a reason; `left` is None if the line continues a chain of expressions or decimals."""
 
     left: Any | None
     relation: str
@@ -39,8 +39,8 @@ class ChainLine:
 
 @dataclass(frozen=True)
 class Equations:
-    """The lines of one step, or of steps that share a row, and their number. The last `framed` lines are framed as an
-    answer."""
+    """The lines of one step, or of steps that share a row, and the number of the equation. The last `framed` lines are
+    framed as an answer."""
 
     key: str
     lines: tuple[ChainLine, ...]
@@ -225,7 +225,7 @@ def _letters_used(steps: Sequence[Step], values: Mapping[str, Step], drawn: Iter
 
 def _share_a_sum_or_root(vector: MatrixBase) -> bool:
     """Return whether all entries except zeros share a factor or denominator that is a power of a sum or an irrational
-    number; in front of the vector, it is printed once."""
+    number. If such a factor is in front of the vector, it is printed only once."""
     present = [entry for entry in vector if entry != 0]
     factors = Mul.make_args(common_factor(present))
     return len(present) > 1 and any(each.as_base_exp()[0].is_Add or each.is_irrational for each in factors)

@@ -27,7 +27,7 @@ class Row:
     """Consecutive steps of one rule with the same grade and the same methods of checking, with their inputs and the
     number of their lines.
 
-    routes   the names of the second routes, and of the motion if the witness simulated it numerically
+    routes   the names of the second routes, and the word for a motion if the witness simulated it numerically
     checks   the names of the checks
     """
 
@@ -56,7 +56,7 @@ _NOT_ALIKE: Mapping[str, Any] = {
 
 @dataclass(frozen=True)
 class Checks:
-    """The counts, the table of the steps, and the errata and remarks about the source document."""
+    """The numbers of checked steps and lines, the table of the steps, and the errata and remarks about the source."""
 
     steps: Mapping[Grade, int]
     lines: Mapping[Grade, int]

@@ -23,13 +23,13 @@ Nodes = tuple[Inline, ...]
 
 
 def limits_left_out(problem: Problem, derivation: Derivation) -> list[Complaint]:
-    """Return a warning for each case that is left out because the result does not depend on the symbols of the case."""
+    """Return a warning for each case that is left out, such as a limit of a symbol that the result does not contain."""
     found = []
     for keys, given in zip(derivation.closing, problem.limits, strict=True):
         if not keys:
             of = given.of or given.step
             letters = [str(given.letter)] if given.letter else [str(letter) for letter in given.where]
-            on = " and ".join(f"`{letter}`" for letter in letters)
+            on = ("all of " if len(letters) > 1 else "") + ", ".join(f"`{letter}`" for letter in letters)
             message = f"this case is left out: `{of}` does not depend on {on}"
             found.append(Complaint("unused-limit", message, given.places[""], severity="warning"))
     return found
@@ -66,7 +66,7 @@ def limiting_cases(
     shown = {key for keys in (*derivation.parts, *derivation.observed) for key in keys} | own
     yield from (step for step in derivation.steps if step.key not in shown)  # only the limiting cases need these steps
     for keys, given in zip(derivation.closing, problem.limits, strict=True):
-        if not keys:  # the result does not depend on the symbols of this case
+        if not keys:  # this case does not apply to the result
             continue
         first, *more = (derivation.step(key) for key in keys)
         said = _in_the_line(first, phrase(first))

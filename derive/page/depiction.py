@@ -2,8 +2,8 @@
 
 The alternative text is derived from the marks or the curves, so the text changes with the inputs. A drawing
 appears in the statement if it shows only inputs. Some drawings, such as a force diagram, are placed before the steps
-that they explain. Any other drawing appears in the first part after which all its steps are derived. A problem may move
-a drawing to a later part.
+that they explain. Any other drawing appears in the part that derives the last of its steps. A problem may move a
+drawing to a later part.
 """
 
 from __future__ import annotations
@@ -45,7 +45,8 @@ from derive.page.wording import EQUALS, Inline, Math, Phrases, Text, filled, joi
 from derive.steps.derivation import Derivation
 from derive.steps.signs import truth_known
 
-LARGEST = 99  # a ratio of moments with greater whole numbers is written with multiples of the least moment
+# Greatest whole number in a ratio of moments; any other ratio is written with decimals, in units of the least moment.
+LARGEST = 99
 CURVE = "way"  # the key of the phrase for a dashed curve
 _VALUE = re.compile(r"value_\d+")  # the role of a value that a step substitutes for a letter: b = 2 sqrt(k m)
 ROUNDED = 0.01  # greatest relative difference between an exact value and the rounded number of a plot
@@ -90,7 +91,7 @@ def depictions(
     words: Phrases,
     told: Callable[[Any, dict[str, Any]], tuple[Inline, ...]],
 ) -> tuple[list[Depicted], list[Complaint]]:
-    """Return the drawings that the page shows, in its order, and the errors about drawings."""
+    """Return the drawings in the order of the page, and the errors about drawings."""
     faults = _unknown(problem, drawings)
     faults += [f for drawing in drawings for f in (*_without_letter(problem, drawing), *_cases(problem, drawing))]
     outside = {drawing.key: _outside_its_case(problem, drawing, derivation) for drawing in drawings}
@@ -140,7 +141,7 @@ def _has_standard_caption(drawing: m.Recorded) -> bool:
 def _standard_caption(drawing: m.Recorded, words: Phrases, said: set[str]) -> tuple[Inline, ...]:
     """Return the standard caption of a force diagram or of the drawing of a normal mode; empty for other drawings.
 
-    said   the sentences in earlier captions that are not repeated; new ones are added
+    said   the sentences in earlier captions, which are not repeated; this function adds new sentences
     """
     if not isinstance(drawing, m.Drawing):
         return ()
@@ -163,7 +164,7 @@ def _standard_caption(drawing: m.Recorded, words: Phrases, said: set[str]) -> tu
 def _positive(drawing: m.Recorded, words: Phrases, said: set[str]) -> tuple[Inline, ...]:
     """Return the sentences about the thin arrows of a drawing, to follow the caption.
 
-    said   the sentences in earlier captions; a new sentence is added
+    said   the sentences in earlier captions; this function adds new sentences
     """
     marks = drawing.marks if isinstance(drawing, m.Drawing) else ()
     sorts = {PositiveDirection: "positive_direction", PositiveRotation: "positive_rotation"}
@@ -206,7 +207,7 @@ def placement_of(problem: Problem, key: str) -> Placement | None:
 def _unknown(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Complaint]:
     names = [drawing.key for drawing in drawings]
     of_engine = problem.described is not None
-    none = "the engine draws the inputs only if it can show all of them" if of_engine else "the script makes no drawing"
+    none = "the engine cannot show all inputs in a drawing" if of_engine else "the script makes no drawing"
     known = "the drawings are " + ", ".join(f"`{name}`" for name in names) if names else none
     who = "the engine" if of_engine else "the script"
     return [
@@ -225,7 +226,7 @@ def _without_letter(problem: Problem, drawing: m.Recorded) -> list[Complaint]:
     placement = placement_of(problem, drawing.key)
     if isinstance(drawing, m.Plot):
         message = f"`values` has no effect on the plot `{drawing.key}`"
-        help_line = "write the numbers under the `cases` of the plot, `[{l: 1 m}]`, or the `values` of the problem"
+        help_line = "write the numbers in the plot, such as `cases: [{l: 1 m}]`, or under `values` of the problem"
         place = next(iter(placement.names.values()), None) if placement else None
         return [Complaint("unused-key", message, place, help=help_line)] if place else []
     letters = {symbol.name for symbol in drawing.letters}
@@ -282,7 +283,7 @@ def _outside_its_case(problem: Problem, drawing: m.Recorded, derivation: Derivat
         broken = next((each for each in conditions if _is_broken(each, names, numbers)), None)
         if broken is not None:
             which = f"case {case_label(i)} of the plot `{drawing.key}`" if more else f"the plot `{drawing.key}`"
-            message = f"the numbers of {which} do not satisfy {broken}, on which its result depends"
+            message = f"the numbers of {which} do not satisfy {broken}, which the plotted result requires"
             place = case[0].place if case else placement.place if placement else problem.place_of("solve")
             help_line = "change the numbers, or plot a result that holds for these numbers"
             found.append(Complaint("drawing", message, place, help=help_line))
@@ -391,13 +392,14 @@ def not_drawn(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Complain
 
 
 def misspelt(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Complaint]:
-    """Return a warning for each plane drawing of marks whose name is similar to that of a drawing of the engine."""
+    """Return a warning for each drawing that consists of marks in a plane, if the engine makes a drawing with a similar
+    name."""
     own = {placement.key: placement for placement in problem.drawings}
     others = [drawing.key for drawing in drawings if drawing.key not in own]
     return [
         Complaint(
             "drawing",
-            f"`{key}` is a further drawing, which shows only these marks",
+            f"`{key}` is a new drawing, which shows only these marks",
             placement.place,
             help=f"to add the marks to the drawing of the engine, write `{meant}`",
             severity="warning",
@@ -434,7 +436,8 @@ def leads_to(drawing: m.Recorded) -> tuple[str, ...]:
 
 
 def _earliest(drawing: m.Recorded, derivation: Derivation) -> int | None:
-    """Return the index of the earliest part for a drawing, or -1 for the statement; None if there is no such part."""
+    """Return the index of the first part in which a drawing may appear, or -1 for the statement; None if there is no
+    such part."""
     if leads_to(drawing):
         return next((i for i, keys in enumerate(derivation.parts) if set(keys) & set(leads_to(drawing))), None)
     known: set[str] = set()
@@ -492,7 +495,7 @@ def _given_away(
     where = "the statement" if index == FOUND else f"part {chr(ord('a') + index)}"
     message = f"in {where} the drawing `{drawing.key}` would show `{later}` before it is derived"
     letter = chr(ord("a") + earliest)
-    return Complaint("drawing", message, place, help=f"write `at: {letter}`, where it is derived")
+    return Complaint("drawing", message, place, help=f"write `at: {letter}`, the part that derives this step")
 
 
 # --- contents in words -----------------------------------------------------------------------------------------------
@@ -617,8 +620,8 @@ def _curves(problem: Problem, plot: m.Plot, placement: Placement | None, words: 
 
 
 def _heights(curve: Curve, curves: Curves) -> Iterator[dict[str, Any]]:
-    """Yield the energy of a line and both ends, for each range in which the curve is below this line, to fill in a
-    sentence."""
+    """For each range in which the curve is below the line of an energy, yield this energy and the ends of the range,
+    by the names in a phrase."""
     for energy, ranges in curve.heights:
         for start, end in ranges:
             ends = [with_unit(x * curves.variable.per_unit, curves.variable.unit) for x in (start, end)]
@@ -634,7 +637,7 @@ def _spaced(told: Sequence[tuple[Inline, ...]]) -> tuple[Inline, ...]:
 
 
 def _portraits(plot: m.Plot, curves: Curves, words: Phrases, names: dict[str, Any]) -> Iterator[tuple[Inline, ...]]:
-    """Yield words for the plane of a phase portrait, and for the values on the curves of each panel."""
+    """Yield words for the axes of a phase portrait, and for the values on the curves of each panel."""
     assert plot.levels is not None
     yield filled(words.drawings["portrait"], names)
     last = words.labels["and"]
@@ -689,7 +692,7 @@ def _diagrams(plot: m.Plot, curves: Curves, words: Phrases, names: dict[str, Any
 
 
 def _part(line: BranchLine, curves: Curves, varies: bool) -> dict[str, Any]:
-    """Return the names for the words about a part of a branch."""
+    """Return the values, by name, for the phrase about a part of a branch."""
     (start, first), (end, second) = line.points[0], line.points[-1]
     ends = {"start": start, "end": end}
     values = {"first": first, "second": second}

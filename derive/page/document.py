@@ -83,7 +83,7 @@ from derive.steps.step import NUMBERS, Level, Step
 
 HIDDEN_STEP = "hidden"  # under `show:`, the value for a step whose lines the author hides
 CASES = "cases"  # `<<cases>>` in a question prints the numbers of the cases of the plots in this part
-HOMOGENEITY = "look in the script for a law with a wrong quantity"
+HOMOGENEITY = "look in the script for a law that has a wrong input"
 
 
 def document_of(
@@ -143,10 +143,12 @@ class _Writer:
         self.converted, self.stated = set[Any](), Stated()
         self.before: Step | None = None  # the last step shown; the words of the next step may depend on it
         self.rest: list[Step] = []  # the steps that the part shows after the current step
-        self.pointed_to: tuple[Step, ...] = ()  # the steps whose lines the last sentence about earlier lines mentions
+        # the steps to whose lines the last sentence of a step without lines refers
+        self.pointed_to: tuple[Step, ...] = ()
         self.told_before = ""  # the key of a step that shares the sentence of the step before
         self.framed: set[str] = set()  # steps whose result is framed as an answer
-        # Whether the current part frames results that an earlier part has framed: it has one framed answer or `box:`.
+        # Whether the current part frames results again that an earlier part has framed. It does if it has `box:` or
+        # only one framed answer.
         self.frames_again = False
         self.unplaced: set[str] = set()  # steps that the page has not yet described
         self.symbols = {step.key: step.symbol for step in derivation.steps}
@@ -528,7 +530,7 @@ class _Writer:
         return in_words or key in self.numbers and not self._is_repeated(self.derivation.step(key))
 
     def _is_repeated(self, step: Step) -> bool:
-        """Return whether an earlier equation of the page is the result of a step that no part asks for."""
+        """Return whether no part asks for this step, and its result is already an equation of the page."""
         return step.key not in self.asked and step.display.repeats in self.numbers
 
     def _phrase(self, step: Step, follows_words: bool = False) -> tuple[Inline, ...]:
@@ -570,7 +572,7 @@ def _without_cases(place: Place, label: str, plots: Sequence[Illustration]) -> C
         key, at = plots[0].key, plots[0].at
         where = "the statement" if at == STATEMENT else f"part {at}"
         help_line = f"the plot `{key}` is in {where}: mention `<<{CASES}>>` there, or move the plot with `at: {label}`"
-    message = f"`<<{CASES}>>` prints the numbers of a plot in its part, but no plot in part {label} has `cases`"
+    message = f"`<<{CASES}>>` prints the numbers of a plot in the same part, but no plot in part {label} has `cases`"
     return Complaint("undefined-name", message, place, help=help_line)
 
 

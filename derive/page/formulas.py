@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 
 _WRONG = {"undeclared-symbol", "dimension", "division-by-zero", "not-real", "too-large", "wrong-number"}
 FORCES = ("force", "torque")  # kinds of unknowns that vary in time like coordinates, but for which the page has values
-TRIALS, DIGITS = 3, 30  # number of trial points, and number of digits, for the comparison of roots of sums
+TRIALS, DIGITS = 3, 30  # number of trial points, and of digits, to test whether an expression with roots is zero
 DEEPEST = 4  # the largest number of successive substitutions: omega_2 is given by omega_0, and omega_0 by k and m
 MOST_COMBINATIONS = 16  # largest number of combinations of values, if a formula contains several results
 _INEQUALITIES = ("<", ">", "<=", ">=")

@@ -27,7 +27,7 @@ def in_words(document: Document, derivation: Derivation, worded: Collection[str]
     found: dict[str, bool] = {}
     for part in document.parts_shown:
         for display in _in_short_sentences(part.blocks):
-            step = steps.get(display.groups[0].key)  # numbers of answers are not steps of the derivation
+            step = steps.get(display.groups[0].key)  # the decimals of an answer belong to no step of the derivation
             if step is not None and step.key not in referred and _is_plain(step):
                 shown: list[Any] = [document.strategy, document.note, document.limits]
                 shown += [block for each in document.parts_shown for block in each.blocks if block is not display]

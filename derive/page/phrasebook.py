@@ -178,7 +178,7 @@ class _Checked:
     def phrases(self, value: Any, shape: Any, keys: tuple[str, ...]) -> Any:
         self.count += 1
         if self.count > MAX_PHRASES:
-            _wrong(self.source, keys, f"one of at most {MAX_PHRASES} phrases, but there are more")
+            _wrong(self.source, (), f"shorter: there are more than {MAX_PHRASES} phrases")
         if shape == _FORMS:
             shape = _TABLE if isinstance(value, dict) else _TEXT
         if shape == _TEXT:

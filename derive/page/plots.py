@@ -35,7 +35,7 @@ DEGREE, DEGREES, RADIANS = pi / 180, "°", "rad"
 JOULE, POTENTIAL = "J", "U"  # the unit and the first letter of a potential energy
 
 STEPS = 240  # least number of steps of a curve
-STEPS_OF_TURN, MOST_STEPS = 40, 6000  # number of steps for each extremum of a curve, and greatest number of all steps
+STEPS_OF_TURN, MOST_STEPS = 40, 6000  # number of steps for each extremum, and greatest number of steps of a curve
 MOST_POINTS = 2  # a panel with more zeros, or with more meeting points of curves, has no marks for them
 PATH_STEPS = 720  # number of steps of a path, which may go round many times
 MOST_MARKED, MOST_IN_TIME = 6, 3  # greatest number of extrema with marks; the second number is for curves against time
@@ -43,7 +43,7 @@ MOST_MARKED, MOST_IN_TIME = 6, 3  # greatest number of extrema with marks; the s
 # with this fraction of the range.
 NEAR = 1e-6
 MOST_TOGETHER = 4  # greatest number of curves in one panel; they differ in the style of their lines
-KEPT = 1 / 3  # length of the part of a curve after its range, on which the curve is constant, divided by the range
+KEPT = 1 / 3  # length of the constant part after the range of a curve, divided by the length of this range
 # To test whether a curve depends on a number, the number is multiplied by a factor, and values of the curve are
 # compared at places given as fractions of the range.
 CHANGED, SHARES = 1.31, (0.23, 0.59, 0.87)
@@ -62,7 +62,7 @@ class Curve:
     diagram  the branches of a bifurcation diagram
     places   the values of the variable for which the solution has a symbol, with these symbols
     then     the value that the curve keeps after its range
-    heights  energies at which a line is drawn: each with the ends of the ranges where the curve is lower
+    heights  energies at which a line is drawn, each with the ranges in which the curve is below this line
     """
 
     expr: Expr
@@ -106,7 +106,7 @@ class Curve:
 class Axis:
     """The unit of an axis; one SI unit equals `per_unit` of these units.
 
-    If an axis is divided by a quantity, `per` is the name of this quantity, and the unit is empty.
+    If the values on an axis are divided by a quantity, `per` is the name of this quantity, and the unit is empty.
     """
 
     unit: str
@@ -228,13 +228,13 @@ def _divided(
     placement: Placement | None,
     numbers: Sequence[Mapping[Any, Expr]],
 ) -> Axis:
-    """Return the axis divided by a quantity, which must have the same positive value for all curves."""
+    """Return the axis of values divided by a quantity, which must have the same positive value for all curves."""
     name, expr = per
     if name == 1:
         return usual
     sizes = [float(expr.xreplace(each)) for each in numbers]
     if max(sizes) - min(sizes) > NEAR * abs(sizes[0]) or sizes[0] <= 0:
-        message = f"`{name}`, by which an axis of `{plot.key}` is divided, is not one positive number for all curves"
+        message = f"`{name}`, the divisor of an axis of `{plot.key}`, must be the same positive number for all curves"
         raise Rejected(Complaint("drawing", message, _place(problem, placement), help="divide by another quantity"))
     return Axis("", 1 / sizes[0], name)
 
@@ -245,7 +245,7 @@ def _matters(
     numbers: Sequence[Mapping[Any, Expr]],
     ends: Sequence[Expr],
 ) -> bool:
-    """Whether the curves change with the number of a letter, after the axes are divided."""
+    """Whether the curves, after division by the divisors of the axes, depend on the number of a letter."""
     for (plot, _), known in zip(pairs, numbers, strict=True):
         other = {**known, letter: known[letter] * CHANGED}
         for share in SHARES:
@@ -258,7 +258,7 @@ def _matters(
 def _divided_values(
     plot: Plot, numbers: Mapping[Any, Expr], first: Mapping[Any, Expr], ends: Sequence[Expr], share: float
 ) -> list[complex]:
-    """Return the values of a plot, divided by its units, at one place."""
+    """Return the values of a plot at one place, divided by the divisors of the axes."""
     divisors = [[expr.xreplace(each) for _, expr in plot.per] for each in (numbers, first)]
     lower, upper = (end.xreplace(numbers if plot.across else first) for end in ends[:2])
     at = lower + share * (upper - lower)
@@ -298,8 +298,9 @@ def _own(
 
 
 def _are_together(problem: Problem, plot: Plot, placement: Placement | None, curves: Sequence[Curve]) -> bool:
-    """Return whether the curves are in one panel. If the problem does not state this, a few curves are in one panel if
-    they show several quantities, or if they have comparable sizes and, except for paths, the same range."""
+    """Return whether the curves are in one panel. If the problem does not state this, a few curves of several
+    quantities are in one panel. A few curves of one quantity are in one panel if they have comparable sizes and, except
+    for paths, the same range."""
     stated = placement.panels if placement else None
     if len(curves) < 2 or plot.levels is not None or plot.diagram is not None or stated == APART:
         return False
@@ -444,7 +445,7 @@ def _curve(
 
 
 def _below(expr: Expr, energy: Expr, variable: Symbol, lower: float, upper: float) -> Path:
-    """Return the ranges of the variable in which a potential energy is less than an energy."""
+    """Return the ranges of the variable in which a potential energy is less than a given energy."""
     crossed = [lower, *zeros(expr - energy, variable, lower, upper), upper]
     lowest = [float((expr - energy).subs(variable, (one + other) / 2)) < 0 for one, other in pairwise(crossed)]
     return tuple(both for both, is_below in zip(pairwise(crossed), lowest, strict=True) if is_below)

@@ -46,8 +46,9 @@ class Stated:
 
 
 def results(step: Step, lines: Lines) -> int:
-    """Return the number of final lines that are the result. For a list of results, these are all lines; for a value
-    with measured numbers, the decimals; otherwise the last line, or decimals with the exact value before them."""
+    """Return the number of final lines that are the result. For a list of results, these are all lines. For a value
+    with measured numbers, these are the lines with decimals, if there are any. Otherwise they are the last exact line
+    and the decimals after it."""
     if isinstance(getattr(step, "symbol", None), MatrixBase):  # a list of results, with a line for each value
         return len(lines)
     decimals = next((i for i, line in enumerate(reversed(lines)) if not line.numeric), len(lines))
@@ -57,9 +58,10 @@ def results(step: Step, lines: Lines) -> int:
 def told_by_number(step: Step, nodes: tuple[Inline, ...], level: Level) -> tuple[Inline, ...]:
     """Return the sentence of a repeated result, which refers to the earlier equation and needs no lines after it."""
     before, _ = around_chain(nodes)
-    if step.outcome not in AGAIN or level is Level.FULL or not before or not isinstance(before[-1], Text):
+    if step.outcome not in AGAIN or level is Level.FULL or not before:
         return ()
-    return (*before[:-1], Text(before[-1].text.rstrip(" ,") + "."))
+    *start, last = before
+    return (*start, Text(last.text.rstrip(" ,") + ".")) if isinstance(last, Text) else (*before, Text("."))
 
 
 def noted(lines: Lines, note: tuple[Inline, ...]) -> Lines:

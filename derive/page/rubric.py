@@ -56,7 +56,7 @@ def credits_of(
     """Return the rubric of each part that is not an extra question, by label; `said` are the points that the problem
     specifies, by label.
 
-    `tasks` has the words for each step, by key. `values` are the steps that substitute numbers.
+    `tasks` states in words what a student does in each step, by key. `values` are the steps that substitute numbers.
     """
     into = {value.key: value.inputs for value in values}
     asked = [part for part in document.parts_shown if not part.extra]

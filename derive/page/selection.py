@@ -33,18 +33,18 @@ LESS = {
     OWN: OWN,
 }  # manner of a step -> the manner to try next if the page needs the symbol of the step
 
-LONGEST_CLAUSE = 24  # greatest number of nodes of a result that appears in a clause
+LONGEST_CLAUSE = 24  # greatest number of nodes in the expression tree of a result that appears in a clause
 
 
 @dataclass(frozen=True)
 class Needed:
-    """The result of an attempt at the page: the hidden steps whose symbols the page uses or to whose equations it
-    refers, and the displays to whose numbers nothing refers.
+    """What earlier versions of the page have shown: the hidden steps whose symbols the page uses or to whose equations
+    it refers, and the displays to whose numbers nothing refers.
 
     in_words   key of a step whose equation is in its sentence -> whether the page uses the symbol of the step
     """
 
-    letters: Mapping[str, int]  # key of a step -> number of attempts at the page that lacked its symbol
+    letters: Mapping[str, int]  # key of a step -> number of versions of the page that lacked the symbol of the step
     numbers: frozenset[str] = frozenset()
     in_words: Mapping[str, bool] = field(default_factory=dict)
 
@@ -130,7 +130,7 @@ class Selection:
         return self.manner(key) is not OWN and self.shown.get(key) != "hidden"
 
     def _can_be_pointed_out(self, step: Step) -> bool:
-        """Return whether earlier lines show the result of a step, so that its sentence can point to these lines."""
+        """Return whether the sentence of a step can point to earlier lines, in place of lines of its own."""
         having_it = {each.key for each in self._having_it[step.key]}
         if not having_it or step.key in self.shown or step.key in self.needed.numbers or self.level is Level.FULL:
             return False

@@ -1,4 +1,4 @@
-"""The sign between two lines of a chain: equals, about equals, tends to."""
+"""The sign between two lines of a chain: equals, approximately equals, tends to."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def sign_before(form: Form) -> str:
 
 
 def sign_behind_name(step: Step, form: Form) -> str:
-    """Return the sign between the symbol of a step and a line: about equal if the result is approximate."""
+    """Return the sign between the symbol of a step and a line: approximately equal if the result is approximate."""
     sign = sign_before(form)
     return "approx" if sign == "equals" and step.about else sign
 
@@ -29,5 +29,5 @@ def name_before(step: Step) -> Any:
 
 
 def sign_of_relation(step: Step, word: str) -> str:
-    """Return the sign of an equation: about equal if the equation follows from an approximation."""
+    """Return the sign of an equation: approximately equal if the equation follows from an approximation."""
     return "approx" if word == "equals" and not step.exact else word

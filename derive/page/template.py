@@ -28,7 +28,7 @@ class Templates:
     folders: tuple[Path, ...]
 
     def file(self, name: str) -> Path:
-        """Return the first file of this name in the folders."""
+        """Return the first existing file of this name in the folders; if there is none, its path in the last folder."""
         paths = [folder / name for folder in self.folders]
         return next((path for path in paths if path.is_file()), paths[-1])
 
@@ -100,7 +100,7 @@ class Unknown(StrictUndefined):
 
 
 def environment(**own: Any) -> ImmutableSandboxedEnvironment:
-    """Return an environment of Jinja.
+    """Return a sandboxed Jinja environment with the delimiters `<<`, `<%` and `<#`.
 
     own   further options, such as the loader and the function that prints a value
     """

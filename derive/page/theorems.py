@@ -60,8 +60,8 @@ class Theorems:
         return tuple(told)
 
     def without_law(self, step: Step) -> Step:
-        """Return the step without its line for the law, if a theorem on a page of the level `standard` has stated the
-        law."""
+        """Return the step without its line for the law, if the page has the level `standard` and has stated the law as
+        a theorem."""
         said = self._level is Level.STANDARD and not self._told.isdisjoint(step.law_in)
         if not (said and len(step.chain) > 1 and step.chain[0].because == "law"):
             return step

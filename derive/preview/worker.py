@@ -1,12 +1,12 @@
 """The process that derives the pages of a preview: it keeps running, and answers one question after another.
 
-The process keeps what it has loaded, so that an edit of words needs little work.
+The process keeps its loaded modules and its caches, so that an edit of words needs little work.
 
     python -P -m derive.preview.worker ROOT MEMORY QUESTIONS ANSWERS TRACE LIFELINE
 
-MEMORY is the limit of memory in bytes. The other capitals except ROOT are file descriptors. QUESTIONS and ANSWERS have
-one JSON object per line. At the time limit, the lines of code that are running are written to TRACE. LIFELINE closes
-when the server ends.
+MEMORY is the limit of memory in bytes. The other words in capitals, except ROOT, are file descriptors. QUESTIONS and
+ANSWERS have one JSON object per line. At the time limit, the lines of code that are running are written to TRACE.
+LIFELINE closes when the server ends.
 """
 
 from __future__ import annotations

@@ -1,1 +1,1 @@
-"""Solves for a symbol, finds roots, solves linear systems, and writes results as in a textbook; no physics."""
+"""Mathematics without laws of physics: solving for a symbol, roots, linear systems, and textbook forms of results."""

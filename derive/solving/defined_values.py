@@ -17,7 +17,7 @@ def check_defined(verb: str, called: str, where: str, value: Any, put: Callable[
 
     verb     the verb that replaces the symbols
     called   the name of the result
-    where    the substitution in words: `alpha = pi/2`
+    where    the substitution as text: `alpha = pi/2`
     value    the result before the substitution
     put      a function that replaces the symbols in an expression
     """

@@ -65,8 +65,8 @@ def beginnings(of: Quantity, value: Any, x: Symbol, place: Expr, order: int | No
 def expansion_of(of: Quantity, value: Expr, x: Symbol, place: Expr, order: int | None, is_one: bool = True) -> Series:
     """The terms up to an order, by default the leading term only. Rejects a value without an expansion in powers.
 
-    is_one   whether the value is a scalar result; if it is an entry of a vector or tensor, a series without a term up
-             to the order is not an error
+    is_one   whether the value is a scalar result. For an entry of a vector or tensor, a series without a term up to
+             the order is not an error
     """
     try:
         return expanded(value, x, place, None if order is None else Rational(order))
@@ -174,8 +174,10 @@ def _rest_of_entry(value: Expr, found: Expr, x: Symbol, place: Expr, power: Rati
 def _shrinks(
     value: Expr, found: Expr, x: Symbol, place: Expr, power: Rational, side: int, point: Any, distances: Any
 ) -> bool | None:
-    """Whether the remainder, divided by the power of the small quantity, shrinks fast enough (`SLOWEST`) from the
-    farther to the closer distance; None if the remainder has no value."""
+    """Whether the remainder, divided by the power of the small quantity, shrinks fast enough (`SLOWEST`).
+
+    The farther and the closer of two distances are compared. The result is None if the remainder has no value.
+    """
     sizes = []
     for near in distances:
         there = {**point, x: _at(place, near, point, side)}

@@ -256,7 +256,7 @@ def _check_size(size: int, fits: bool, what: str, help: str | None = None) -> No
 class Conservative(LinearSystem):
     """A conservative system: its matrix is K - lambda M, with symmetric K and M.
 
-    The entries of a mode shape are polynomials in lambda modulo the irreducible factor whose root is lambda, so it is
+    The entries of a mode shape are polynomials in lambda modulo the irreducible factor whose root is lambda. So it is
     decided exactly whether a pivot vanishes.
 
     name   the name of the numbered roots of a factor without root formulas; by default such a factor is rejected

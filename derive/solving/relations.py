@@ -149,8 +149,8 @@ def solved_for_unknown(of: Quantity, difference: Expr, mark: str, unknown: Expr)
     """The relation between a difference and zero, solved for an unknown u. Rejects a difference that cannot be solved
     for u.
 
-    If the difference contains u only as u^2, the relation is solved for u^2 or, if neither u nor the other side can be
-    negative, for u.
+    If the difference contains u only as u^2, the relation is solved for u^2. If neither u nor the other side can be
+    negative, it is then solved for u.
     """
     u = mark_for(unknown)
     written, beside = without_factors_beside(with_unknown(difference, unknown, u), unknown, u)
@@ -170,8 +170,8 @@ def solved_for_unknown(of: Quantity, difference: Expr, mark: str, unknown: Expr)
 
 
 def without_square(condition: Relation) -> Relation:
-    """Return x > sqrt(v) for x^2 > v if x and v are never negative, and likewise for the other comparison signs; return
-    any other condition unchanged."""
+    """Return x > sqrt(v) for x^2 > v if x and v are never negative, and the same for the other operators. Return any
+    other condition unchanged."""
     left, right = condition.sides
     if not (left.is_Pow and left.exp == 2 and left.base.is_nonnegative and right.is_nonnegative):
         return condition

@@ -75,7 +75,9 @@ def letter_of(unknown: Expr) -> Symbol:
     """The symbol in an unknown, such as theta in cos(theta); rejects any other expression."""
     found = unknown if isinstance(unknown, Symbol) else _letter_within(unknown)
     if found is None:
-        raise Rejected(Complaint("wrong-argument", f"{unknown} is neither a symbol nor a function of a symbol"))
+        raise Rejected(
+            Complaint("wrong-argument", f"{unknown} is not a symbol, or a power, sine, cosine or tangent of one")
+        )
     return found
 
 
@@ -90,8 +92,11 @@ def meaning(unknown: Expr, value: Expr) -> dict[Symbol, Expr]:
 
 
 def with_unknown(expr: Expr, unknown: Expr, value: Expr) -> Expr:
-    """Substitute a value for the unknown: for theta_dot^2 also in theta_dot^4, for cos(theta) also in sin(theta)^2, and
-    for tan(theta) also in sin(theta) = tan(theta) cos(theta)."""
+    """Substitute a value for the unknown, also where the unknown is not written.
+
+    A value of theta_dot^2 is substituted in theta_dot^4, a value of cos(theta) in sin(theta)^2, and a value of
+    tan(theta) in sin(theta) = tan(theta) cos(theta).
+    """
     if isinstance(unknown, Symbol):
         return expr.xreplace({unknown: value})
     if isinstance(unknown, Pow):

@@ -67,8 +67,8 @@ class Zero:
 
 
 def zeros_of(force: Expr, q: Symbol) -> list[Zero]:
-    """All real zeros; for an angle within one turn, for a positive coordinate only positive zeros. Raises `Unsolved` if
-    a factor cannot be solved."""
+    """All real zeros. For an angle, only zeros within one turn are returned; for a positive coordinate, only positive
+    zeros. Raises `Unsolved` if a factor cannot be solved."""
     found: dict[Expr, Zero] = {}
     for factor in factors_of(force, q):
         for zero in _of_factor(factor, q):

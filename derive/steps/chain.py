@@ -113,8 +113,8 @@ def line_evidence(
 
 
 def _check_sign(key: str, i: int, before: Form, form: Form) -> None:
-    """Check a line without expansions that follows a line with expansions: an equals sign is allowed only if the lines
-    are exactly equal, and a limit must not contain the symbol that goes to its limit."""
+    """Check a line without expansions that follows a line with expansions. An equals sign is allowed only if the lines
+    are exactly equal. A limit must not contain the symbol that goes to its limit."""
     cut = before.expr.atoms(Expansion) if not form.expr.has(Expansion) else set()
     if not cut:
         return

@@ -183,8 +183,8 @@ def says_what_it_divides_by(facts: Judged, outcome: str) -> bool:
 
 
 def given_as_the_condition_has_it(facts: Judged, outcome: str) -> bool:
-    """Judge what a sentence says about a symbol with a given number: it must state this number to within 5 percent, and
-    it must be right about whether the number satisfies the condition."""
+    """Judge what a sentence says about a symbol with a given number. It must state this number to within 5 percent.
+    It must also be right about whether the number satisfies the condition."""
     condition = facts.inputs.get("condition")
     if condition is None:
         return "seen" not in facts.words
@@ -203,7 +203,7 @@ def not_negative(facts: Judged, outcome: str) -> bool:
 
 
 def nowhere_negative(facts: Judged, outcome: str) -> bool:
-    """Judge as `not_negative` does; the value must also have a sign at a trial point, and be negative at none."""
+    """Judge as `not_negative` does. The value must also be real at a trial point, and negative at none."""
     return not_negative(facts, outcome) and nowhere_negative_where_real(facts)
 
 

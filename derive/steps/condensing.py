@@ -16,8 +16,8 @@ from derive.steps.step import NUMBERS, Form, Step
 
 
 def condensed(step: Step, known: Mapping[Any, Step]) -> Step:
-    """In the lines of a step, replace the symbols of known steps by the results of these steps, and add evidence that
-    each new line equals the line that it replaces."""
+    """In the lines of a step, replace the symbols of known steps by the results of these steps. Add evidence that each
+    new line equals the line that it replaces."""
     if not known:
         return step
     results = {symbol: each.result for symbol, each in known.items()}

@@ -104,7 +104,7 @@ def _named(value: Any) -> str:
     if value is None or value == ():
         return "nothing"
     if isinstance(value, tuple | list) and value:
-        return "lists that are nested too deeply"
+        return "lists that are too long or nested too deeply"
     kind = type(value).__name__
     return f"{'an' if kind[:1] in 'aeiou' else 'a'} `{kind}`"
 

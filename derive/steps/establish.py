@@ -99,7 +99,7 @@ class Lines:
 class PhraseData:
     """Data for the sentence of a step, in addition to the chain, and data for judging the outcome.
 
-    words         name -> key of a term ("about": "corner"); the phrases contain the words for this term
+    words         term of the phrase -> key of its word, such as "about" -> "corner"
     formulas      role -> a formula that only the sentence contains, and the same formula by another route
     named         role -> a symbol or a place that only the sentence contains, judged by a predicate
     points_to     role -> a quantity that the sentence mentions by its symbol or its number

@@ -140,8 +140,8 @@ def variables_of_integrals(step: Step, table: Mapping[Any, Dimension | None]) ->
 
 
 def _variables_in(expr: Any, table: Mapping[Any, Dimension | None]) -> Iterator[tuple[Any, Dimension | None]]:
-    """Yield the variables of integration that a page prints in an expression, each with its dimension; for an integral
-    over the mass, this is only the position r."""
+    """Yield the variables of integration that a page prints in an expression, each with its dimension. For an integral
+    over the mass, only the position r is printed."""
 
     def of(part: Any, variables: Mapping[Any, Dimension | None] | None = None) -> Dimension | None:
         return dimension_of(part, {**table, **variables} if variables else table)

@@ -39,9 +39,9 @@ class Display:
     first_only        whether only the first of several steps of the same rule is shown
     only_explains     whether the step only explains the steps that use it, so that the author's words may replace it
     result_again      up to this level, a step directly after a step of the same kind shows only its result
-    each_worked_out   whether a step shows all lines of the level even if an earlier step of the same kind is shown;
-                      otherwise such a step shows only its lines of the level `brief` and its result
-    abbreviates       whether the symbol of the step may replace the square root that is its value in later steps
+    each_worked_out   whether a step that follows another step of the same kind also shows all lines of the level;
+                      otherwise it shows only its lines of the level `brief` and its result
+    abbreviates       whether later steps may write the symbol of the step in place of its value, a square root
     names_formula     whether the sentence names the formula, so that a line within a text needs no left side
     repeats           the key of the equation that the step repeats, if any
     result_in         names of rules; if such a rule made an input, the lines of this input may already contain the
@@ -84,7 +84,7 @@ class Shown:
     taken_in_if   a predicate of the step: whether the step is shown within the step that uses it
     repeats       a function of the step that returns the key of the equation that the step repeats, or ""
     result_in     outcome -> names of rules, as for `Display`
-    quoted        outcomes whose steps are standard results
+    quoted        outcomes whose steps show only their result, as for `Display`
     verdicts      outcomes for which the answer is the sentence, such as "stable"
 
     The other fields are those of `Display`.

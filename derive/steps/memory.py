@@ -106,7 +106,7 @@ class Memory:
         return _Asked(sha256(text.encode()).hexdigest(), objects, found)
 
     def _left(self, result: Any, asked: _Asked, before: _State, run: Run) -> str:
-        """Return the questions of a call, its result, and what it added to the record as text."""
+        """Return a text with the questions of a call, its result, and its additions to the record."""
         assert run.call is not None
         steps = tuple(zip(run.established, run.cases, strict=True))[before.established :]
         conditions = tuple((each, each in run.in_words[before.in_words :]) for each in run.assumed[before.assumed :])

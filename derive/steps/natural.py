@@ -36,7 +36,7 @@ class NamesValue(Fact):
 
 @dataclass(frozen=True)
 class Proposal:
-    """A quantity of the field that a verb proposes; it becomes a step only if it makes a result shorter.
+    """A usual quantity that a verb proposes; it becomes a step only if it makes a result shorter.
 
     symbol  the symbol that the quantity usually has
     value   its value in the symbols of the problem

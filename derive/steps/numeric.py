@@ -59,7 +59,7 @@ from derive.steps.step import Fact, Form, Level, Quantity
 
 DIGITS = 20  # digits of the values that a check compares; `_error` allows the last five to differ
 HALF = Rational(1, 2)
-# operator of a relation -> the results of a comparison of left with right for which the relation is true
+# operator of a relation -> the signs >, = or < between its two numbers for which the relation is true
 FULFILLED = {">": ">", ">=": ">=", "<": "<", "<=": "<=", "=": "="}
 SHORT = 9  # with more numbers than this, only the level `full` shows the formula with the numbers substituted
 
@@ -109,8 +109,8 @@ def value_of(
 ) -> Quantity | None:
     """The value of an answer in a unit, rounded to significant figures.
 
-    Return None if symbols remain in the value, if the value is not real, or if a number in it needs no rounding: zero,
-    or whole numbers without symbols.
+    Return None if symbols remain in the value, if it is not real, or if it needs no rounding: it is zero, or consists
+    of whole numbers.
 
     answer    any quantity; in a relation with a single symbol on its left side, the right side gets the number
     amounts   symbol -> its number with a unit
@@ -194,7 +194,7 @@ def _period_of(
     more: Sequence[tuple[str, Expr]],
     case: str,
 ) -> Quantity:
-    """The number of a period from the integral, since the series is accurate for small amplitudes only.
+    """The numerical value of a period, computed from the integral: the series is accurate for small amplitudes only.
 
     Check: the integral by Gauss-Legendre quadrature; the result itself is computed as a mean of equidistant values.
     """
@@ -334,8 +334,8 @@ def _as_it_is(value: Any) -> Any:
 
 
 def _valued(value: Any) -> tuple[Any, Callable[[Any], Any]]:
-    """Return the part of a result that gets a number, such as the right side of R > a/2, and the function that puts the
-    number back into the result."""
+    """Return the part of a result that gets a number, such as the right side of R > a/2. Also return the function that
+    puts the number into the result."""
     if not isinstance(value, Relation):
         return value, _as_it_is
     if isinstance(value.left, Symbol) and not value.right.has(value.left):
@@ -371,7 +371,7 @@ COMPARISON = Rule(
 def comparison_of(condition: Quantity, amounts: Mapping[Symbol, Amount], key: str | None = None) -> Quantity | None:
     """The comparison of the two sides of a condition with the numbers substituted, such as 20 cm > 2.5 cm.
 
-    Return None if the step has no numbers to compare.
+    Return None if the condition has no symbols, has a symbol without a number, or has the operator `!=`.
 
     condition   an inequality or an equation between given quantities, such as a result of `where`
     amounts     symbol -> its number with a unit
@@ -415,7 +415,7 @@ def comparison_of(condition: Quantity, amounts: Mapping[Symbol, Amount], key: st
 def coefficient_of(answer: Quantity, figures: int, of_vectors: bool = False) -> Quantity | None:
     """Round the irrational number in front of the symbols: sqrt(2 - sqrt(2)) omega becomes 0.7654 omega.
 
-    Return None if the number does not exist, or if its size is easy to see.
+    Return None if there is no such number, or if its size is easy to see.
 
     answer       a quantity, usually a scalar with symbols
     figures      the number of significant figures

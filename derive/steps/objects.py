@@ -156,7 +156,7 @@ class Objects:
         symbols."""
         for name in names:
             if name not in self._texts:
-                raise NoDescription(f"of {name}, which exists only once")
+                raise NoDescription(f"{name} is a dummy symbol, which has no text")
         return [(name, self._texts[name]) for name in names]
 
     def enter(self, name: str, text: str) -> None:

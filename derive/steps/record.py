@@ -296,8 +296,8 @@ def add_definition(quantity: Quantity) -> None:
 
 
 def check_not_defined(key: str, symbol: Any, value: Any = None) -> None:
-    """Reject a step whose key is the name of a quantity under `define:`, and a step whose symbol contains such a name,
-    unless the value of the step follows from the definition."""
+    """Reject a step whose key is the name of a quantity under `define:`. Also reject a step whose symbol contains such
+    a name, unless the value of the step follows from the definition."""
     run = current_run.get()
     if run is None:
         return
@@ -311,7 +311,7 @@ def check_not_defined(key: str, symbol: Any, value: Any = None) -> None:
 
 
 def _is_its_value(defined: Quantity, symbol: Any, value: Any) -> bool:
-    """Whether the value of an expression of a defined symbol follows from the definition."""
+    """Whether the value of an expression that contains a defined symbol follows from the definition."""
     if not isinstance(value, Expr) or not isinstance(symbol, Expr):
         return False
     return same_value(symbol.subs(defined.symbol, explicit(defined.value)), value)
@@ -348,7 +348,7 @@ def named_coordinates() -> tuple[Symbol, ...]:
 
 
 def coordinates_in(result: Any) -> dict[Symbol, str]:
-    """Return the coordinates that occur in a result, also by their rates, each with its kind."""
+    """Return the coordinates that occur in a result, or whose rates occur in it, each with its kind."""
     run = current_run.get()
     if run is None or not run.coordinates:
         return {}

@@ -143,10 +143,10 @@ def _is_square_that_lasts(base: Expr, power: Expr) -> bool:
 
 
 def _is_positive_by_means(total: Expr) -> bool:
-    """Whether a sum is positive because no negative term is greater in magnitude than twice the geometric mean of two
-    positive terms, as in a^2 - 2 a b + b^2 + c.
+    """Whether a sum is positive by the AM-GM inequality, as a^2 - 2 a b + b^2 + c is.
 
-    At least one positive term must be left over.
+    The magnitude of each negative term must be at most twice the geometric mean of two positive terms. No two negative
+    terms may use the same positive term, and at least one positive term must be left over.
     """
     terms = Add.make_args(total)
     above = [term for term in terms if term.is_positive]

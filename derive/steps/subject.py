@@ -130,8 +130,10 @@ def _apart(key: str, field: str, one: tuple[str, Any], other: tuple[str, Any]) -
 
 
 def called(value: Any) -> str:
-    """Return the name by which a message calls a property; an empty text for a long expression, or for a value that
-    has no name and is neither an expression nor text."""
+    """Return the name by which a message calls a property.
+
+    The result is an empty text for a long expression, and for a value without a name that is neither an expression nor
+    text."""
     if isinstance(value, Mixed):
         return "several"
     name = getattr(value, "called", "") or getattr(value, "name", None)

@@ -207,7 +207,7 @@ class BodyAnswers(Answers[Asked]):
             self._has_no(name)
         found = self.body.density
         if (found.step.kind == "mass") != (name == "mass"):
-            rejected("no-such-answer", f"the {name} of {self.told} is given", None)
+            rejected("no-such-answer", f"the {name} of {self.told} is given, so no step derives it", None)
         return found
 
     @answer_for_each("{}", lambda self: SIZES)
@@ -222,7 +222,7 @@ class BodyAnswers(Answers[Asked]):
 
     def _has_no(self, name: str) -> NoReturn:
         filling = self.body.filling
-        fills = f"it fills {'an' if filling == 'area' else 'a'} {filling}"
+        fills = f"it has {'an' if filling == 'area' else 'a'} {filling}"
         of_density = f"{fills}: ask for `density`, whose step shows the {filling}"
         parts = isinstance(self.body, Composite)
         help_line = "ask for `mass`, the sum of the masses of its parts" if parts else of_density
@@ -374,7 +374,7 @@ class BodiesAnswers(StockAnswers[DescribedBodies]):
         """Return an answer about a point or axis other than the given one."""
         prefix = max((prefix for prefix in self.of if wanted.startswith(prefix)), key=len, default=None)
         if prefix is None:
-            rejected("no-such-answer", f"`{wanted}` is not an answer of one of these bodies", wanted.place)
+            rejected("no-such-answer", f"`{wanted}` is not an answer about one of these bodies", wanted.place)
         own, asked = wanted.removeprefix(prefix), self.of[prefix].described
         given = {"about": about, "origin": origin, "direction": direction}
         for name in (name for name, value in given.items() if value is not None):

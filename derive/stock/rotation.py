@@ -234,7 +234,7 @@ class RotationAnswers(StockAnswers[DescribedRotation]):
             rejected("wrong-argument", message, None, "leave out `torque`, `along`, `rates` and `start`")
         if not self.inertia_tensor.value.is_diagonal():
             message = "the polhodes need principal axes, but the axes of this body are not principal"
-            rejected("not-principal", message, None, "give `about: centre_of_mass`, or its principal `moments`")
+            rejected("not-principal", message, None, "give `about: centre_of_mass`, or principal moments as `moments`")
         led_by = ("stability_", "wobble_", "energy_rate", "squared_momentum_rate")
         named = [name for name in asked if name.startswith(led_by)]
         keys = [q.key for name in named for q in self.by_name.named(name)] or [self.angular_momentum.key]
@@ -324,7 +324,7 @@ class RotationAnswers(StockAnswers[DescribedRotation]):
             rejected("not-principal", message, None, "give `about: centre_of_mass`, or principal moments as `moments`")
         if self.described.along or self.described.rates:
             message = "Euler's equations describe an unknown rotation, but the rotation of this body is given"
-            rejected("is-steady", message, None, "leave out `along` and `rates`")
+            rejected("is-steady", message, None, "leave out `along` or `rates`")
         rate = rate_in_space(self.changing_momentum, self.changing)
         acting = self.described.torque
         return euler_equations(rate, acting) if acting else euler_equations(rate)
@@ -356,7 +356,7 @@ class RotationAnswers(StockAnswers[DescribedRotation]):
     @answer_for_each("stability_{}", lambda self: AXES)
     def stability(self, axis: str) -> Quantity:
         if self.described.rate is None:
-            message = "a steady rotation that is disturbed needs its `rate`"
+            message = "the stability of a rotation depends on its `rate`, which is not given"
             rejected("missing-key", message, self.described.place, "write `rate: omega`")
         linear = linearised_rotation(self.euler_equations, axis, self.described.rate, key=f"disturbed_{axis}")
         return perturbation_rate_squared(linear, f"Omega_{axis}", f"stability_{axis}")

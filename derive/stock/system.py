@@ -401,7 +401,13 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
             raise Rejected(Complaint("wrong-argument", "`period` needs one frequency, but this system has several"))
         if self.normal_modes[0].value == 0:
             message = "nothing drives the system back to this state, so there is no oscillation about it"
-            raise Rejected(Complaint("no-oscillation", message, help="check the place at which each body is held"))
+            raise Rejected(
+                Complaint(
+                    "no-oscillation",
+                    message,
+                    help="check `gravity`, the springs and the point at which each body is held",
+                )
+            )
         return period(self.normal_modes[0])
 
     # -- rolling, rotation, forces of constraint --------------------------------------------------------------------
@@ -619,7 +625,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
             rejected("unused-key", message, place, help_line)
 
     def _check_letters(self) -> None:
-        """Check that each symbol of the description denotes quantities of one kind."""
+        """Check that each symbol that the description introduces denotes quantities of one kind."""
         run = current_run.get()
         established = run.established if run is not None else []
         for name, place in self.described.brought.items():
@@ -642,8 +648,8 @@ STOCK = Stock(SystemKeys, read, SystemAnswers)
 
 
 def _forces_found(steps: Sequence[Any], system: System) -> tuple[dict[Any, Quantity], dict[Any, Quantity]]:
-    """Return, by the symbols of constraint forces, the steps that derive the forces, and later steps that express a
-    force in coordinates without rates."""
+    """Return two mappings from the symbol of a constraint force: to the step that derives the force, and to a later
+    step that expresses the force in coordinates without rates."""
     found: dict[Any, Quantity] = {}
     along: dict[Any, Quantity] = {}
     rates, coordinates = {rate(q) for q in system.coordinates}, {*system.coordinates}

@@ -29,7 +29,7 @@ class Body:
     place    the position in space of one known point of the body, m
     arm      the vector from the known point to the centre of mass, in components along the body axes, m
     spread   second moments, the sums of m r_i r_j about the centre of mass along the body axes, kg m^2
-    turns    successive rotations, each given by the number (0, 1, 2) of a body axis and an angle. Each rotation also
+    turns    successive rotations: for each, the number (0, 1 or 2) of a body axis, and the angle. Each rotation also
              rotates the axes of the later rotations. In a plane there is one rotation, about the normal
     axes     in a plane, the numbers of the two body axes in this plane; in space (0, 1, 2)
     """
@@ -67,8 +67,8 @@ class Force:
 
 @dataclass(frozen=True)
 class Drag:
-    """A drag force -c v, where c is `constant` and v is the velocity of `place`; or a generalized force, such as a drag
-    torque, if `place` is one coordinate.
+    """A drag force -c v, where c is `constant` and v is the velocity of `place`. If `place` is one coordinate, -c v is
+    a generalized force, such as a drag torque.
 
     body   the index of a body: v is then the velocity of the particle of this body at `place`
     """

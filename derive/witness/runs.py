@@ -201,8 +201,9 @@ def _margin(claim: Claim) -> Expr | None:
 
 
 def slips(claim: Claim) -> Verdict | None:
-    """Test the stated condition: the states of the motion that satisfy it must be those with |F| <= mu_s N or, for the
-    outcome "cannot", the other states. For an outcome in `SLIPS_ALONG`, test where the body begins to slip."""
+    """Test the stated condition. The states of the motion that satisfy it must be those with |F| <= mu_s N; for the
+    outcome "cannot", they must be the other states. For an outcome in `SLIPS_ALONG`, test where the body begins to
+    slip."""
     if claim.outcome in SLIPS_ALONG:
         return leaves(claim)
     margin, side = _margin(claim), claim.judged.inputs.get("side")
@@ -248,12 +249,12 @@ def _towards(trial: Trial, unknown: Expr, state: State, sign: float) -> State:
 
 # --- free flight after the constraint has ended ---
 
-# The motion that leads to a flight begins at this fraction of the way from the given start to the place where contact
-# is lost, because the given start may be an equilibrium.
+# The motion before a flight begins at this fraction of the way from its given start to the place where contact is lost.
+# The given start itself may be an equilibrium.
 BEGUN = 0.03
-FLIGHTS = 3  # number of sets of numbers
+FLIGHTS = 3  # number of sets of numbers with which a flight is simulated
 # The greatest difference between a formula for a position and a simulated flight, relative to 1 plus the size of the
-# value; ten times as much for the time of a landing.
+# value. For the time of a landing, the greatest difference is ten times as large.
 FLOWN = 1e-4
 
 

@@ -157,8 +157,8 @@ UNSTABLE = frozenset(["unstable", "unstable_along"])
 
 def stability(claim: Claim) -> Verdict | None:
     """Test the stability that the step states. At a stable equilibrium, no small displacement may grow. At an unstable
-    equilibrium, some small displacement must grow; this is not required if an eigenvalue is zero, because the linear
-    motion does not decide then."""
+    equilibrium, some small displacement must grow. This is not required if an eigenvalue is zero, because the linear
+    motion does not then show whether the equilibrium is stable."""
     inputs = claim.judged.inputs
     if "coordinates" not in inputs or "place" not in inputs:
         return None

@@ -163,7 +163,7 @@ class Trial:
         raise last
 
     def moment(self, given: tuple[Given, ...], which: int) -> tuple[State, Response]:
-        """A state, with its accelerations and multipliers; the tests of several steps use the same moments."""
+        """A state, with its accelerations and multipliers; the tests of several steps use the same states."""
         if (given, which) not in self._moments:
             state = self.state(given, which)
             self._moments[given, which] = state, self.dynamics.response(state)

@@ -64,11 +64,11 @@ def solve(
     )
     plot("potential", U, theta.symbol, (-pi / 2, pi / 2))
     # The forces are those on the slab when it is released from rest. Their lengths are relative to that of the weight,
-    # which is 1/4. The friction F is positive uphill.
+    # which is 2/7. The friction F is positive uphill.
     (start,) = solve_linear(motion.value.left.subs(theta.rate, 0), theta.acceleration)
-    contact, sizes = radius * across, [force / (4 * mass * gravity) for force in (N.value, F.value)]
+    contact, sizes = radius * across, [2 * force / (7 * mass * gravity) for force in (N.value, F.value)]
     push, friction = (size.subs({theta.acceleration: start, theta.rate: 0}) for size in sizes)
     pushes = arrow(across, contact, push, label=N), arrow(-along, contact, friction, label=F)
     arm = length_mark(top - radius * theta * along, top, radius * theta)
-    sketch("forces", system, O, C, arm, pushes, weights=Rational(1, 4))
+    sketch("forces", system, O, C, arm, pushes, weights=Rational(2, 7))
     return L, motion, swings, stable, level, minimum, maximum, again, N, F, *needed

@@ -133,9 +133,9 @@ def test_a_cache_that_cannot_be_written_costs_a_warning_and_no_page(course: Cour
         assert not report.failed
         assert {warning.code for warning in report.warnings} == {"not-kept"}
         assert [warning.message for warning in report.warnings] == [
-            "nothing is kept for the next build: cannot write in `build/hw1/.derived`: "
+            "results cannot be stored for the next build: cannot write in `build/hw1/.derived`: "
             "a file is where a folder should be",
-            "nothing is kept for the next build: cannot write `build/hw1/.manifest.json`: "
+            "results cannot be stored for the next build: cannot write `build/hw1/.manifest.json`: "
             "a folder is where a file should be",
         ]
         assert said in (course.outputs / "solutions.pdf").read_text()

@@ -123,7 +123,7 @@ def test_each_student_has_documents_with_own_numbers_and_the_sheet_has_no_answer
     assert why_of_class(tmp_path, build / "students" / "problems.pdf", None) is None
     made, content = tmp_path / "problems" / "week1" / "bead.yaml", sheet.read_bytes()
     sheet.write_bytes(b"edited")
-    assert "it was edited" in (why_of_class(tmp_path, sheet, None) or "")
+    assert "a file was edited" in (why_of_class(tmp_path, sheet, None) or "")
     sheet.write_bytes(content)
     made.write_text((before := made.read_text()) + "# edited\n")
     assert "an input of the class has changed" in (why_of_class(tmp_path, sheet, None) or "")

@@ -42,7 +42,7 @@ def test_a_bug_is_told_with_how_to_report_it_and_a_traceback_on_request(
         ("solve hw1/one --format wodr", "derive solve: error: argument --format: invalid choice: 'wodr'"),
         ("solve hw1/one --format jsno", "; did you mean `json`?"),
         ("slove hw1/one", "; did you mean `solve`?"),
-        ("build hw1 --only hits", "argument --only: `hits` is not a document: name some of solutions, problems,"),
+        ("build hw1 --only hits", "argument --only: `hits` is not a document: choose from solutions, problems,"),
         ("build hw1 hw2", "no set is called `hw2`"),
         ("check hw2", "no set is called `hw2`"),
         ("check hw1/one hw1/onne", "no problem is called `hw1/onne`"),

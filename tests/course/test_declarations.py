@@ -45,8 +45,8 @@ def test_a_root_of_a_square_has_the_sign_that_the_range_settles(tmp_path: Path) 
         ("angle in (0, 90)", "`90` needs a unit: `alpha` must be an angle"),
         ("angle in (pi, 0)", "nothing lies between pi and 0"),
         ("angle in 0 to pi", "`0 to pi` is not a range for `alpha`"),
-        ("length in (-1 m, 1 m)", "`alpha` is a length, which is positive"),
-        ("angel in (0, pi)", "the kind of `alpha` must be one that is known, but it is `angel in (0, pi)`"),
+        ("length in (-1 m, 1 m)", "`alpha` is a length, which is positive, but its range begins below zero"),
+        ("angel in (0, pi)", "the kind of `alpha` must be a known kind, but it is `angel in (0, pi)`"),
     ],
 )
 def test_what_is_no_range_is_told(written: str, said: str, tmp_path: Path) -> None:

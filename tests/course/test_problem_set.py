@@ -66,7 +66,7 @@ def test_a_set_lists_its_problems_in_order(tmp_path: Path) -> None:
         (
             "title: A #1\nproblems: [block]\n",
             "comment-in-text",
-            "put the whole text in quotes, or, in a comment, a space after the `#`",
+            "put the whole text in quotes; in a comment, a space and a word follow the `#`",
         ),
         ("title: {A}\nproblems: [block]\n", "wrong-type", "quote text that begins with `{`"),
         ("title: A\nproblems: [hw9/block]\n", "no-such-problem", "did you mean `block`?"),

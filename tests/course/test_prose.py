@@ -162,12 +162,12 @@ def test_a_formula_keeps_its_place_in_folded_text() -> None:
 @pytest.mark.parametrize(
     ("text", "column", "message"),
     [
-        ("'a $ b'", 11, "this `$` begins no formula and belongs to no price"),
-        ("'a $$x b'", 11, "this `$$` begins no formula"),
+        ("'a $ b'", 11, "this `$` belongs neither to a formula nor to a price"),
+        ("'a $$x b'", 11, "this `$$` does not begin a formula"),
         ("'a $ $ b'", 12, "there is no formula between these dollar signs"),
         ("'a $x = <<x>>$ b'", 16, "a formula cannot contain a mention"),
         (r'"a $\theta$ b"', 12, "in double quotes, YAML reads a `\\` and a letter as one character: `\\t` is a tab"),
-        ("'$" + "x + " * 100 + "x$'", 10, "this formula has 401 characters; a formula in prose has 400 at most"),
+        ("'$" + "x + " * 100 + "x$'", 10, "this formula has 401 characters; a formula in prose may have at most 400"),
     ],
 )
 def test_a_formula_without_end_is_an_error_at_its_place(text: str, column: int, message: str) -> None:

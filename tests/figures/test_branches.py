@@ -45,7 +45,7 @@ def test_a_line_ends_at_the_end_of_the_axis() -> None:
 
 
 def test_nothing_changes_in_a_range() -> None:
-    with pytest.raises(Rejected, match="no equilibrium begins, ends or changes its stability from 1 to 4"):
+    with pytest.raises(Rejected, match="changes its stability for values of the parameter from 1 to 4"):
         bifurcations_of(PITCHFORK, X, (1.0, 4.0), {})
 
 

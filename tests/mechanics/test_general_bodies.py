@@ -152,6 +152,7 @@ def test_a_volume_of_the_wrong_sense_is_refused(monkeypatch: pytest.MonkeyPatch)
         (lambda: Sheet((r * cos(phi), r * sin(phi)), {r: (-R, R), phi: (0, pi)}, mass=M), "covers some places twice"),
         (lambda: Wire((x, exp(x / a) * a), {x: (0, a)}, mass=M).extent, "an integral without a known antiderivative"),
         (lambda: Sheet((x, y), {x: (1 - a, a - 1), y: (a - 1, 1 - a)}, mass=M), "not in order"),
+        (lambda: Sheet((x, y), {x: (0, b), y: (a, a - x)}, mass=M), "enclose nothing: `y` from a to a - x"),
     ],
 )
 def test_a_map_that_makes_no_body_is_refused(make: Any, message: str) -> None:

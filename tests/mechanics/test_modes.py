@@ -398,7 +398,7 @@ def refused(case: str) -> Any:
         ("taken", "omega denotes a given quantity"),
         ("cubic", "the squares of 3 frequencies are the roots of a polynomial that does not factor"),
         ("nonlinear", "is not an equation of motion to first order"),
-        ("beats of one", "do not beat"),
+        ("beats of one", "have no beats"),
         ("driven", "depend on the time, but they must be constant"),
     ],
 )

@@ -73,7 +73,7 @@ def test_the_axis_of_a_part_is_named_in_its_own_coordinates_and_in_those_of_the_
     root = course_with(tmp_path, integrated)
     page = " ".join(rendered(root, "trial/one", only={"text"}).texts["text"].split())
     said = "In coordinates of the rod itself, with the origin at the centre, its moment of inertia about an axis "
-    said += "parallel to y through the origin, which in those of the whole body is an axis parallel to z, is"
+    said += "parallel to y through the origin (an axis parallel to z in the coordinates of the whole body) is"
     assert said in page
     assert "about an axis parallel to z through the origin" not in page
 

@@ -141,7 +141,7 @@ QUESTIONS: dict[str, tuple[Callable[[], Any], str]] = {
     ),
     "a rod about its own line": (
         lambda: slab(inertia=moment_of_inertia(Rod(l, M), axis="z")),
-        "about the line of a rod",
+        "about the axis along a rod",
     ),
     "the moment of another mass": (
         lambda: slab(mass=m, inertia=moment_of_inertia(Cylinder(R, h, M))),
@@ -239,7 +239,7 @@ def test_two_bodies_of_one_shape_are_two_by_their_names() -> None:
 
 @pytest.mark.parametrize("name", ["Upper", "upper-rod", "", "one two three"])
 def test_a_name_of_a_body_is_one_or_two_plain_words(name: str) -> None:
-    with pytest.raises(DeriveError, match="is not a name for a body"):
+    with pytest.raises(DeriveError, match="is not a valid name for a body"):
         Rod(l, M).named(name)
 
 

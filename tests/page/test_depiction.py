@@ -140,7 +140,7 @@ def test_a_drawing_does_not_give_an_answer_away(tmp_path: Path, where: str, told
     assert fault.startswith("problems/hw9/block.yaml:35:9: error[drawing]: ")
     assert told in fault
     assert "would show `" in fault
-    assert "help: write `at: c`, where it is" in fault
+    assert "help: write `at: c`, the part that derives" in fault
 
 
 WITHOUT_THE_ANGLE = {

@@ -226,7 +226,7 @@ def test_an_axis_is_divided_by_a_quantity_and_numbers_that_no_longer_matter_are_
 
 
 def test_curves_whose_axes_would_have_different_divisors_are_rejected() -> None:
-    with pytest.raises(Rejected, match="not one positive number for all curves"):
+    with pytest.raises(Rejected, match="must be the same positive number for all curves"):
         divided(a * cos(theta), Integer(1), a, cases=({a: 2, k: 3}, {a: 4}))
 
 

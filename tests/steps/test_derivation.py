@@ -176,8 +176,8 @@ def within_itself() -> list[Any]:
 @pytest.mark.parametrize(
     ("value", "got"),
     [
-        (within_itself(), "lists that are nested too deeply"),
-        (nested(10_000), "lists that are nested too deeply"),
+        (within_itself(), "lists that are too long or nested too deeply"),
+        (nested(10_000), "lists that are too long or nested too deeply"),
         (Quantity.__new__(Quantity), "a `Quantity`"),
         ([], "a `list`"),
         (None, "nothing"),

@@ -96,7 +96,7 @@ def test_a_wrong_root_of_two_powers_is_refused(tmp_path: Path, monkeypatch: pyte
 @pytest.mark.parametrize(
     ("edit", "said"),
     [
-        (("(r/a)**n", "r**n"), "7: `r` is a length, but `n` needs a dimensionless base"),
+        (("(r/a)**n", "r**n"), "7: `r` is a length, but the exponent `n` needs a dimensionless base"),
         (("(r/a)**n", "sin(phi)**n"), "7: the base `sin(phi)` of the exponent `n` is not known to be positive"),
         (("(r/a)**n", "(r/a)**(a)"), "7: the exponent"),
     ],

@@ -104,7 +104,7 @@ MISTAKES = [
     # letters
     (SYSTEM, "l: 40 cm", "L: 40 cm", "`L` is not declared"),
     (SYSTEM, "k: 2 N/m", "k: 2 N/m, b: 3 m", "`b` is not declared"),
-    (SYSTEM, "k: 2 N/m", "k: 2 N/m, theta: 3 deg", "`theta` is a coordinate, which has no value"),
+    (SYSTEM, "k: 2 N/m", "k: 2 N/m, theta: 3 deg", "`theta` is a coordinate, so it cannot have a number"),
     (SYSTEM, "k: spring constant}", "k: spring constant, b: length}", "`b` is declared, but nothing"),
     (SYSTEM, "  gravity: g\n", "", "`g` is declared, but nothing under `given` uses it"),
     (SYSTEM, "{theta: angle}", "{theta: angle, x: length}", "depends on the coordinate `x`"),

@@ -155,7 +155,7 @@ def test_numbers_outside_the_case_of_a_result_are_not_drawn(tmp_path: Path, numb
         found = ""
     except DeriveError as error:
         (found,) = [each.message for each in error.complaints]
-    expected = f"the numbers of {said} do not satisfy beta < omega_0, on which its result depends"
+    expected = f"the numbers of {said} do not satisfy beta < omega_0, which the plotted result requires"
     assert found == (expected if said else "")
 
 
@@ -406,8 +406,8 @@ OVER = "    over: {theta: [-180 deg, 180 deg], p_theta: [-9 kg*m^2/s, 9 kg*m^2/s
         ([("-9 kg*m^2/s, 9", "9 kg*m^2/s, -9")], 17, "must go from a smaller number to a larger number", ""),
         ([("-9 kg*m^2/s", "-9 kg*m/s")], 17, "`range` must be an angular momentum", ""),
         ([(", g: 9.8 m/s^2", "")], 14, "the plot `portrait` needs a number for `g`", ""),
-        ([("15 J", "200 J")], 14, "no point of the phase portrait has the value 200",
-         "in these ranges, the values go from -9.8 to 50.3"),
+        ([("15 J", "200 J")], 14, "the function of the phase portrait nowhere has the value 200",
+         "in these ranges, its values are from -9.8 to 50.3"),
     ],
 )  # fmt: skip
 def test_a_mistake_in_a_phase_portrait_is_reported(
@@ -503,12 +503,13 @@ def test_curves_without_a_common_unit_share_no_axis(tmp_path: Path) -> None:
         ("[{x_0: 1 m, m: 1 kg, k: 3 N/m, b: 1 kg/s}, {b: 3.46 kg/s}, {b: 5 kg/s}]", ""),
         (
             "[{x_0: 1 m, m: 1 kg, k: 1 N/m, b: 1 kg/s}, {b: 3 kg/s}, {b: 5 kg/s}]",
-            "the numbers of case ii of the plot `curve` do not satisfy b = 2*sqrt(k)*sqrt(m), on which its result "
-            "depends",
+            "the numbers of case ii of the plot `curve` do not satisfy b = 2*sqrt(k)*sqrt(m), which the plotted "
+            "result requires",
         ),
         (
             "[{x_0: 1 m, m: 1 kg, k: 1 N/m, b: 1 kg/s}, {b: 2 kg/s}, {b: 1 kg/s}]",
-            "the numbers of case iii of the plot `curve` do not satisfy beta > omega_0, on which its result depends",
+            "the numbers of case iii of the plot `curve` do not satisfy beta > omega_0, which the plotted result "
+            "requires",
         ),
         (
             "[{x_0: 1 m, m: 1 kg, k: 1 N/m, b: 1 kg/s}, {b: 2 kg/s}]",

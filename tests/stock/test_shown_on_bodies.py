@@ -75,7 +75,7 @@ def test_marks_in_a_plane_make_a_drawing_without_the_body(tmp_path: Path) -> Non
     run_solve(problem, run)
     assert not misspelt(problem, run.drawings)
     (warning,) = misspelt(loaded(tmp_path, edited(sketch, ("  axes: {marks", "  bdy: {marks"))), run.drawings)
-    assert "`bdy` is a further drawing" in warning.message and "`body`" in str(warning.help)
+    assert "`bdy` is a new drawing" in warning.message and "`body`" in str(warning.help)
     in_space = edited(sketch, ("[0, 0], to: [a, a]", "[0, 0, 0], to: [a, a, 0]"))
     assert "draws nothing called `axes`" in str(complaints(tmp_path, in_space))
 

@@ -83,7 +83,6 @@ def _sets_asked(asked: Sequence[str]) -> dict[str, tuple[str, ...]]:
 
 
 def _watched(root: Path, asked: Mapping[str, tuple[str, ...]], options: Options, voice: Voice) -> int:
-    """Build after each edit until the user interrupts."""
     from derive.building.files import shown_path
     from derive.building.watch import Shown, watch
 

@@ -20,7 +20,7 @@ SAME, DIFFERS, TROUBLE = 0, 1, 2  # the exit codes of `diff`
 
 
 def diff(arguments: argparse.Namespace) -> int:
-    """Print the changes; the exit code says whether there are any, or that they cannot be found."""
+    """Print the changes; the exit code is 1 if there are changes, and 2 if the comparison fails."""
     from derive.building.set_diff import SetDiff
     from derive.building.workers import Bug
 

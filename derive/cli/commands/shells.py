@@ -9,7 +9,8 @@ from pathlib import Path
 
 
 def completion(arguments: argparse.Namespace) -> int:
-    """Print the script for a shell; the script for fish names this program if `derive` is not on the path."""
+    """Print the script for a shell; the script for fish contains the path of this program if the shell does not find
+    `derive`."""
     from argcomplete.shell_integration import shellcode
 
     own = None if arguments.shell != "fish" or shutil.which("derive") else str(Path(sys.argv[0]).absolute())

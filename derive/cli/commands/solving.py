@@ -61,7 +61,6 @@ def solve(arguments: argparse.Namespace) -> int:
 
 
 def _deliver_drawings(output: str, files: Files) -> None:
-    """Write the drawings to which a page refers into the folder of the page."""
     for name, content in files:
         deliver(content, str(Path(output).parent / name))
 

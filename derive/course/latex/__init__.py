@@ -3,7 +3,7 @@
     vocabulary  the known LaTeX commands, by purpose
     strict      the tokens of a formula, or the first error in it
     reading     `read_latex`, the entry point: finds the sides of a chain; skips a first side that only names a value
-    values      the values of the nodes that the parser of documents finds in a side
+    values      the value of a side, computed from the tree that the parser of documents returns
     grids       sums and products of scalars, vectors and matrices
     integrals   integrals, and antiderivatives between limits
     quoting     quotations of a document, which are printed but not evaluated

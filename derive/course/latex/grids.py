@@ -54,8 +54,8 @@ def spanning(value: TermOrGrid, start: int, end: int) -> TermOrGrid:
 class Grids(Arithmetic, ABC):
     """The operations of `Arithmetic`, extended to columns and matrices.
 
-    Zero fits every dimension, because a document writes `0` in any matrix. Dimensions are compared only if
-    `homogeneous` is true.
+    Zero fits every dimension, because documents write `0` for a vanishing entry of any dimension. The dimensions of the
+    terms of a sum are compared only if `homogeneous` is true.
     """
 
     max_terms = 20_000

@@ -51,11 +51,11 @@ def _has(value: TermOrGrid, letter: Expr) -> bool:
 
 
 def integrated(reader: Grids, inside: TermOrGrid, signs: list[Sign], outside: list[TermOrGrid]) -> TermOrGrid:
-    """Return a product with its integrals, which are formed but not evaluated. The last of `signs` is the innermost."""
+    """Return a product with its integrals, which are not evaluated. The last of `signs` is the innermost."""
     for position in range(len(signs) - 1, -1, -1):
         sign = signs[position]
         if sign.variable is None:
-            help_line = "put an integrand that is a sum in brackets"
+            help_line = "if the integrand is a sum, put it in brackets"
             if reader.d_is_a_letter:
                 help_line = "`d` is a letter here, so write `\\mathrm{d}x`"
             reader.refuse("integral", "this integral has no differential", sign.start, sign.end, help_line)
@@ -106,8 +106,7 @@ def check_limits(reader: Grids, variable: Term, *limits: Term) -> None:
 
 
 def _is_elementary(function: Expr, limits: Limits) -> bool:
-    """Return whether the integral can be evaluated by elementary rules or quickly by SymPy. An integral with a root
-    counts as elementary."""
+    """Return whether the integral can be evaluated by elementary rules or quickly by SymPy, or contains a root."""
     variables = {x for x, *_ in limits}
     ends = [end for _, *both in limits for end in both]
     found = definite(function, limits)

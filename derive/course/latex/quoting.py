@@ -1,4 +1,4 @@
-"""Quotations of a document in its own letters: prose with formulas between dollar signs.
+"""Quotations from a document, with the letters of the document: prose with formulas between dollar signs.
 
 A quotation is data and never reaches TeX unchanged: each formula is split into commands and signs and written again
 from these pieces. Anything unknown is rejected at its place. A quotation may contain commands that the grammar does not
@@ -103,8 +103,8 @@ def _pieces(text: str, offset: int) -> Iterator[str]:
                 raise Unquotable("this `}` was never opened", offset + here)
             yield plain
     if nesting or sides:
-        what = f"`{nesting[-1]}`" if nesting else "a `\\left` or `\\right`"
-        raise Unquotable(f"{what} of this formula has no end", offset)
+        why = f"`{nesting[-1]}` of this formula has no end" if nesting else "`\\left` and `\\right` do not match"
+        raise Unquotable(why, offset)
 
 
 def _environment(name: str, environment: str, columns: str | None, nesting: list[str], at: int) -> str:

@@ -35,7 +35,8 @@ Entries: TypeAlias = tuple[tuple[Expr, Dimension], ...]
 
 @dataclass(frozen=True)
 class Side:
-    """One side of a chain: its entries row by row for each branch; shape () is a scalar, (3, 1) a vector."""
+    """One side of a chain. Each branch lists the entries row by row. The shape of a scalar is (), that of a vector is
+    (3, 1)."""
 
     branches: tuple[Entries, ...]
     shape: tuple[int, ...]
@@ -79,7 +80,7 @@ def _read(scalar: Scalar, declared: tuple[tuple[str, Declared], ...], homogeneou
             if plus.branches == 2 and len(values) == 1:
                 values.append(minus.of(nodes[0]))
             elif plus.branches + len(values) > 3 or len(values) > 2:
-                plus.at(nodes[0], "latex", "a value can have two branches at most")
+                plus.at(nodes[0], "latex", "a value can have at most two alternatives, from one `or` or from `\\pm`")
             found.append(_side(plus, values, alternatives))
     except Rejected as error:
         raise Rejected([*dict.fromkeys(plus.undeclared), *error.complaints]) from None

@@ -76,7 +76,8 @@ def _check_depth(reader: Arithmetic) -> None:
 class _Check:
     def __init__(self, reader: Arithmetic, tokens: list[Token]):
         self.reader, self.tokens = reader, tokens
-        # for each open bracket, brace or environment: what closes it, its token, and where its opening text ends
+        # for each open bracket, brace or environment: the text that closes it, the token that opens it, and the
+        # position after its opening
         self.open: list[tuple[str, Token, int]] = []
 
     def refuse(self, message: str, token: Token, end: int | None = None, help: str | None = None) -> None:
@@ -231,7 +232,8 @@ class _Check:
         return at + 2
 
     def row_end(self, at: int) -> int:
-        """Accept a length in brackets at the end of a row: the space below the row."""
+        """Remove a length such as `[3pt]` after the end of a row, which is the space below the row. Reject other
+        brackets there. Return the position of the next token."""
         following = self.tokens[at + 1] if at + 1 < len(self.tokens) else None
         if following is None or not following.is_mark("["):
             return at + 1

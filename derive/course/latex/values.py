@@ -1,4 +1,4 @@
-r"""The value of a formula: its nodes as terms with dimensions, in the letters that are declared.
+r"""Evaluates the syntax tree of a formula: each node becomes a value with a dimension, in the declared letters.
 
 A formula with two possible readings is rejected: `a/2b`, `\sin x^2`, `2\frac12`, `U(\theta)`, and `\sin a b` if both
 letters are dimensionless. The help of the error shows how to write the formula clearly.
@@ -319,7 +319,7 @@ class Values(Grids):
             help_line = f"write `{factor.text}{before.base}`, or `{before.base}_{factor.text}` for a subscript"
             self.refuse("ambiguous", "a number follows this letter", span.start, span.end, help_line)
         if isinstance(before, Num) and is_fraction_of_numbers(factor) and power is factor:
-            help_line = "write `\\cdot` for a product, or one fraction"
+            help_line = "write `\\cdot` for a product, or a single fraction"
             self.refuse("ambiguous", "this could be a mixed number", span.start, span.end, help_line)
         if isinstance(before, Fun) and not self.has_brackets(before):
             is_unit = self.unit_of(power, True) is not None
@@ -605,7 +605,7 @@ class Values(Grids):
         return self.integral(node, [])
 
     def integral(self, node: Int, outside: list[TermOrGrid]) -> TermOrGrid:
-        """Return a product with integral signs; `outside` are the factors before the first sign."""
+        """Return a product with integral signs; `outside` contains the factors before the first sign."""
         signs: list[integrals.Sign] = []
         inside = _Parts(self)
         for item in node.items:

@@ -81,7 +81,8 @@ class Cited:
         return self.joined(sides, others, named)
 
     def section(self, number: str, place: Place) -> list[tuple[Letter | None, Formula]]:
-        """Return the displayed chains of a section, each with the letter that it begins with, or None."""
+        """Return the displayed chains of a section, each with the letter that it begins with (None if it begins with
+        another value)."""
         headings = _numbers(self.document)
         if number not in headings:
             known = [each for each in headings if each]
@@ -120,7 +121,7 @@ class Cited:
                 Complaint("no-formula", f"`{self.file.path}` has no formula at {where}", place, (), help_line)
             )
         if not shown and len(stated) > 1:
-            message = f"{where} has {len(stated)} formulas in a sentence"
+            message = f"there are {len(stated)} formulas in sentences at {where}"
             help_line = "write the formula that you mean under `latex:`"
             raise Rejected(Complaint("no-formula", message, place, (), help_line))
         return stated
@@ -170,7 +171,7 @@ class Cited:
         return scalar
 
     def without_unit(self, side: Side) -> tuple[int, int, Unit | None]:
-        """Return where the value of a side begins and ends, and the unit after it, or None."""
+        """Return where the value of a side begins and ends, and the unit after it (None if there is no unit)."""
         start, end = side.span.start, side.span.end
         text = self.text[start:end]
         if found := _DEGREES.search(text):

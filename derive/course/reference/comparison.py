@@ -1,4 +1,4 @@
-"""The comparison of the statements of a document, in `problems/<set>/reference.yaml`, with the derived steps.
+"""Compares what a document states with the derived steps; `problems/<set>/reference.yaml` lists its statements.
 
 The file is a list of groups. A group names a problem and fixes the problem's input by its own `symbols:`, `given:` and
 `values:`. So an edit of the problem's input does not break the comparison. A problem's own file can also have entries,
@@ -92,7 +92,7 @@ Steps = Table[str, Quantity]
 
 
 def comparisons(problem: Problem, known: Steps, memory: Memory | None = None) -> tuple[Comparison, ...]:
-    """Compare every entry about this problem. `known` are the steps for the input in the problem's file.
+    """Compare every entry about this problem. `known` contains the steps for the input in the problem's file.
 
     The steps for a group with a different input are derived; `memory` provides stored results.
     """

@@ -93,7 +93,7 @@ class GroupKeys(Record):
         "the input of the document, as under `given:` in the problem's file", GIVEN, required=True
     )
     letters: dict[Word, Tree] = key(
-        "letters of the document that have another name here, `I_1: I_xx`, or are vectors with these components",
+        "letters of the document that have another name here, `I_1: I_xx`, or are vectors, `L: [I_x*omega_x, 0, 0]`",
         _OUR_LETTERS,
     )
     values: dict[Word, Tree] = key(

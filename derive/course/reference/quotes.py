@@ -1,4 +1,4 @@
-"""Quotations of a document in its own letters, and remarks on claims that cannot be compared as formulas."""
+"""Quotations from a document, and remarks on claims that cannot be compared as formulas."""
 
 from __future__ import annotations
 
@@ -89,7 +89,7 @@ def _quotation(node: Tree, name: str, faults: Faults) -> Word | None:
 
 def unquotable(text: str) -> str | None:
     """Return why a text cannot be quoted; None if it can be quoted."""
-    from derive.course.latex.quoting import Unquotable, quoted  # needed by few files
+    from derive.course.latex.quoting import Unquotable, quoted  # imported here because few files need it
 
     try:
         quoted(text)

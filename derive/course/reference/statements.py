@@ -147,8 +147,8 @@ def read_ahead(root: Path, set_id: str) -> None:
 
 
 def stated_groups(problem: Problem) -> list[tuple[Problem, list[Entry]]]:
-    """Return the groups about this problem: the problem with the group's input, and the entries. Raise `Rejected` on
-    errors.
+    """Return a pair for each group about this problem: the problem with the group's input, and the group's entries.
+    Raise `Rejected` if there are errors.
 
     Errors inside groups for other problems are not reported.
     """
@@ -274,7 +274,7 @@ def is_quoted_only(written: EntryKeys) -> bool:
 
 
 class _EntryReader:
-    """Reads the entries of one group; `printed` are the letters that the document's formulas may use."""
+    """Reads the entries of one group; `printed` contains the letters that the document's formulas may use."""
 
     def __init__(
         self,
@@ -372,8 +372,8 @@ class _EntryReader:
         return cited(self.problem.root, self.problem.set_id, name)
 
     def formula(self, written: EntryKeys) -> Formula | None:
-        """Return the formula of the document that an entry cites by its lines; None if the entry needs no lines, or if
-        the formula cannot be read."""
+        """Return the formula of the document that an entry cites by its lines; None if the entry cites no formula, or
+        if the formula cannot be read."""
         has_value = written.latex is not None or written.states is not None
         lines = written.lines
         if lines is None and written.line is not None and not has_value and (written.answer or written.quote is None):

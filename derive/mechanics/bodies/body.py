@@ -64,11 +64,11 @@ class Body(Placeable, OfParticles):
     filling: ClassVar[str] = "volume"
     reference: ClassVar[str] = "centre"  # the named point from which positions are measured by default
     other_centre: ClassVar[str] = ""  # a point that readers may call "centre", although it is not the centre of mass
-    called: str = ""  # the name of the body on a page with several bodies: "upper rod"
-    names_given: tuple[str, ...] = ()  # names that the author gave to points: such a name does not imply a position
+    called: str = ""  # the name of the body on a page with several bodies, such as "upper rod"
+    names_given: tuple[str, ...] = ()  # names that the author gave to points; their positions are not checked
     is_lopsided: ClassVar[bool] = False  # whether the body may lack the inversion symmetry that its particles have
-    is_round: ClassVar[bool] = False  # whether z is an axis of symmetry for every angle of rotation
-    systems: ClassVar[tuple[str, ...]] = ("cartesian",)  # the coordinates in which the limits of the body are known
+    is_round: ClassVar[bool] = False  # whether the shape is symmetric under every rotation about z
+    systems: ClassVar[tuple[str, ...]] = ("cartesian",)  # coordinate systems in which the integrals have known limits
     is_integrated: bool = False  # whether a page integrates a standard moment of inertia in place of quoting it
 
     def __post_init__(self) -> None:
@@ -101,13 +101,13 @@ class Body(Placeable, OfParticles):
         return twin
 
     def at(self, *place: Any, of: str = "centre") -> PlacedPart:
-        """Return this body as a part of a larger body, with its point named `of` at a place: (x, y), (x, y, z) or a
-        place that `point` gives."""
+        """Return this body as a part of a larger body, with its point named `of` at a place: x, y or x, y, z, or one
+        argument with these components, such as `point(x, y)`."""
         return PlacedPart(self, of, self.point(of).position).at(*place, of=of)
 
     def turned(self, axis: Any, angle: Any) -> PlacedPart:
-        """Return this body as a part of a larger body, rotated right-handed about its own centre of mass. The axis of
-        rotation is parallel to an axis of the larger body."""
+        """Return this body as a part of a larger body, rotated right-handed about an axis through its own centre of
+        mass. This axis is parallel to an axis of the larger body."""
         return PlacedPart(self, "centre", self.point("centre").position).turned(axis, angle)
 
     def map(self) -> Map:
@@ -266,7 +266,7 @@ class RoundBody(Body):
         raise AttributeError(f"{type(self).__name__} must define its smallest and its largest z")
 
     def radius_at(self, z: Expr) -> Expr:
-        """The radius of the body at the height z."""
+        """The radius of the cross-section at z."""
         raise AttributeError(f"{type(self).__name__} must define its radius")
 
     def map(self) -> Map:

@@ -17,7 +17,8 @@ from sympy.matrices import ImmutableMatrix
 from derive.mechanics.bodies.regions import Bounds
 from derive.steps.step import is_zero
 
-Curve: TypeAlias = tuple[ImmutableMatrix, Symbol, Expr, Expr]  # places as a formula, its variable, first and last value
+# a formula for the places of a curve, the variable in this formula, and the first and the last value of the variable
+Curve: TypeAlias = tuple[ImmutableMatrix, Symbol, Expr, Expr]
 
 
 @dataclass(frozen=True)
@@ -79,15 +80,15 @@ class Rim:
     """The closed edge of a flat body in the plane of x and y.
 
     curves   the curves of the edge, in order
-    radius   the two ends and the length of a straight line that a drawing labels with a size of the body; None if the
-             drawing labels no line
+    radius   the ends and the length of the straight line that a drawing labels with this length; None if no line has a
+             label
     """
 
     curves: tuple[Curve, ...]
     radius: tuple[ImmutableMatrix, ImmutableMatrix, Expr] | None = None
 
     def places(self, steps: int) -> list[ImmutableMatrix]:
-        """Places along the edge, with this number of steps along each curve; a curve may be a single place."""
+        """Distinct places along the edge, from this number of equal steps along each curve."""
         found = chain.from_iterable(_along(curve, steps) for curve in self.curves)
         return list(dict.fromkeys(found))
 

@@ -88,8 +88,8 @@ class Chart:
         return found
 
     def sought(self, target: Sequence[float]) -> Iterator[Place]:
-        """Values of the variables, within their limits, at which the place is the target, as far as Newton's method
-        finds them from the closest samples. The same values may occur more than once."""
+        """Values of the variables, within their limits, at which the place is the target. Newton's method starts from
+        the closest samples, so some values may be missing, and others may occur more than once."""
         slack = CLOSE * self.size
         if any(x < low - slack or x > high + slack for x, (low, high) in zip(target, self.box, strict=True)):
             return
@@ -160,7 +160,7 @@ def _determinant(m: Sequence[Sequence[float]]) -> float:
 def draws(letters: set[Symbol], limits: Sequence[Bounds]) -> Iterator[dict[Symbol, Expr]]:
     """Values of the symbols for which each lower limit is below the upper limit.
 
-    A symbol whose number the problem states has this number.
+    If the problem states a number for a symbol, the symbol has this value.
     """
     source = Random(len(letters))
     ordered = sorted(letters, key=str)

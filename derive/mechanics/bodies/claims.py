@@ -100,8 +100,8 @@ def facts_counted_from(facts: Judged, fact: CountedFrom) -> bool:
 
 
 def size_of_a_cell(facts: Judged, size: Any) -> bool:
-    """Whether the result is the square of the stated size (for a solid, the size itself up to its sign), and the size
-    is not found to be negative."""
+    """Whether the stated size is the size of a cell, and is not known to be negative. For a solid, the result is this
+    size up to its sign; otherwise, the result is the square of this size."""
     square = explicit(facts.result) ** 2 if len(facts.inputs["limits"]) == 3 else explicit(facts.result)
     return is_zero(explicit(size) ** 2 - square) and not is_negative(explicit(size))
 
@@ -131,8 +131,8 @@ def with_variables(n: int) -> Predicate:
 
 
 def cell_is_positive(facts: Judged, outcome: str) -> bool:
-    """Whether the stated size of a cell is positive at random points, and the result is the square of this size (for a
-    solid, the size itself up to its sign)."""
+    """Whether the stated size of a cell is positive at random points. For a solid, the result must be this size up to
+    its sign; otherwise, the result must be the square of this size."""
     size, limits = facts.inputs["cell"], facts.inputs["limits"]
     found = explicit(facts.result)
     squares = (found**2 if outcome == "solid" else found, size**2)

@@ -107,7 +107,7 @@ class Cuboid(EdgedBody):
 
     @property
     def extent(self) -> Expr:
-        """The volume as written on the page: a^3 for a cube, a * 2a * 3a for a block."""
+        """The volume as written on the page: a power for a cube, otherwise a product such as a * 2a * 3a."""
         if len(set(self.sides)) == 1:
             return Pow(self.sides[0], len(self.sides))
         return Factors(*self.sides)
@@ -122,7 +122,8 @@ class Cuboid(EdgedBody):
 
     @property
     def corners(self) -> tuple[ImmutableMatrix, ...]:
-        """The corners; the bits of a corner's index show which of x, y and z are not zero at this corner."""
+        """The corners, in the order of their indices. The bits 4, 2 and 1 of the index of a corner show whether x, y
+        and z are not zero there."""
         at = (zip(ends, self.sides, strict=True) for ends in product((0, 1), repeat=3))
         return tuple(column(*(end * side for end, side in corner)) for corner in at)
 
@@ -175,7 +176,7 @@ class Cornered(EdgedBody):
 class Triangle(Cornered):
     """A thin uniform triangular plate in the plane of x and y.
 
-    corners_at   the positions (x, y) of the three corners, in units of length
+    corners_at   the positions (x, y) of the three corners; each component is a length
     mass         the mass of the body
 
     `Triangle.on_base(b, h, mass)` has its base along x from the origin. Its top is at the height h, above the middle of
@@ -249,7 +250,7 @@ class Triangle(Cornered):
         return -area if area.could_extract_minus_sign() or area.is_negative else area
 
     def map(self) -> Map:
-        """Variables x and y if the base is on the x axis from the origin, with a base and a height that are known to be
+        """Variables x and y if the base is on the x axis from the origin, and the base and the height are known to be
         positive. Otherwise the variables are fractions u and v of two sides."""
         if self._stands_on_x:
             (_, (x2, _), (x3, y3)), (x, y) = self.corners_at, coordinates("xy", self.letters)
@@ -268,7 +269,7 @@ class Triangle(Cornered):
 class Tetrahedron(Cornered):
     """A uniform solid with four corners.
 
-    corners_at   the positions (x, y, z) of the four corners, in units of length
+    corners_at   the positions (x, y, z) of the four corners; each component is a length
     mass         the mass of the body
 
     Points: first corner, ..., fourth corner; centre.
@@ -361,5 +362,5 @@ class Wedge(Cornered):
         return ImmutableDenseMatrix(place + column(0, 0, z)), ((z, ZERO, self.length), *limits)
 
     def particles(self) -> Particles:
-        """The particles of a triangle, spread evenly along z."""
+        """Copies of the particles of a triangle at three values of z, weighted by Simpson's rule."""
         return drawn_out(Triangle(self.face.corners_at, self.mass).particles(), (ZERO, self.length))

@@ -107,7 +107,8 @@ def sliced(
     weight: Callable[[Expr], Expr],
     slice_of: Callable[[Expr, Expr, Expr], Particles] = disc_of_particles,
 ) -> Particles:
-    """Slices perpendicular to the z axis at the nodes of Boole's rule; their masses contain the weights of this rule.
+    """Slices perpendicular to the z axis at the nodes of Boole's rule. The mass of a slice is proportional to `weight`
+    times the weight of its node in this rule.
 
     radius   the radius of the slice at z
     weight   the mass of the slice at z per length, up to a constant factor; for a solid, the squared radius
@@ -124,7 +125,8 @@ def sliced(
 
 
 def drawn_out(flat: Particles, ends: tuple[Expr, Expr]) -> Particles:
-    """The particles of a flat body perpendicular to z, spread evenly along z: Simpson's rule, exact for squares."""
+    """Particles for a flat body that is extended evenly along z: copies of its particles at both ends and in the
+    middle. Their masses have the weights of Simpson's rule, which is exact up to third powers of z."""
     low, high = ends
     return [
         (share * mass, column(place[0], place[1], low + part * (high - low)))

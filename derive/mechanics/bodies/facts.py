@@ -13,7 +13,7 @@ from derive.steps.step import Fact
 
 @dataclass(frozen=True)
 class OfBody(Fact):
-    """The body that a tensor belongs to; this body has particles and integrals over its mass."""
+    """The body to which an inertia tensor belongs; the distribution of its mass is known."""
 
     missing = "does not belong to a body"
     body: Any

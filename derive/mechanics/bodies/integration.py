@@ -2,12 +2,11 @@
 
 The integrand is a sum of products. Each product separates into integrals that share no variable: integrals of one
 variable if the limits are constant, nested integrals if a limit depends on an outer variable. The lines show the
-separated integrals, the innermost antiderivatives in brackets, the values of these brackets, and so on outwards. The
-last lines show the product of the values, then this product with density times volume, which is the mass, in one
-bracket.
+separated integrals, the innermost antiderivatives in brackets, the values of these brackets, and so on outwards. Then
+a line shows the product of the values. The last line groups density times volume, which is the mass, in a bracket.
 
-The integral over a solid of revolution is first over the disc at each height, and then along the axis, if the radius
-varies with the height or the coordinates are Cartesian. In Cartesian coordinates the integral over the disc is along
+If the radius of a solid of revolution varies with the height, or if the coordinates are Cartesian, the integral is
+first over the disc at each height, then along the axis. In Cartesian coordinates the integral over the disc is along
 its chords.
 """
 
@@ -65,8 +64,8 @@ class Nested:
         return Nested(factor_terms(value), self.limits[:-1])
 
     def _parts(self, depth: int) -> list[Expr]:
-        """The factors of the integrand, multiplied together for each variable of integration, the outermost variable
-        first."""
+        """One product of factors of the integrand for each variable of integration, the outermost variable first. A
+        factor belongs to the innermost variable that it contains, or to the outermost variable if it contains none."""
         found = [Integer(1)] * depth
         for part in Mul.make_args(self.integrand):
             place = max((i for i, limit in enumerate(self.limits) if part.has(limit[0])), default=0)
@@ -88,7 +87,7 @@ Separated = tuple[Nested | Expr, ...]
 
 
 def worked_integral(region: Region, weight: Expr, rho: Expr, volume: Expr) -> list[Form]:
-    """The lines from rho times the integral of a weight to the value in terms of the mass, M = rho V. If rho is 1, the
+    """The lines from rho times the integral of `weight` to the value in terms of the mass, M = rho V. If rho is 1, the
     lines do not mention the mass."""
     integrand = (weight * region.element).expand()
     if integrand == 0:
@@ -106,8 +105,8 @@ def worked_integral(region: Region, weight: Expr, rho: Expr, volume: Expr) -> li
 
 
 def _separated(term: Expr, limits: Sequence[OneVariable]) -> Separated:
-    """The term as a product of integrals, one for each group of variables; the constant factors are in the integral of
-    the first group whose variables the term contains."""
+    """The term as a product of integrals, one for each group of variables. The constant factors are in the first
+    integral whose variables the term contains, or in the first integral if the term is constant."""
     number, rest = term.as_coeff_Mul()
     groups = _groups(limits)
     found = [Mul(*(f for f in Mul.make_args(rest) if any(f.has(x) for x, _, _ in group))) for group in groups]
@@ -180,8 +179,8 @@ def _line(front: Expr, terms: list[Separated], how: Callable[[Nested], Expr], be
 
 def _product(term: Separated, how: Callable[[Nested], Expr]) -> Expr:
     """The product of the factors of a term. In a line with brackets, the factors that need no bracket come first:
-    values, and integrals with the integrand 1, each written as the upper minus the lower limit. The sign of a negative
-    integrand is in front of the product."""
+    values, and integrals with the integrand 1, each written as the upper minus the lower limit. If the first integrand
+    has a negative coefficient, the minus sign is in front of the product."""
     first = term[0]
     if isinstance(first, Nested) and first.integrand.as_coeff_Mul()[0].is_negative:
         return -_product((replace(first, integrand=-first.integrand), *term[1:]), how)
@@ -253,7 +252,7 @@ def _by_chords(region: Region, integrand: Expr, front: Expr) -> list[Form]:
 
 
 def _by_angle(chord: Expr, limit: OneVariable, region: Region) -> Expr | None:
-    """The integral of c y^m (r^2 - y^2)^(k/2) over y from -r to r, with y = r sin u; None for another integrand."""
+    """The integral of c y^m (r^2 - y^2)^(k/2) over y from -r to r, with y = r sin u; None for any other integrand."""
     y, _, r = limit
     outside, inside = chord.as_independent(y, as_Add=False)
     powers = dict(factor.as_base_exp() for factor in Mul.make_args(inside))

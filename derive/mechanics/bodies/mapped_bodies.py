@@ -1,7 +1,8 @@
 """Bodies defined by a position map: their cells, size, mass and density.
 
-A position map consists of formulas for the position in variables between limits. A curve has one variable, a surface
-two, a solid three. The density is uniform, or a formula in the same variables.
+A position map consists of formulas for the components of the position, and of limits for the variables in these
+formulas. A curve has one variable, a surface two, a solid three. The density is uniform, or a formula in the same
+variables.
 """
 
 from __future__ import annotations
@@ -167,7 +168,7 @@ class GeneralBody(Body):
         centre = self.middle
         r = centre.seen(self._position)
         weight = self.mass / self.size * self._profile * self._mapped
-        second = ImmutableDenseMatrix(3, 3, lambda i, j: tidied(exact(self, weight * r[i] * r[j], "moments")))
+        second = ImmutableDenseMatrix(3, 3, lambda i, j: tidied(exact(self, weight * r[i] * r[j], "inertia")))
         return from_moments(self.mass, centre.position, second)
 
     def another_way(

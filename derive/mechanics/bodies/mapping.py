@@ -1,4 +1,4 @@
-"""Position maps of bodies: the position as a formula in variables between limits, and the cell of these variables.
+"""Position maps of bodies: formulas for the position, limits for their variables, and the cell of these variables.
 
 The cell is |r_u| du for a curve, |r_u x r_v| du dv for a surface, and r_u . (r_v x r_w) du dv dw for a solid.
 """
@@ -118,8 +118,8 @@ def tangents_of(position: ImmutableMatrix, names: Sequence[Symbol]) -> list[Immu
 
 
 def _root_of(square: Expr, limits: Bounds) -> Expr:
-    """The square root, with x or -x in place of each absolute value |x|; an error if x changes its sign between the
-    limits."""
+    """The square root, with x or -x in place of each absolute value |x|; an error if the sign of x is not the same at
+    all random points."""
     root = tidied(sqrt(factor(square)))
     return root.replace(Abs, lambda inside: _counted_positive(inside, limits))
 
@@ -131,7 +131,7 @@ def _counted_positive(size: Expr, limits: Bounds) -> Expr:
     signs = {bool(size.xreplace(at).evalf() > 0) for at in inside(limits, size.free_symbols)}
     if len(signs) > 1 and not size.free_symbols & {x for x, _, _ in limits}:
         message = f"the symbols do not determine whether `{size}` is positive"
-        raise Rejected(Complaint("unknown-sign", message, help="give sizes that determine its sign"))
+        raise Rejected(Complaint("unknown-sign", message, help="give sizes for which this sign is known"))
     if len(signs) > 1:
         message = f"the map covers some places twice: `{size}` changes its sign between the limits"
         raise Rejected(Complaint("folded", message, help="give limits between which the map covers each place once"))
@@ -164,7 +164,6 @@ def letters_in_order(limits: Bounds, letters: Sequence[Symbol], source: Random) 
             known[x] = (low + high) / 2
         else:
             return at
-    (x, lower, upper), *_ = limits
     message = f"the limits of the variables are not in order, or enclose nothing: `{x}` from {lower} to {upper}"
     raise Rejected(Complaint("limits", message, help="give each variable as (lower, upper), the lower one first"))
 

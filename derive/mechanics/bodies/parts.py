@@ -43,12 +43,13 @@ class PlacedPart:
         return cls(body, body.reference, body.point(body.reference).position)
 
     def at(self, *place: Any, of: str = "centre") -> PlacedPart:
-        """Return the same part with one of its points at a place: (x, y), (x, y, z) or a place that `point` gives."""
+        """Return the same part with one of its points at a place: x, y or x, y, z, or one argument with these
+        components, such as `point(x, y)`."""
         self.body.point(of)  # raises an error if the part has no such point
         return replace(self, position=place_of(*place), of=of)
 
     def turned(self, axis: Any, angle: Any) -> PlacedPart:
-        """Return the same part, rotated right-handed by an angle about its fixed point. The axis of rotation is
+        """Return the same part, rotated right-handed by an angle about an axis through its fixed point. This axis is
         parallel to the axis "x", "y" or "z" of the larger body."""
         turn = turn_about(axis, angle)
         made = replace(self, turn=ImmutableDenseMatrix(turn * self.turn))
@@ -127,8 +128,8 @@ def turns_right_handed(turn: Any, axis: Any, angle: Expr) -> bool:
 
 
 def name_of_body(called: str) -> str:
-    """Return a name that keys and indices can contain; reject a name that is not one or two words of small letters."""
+    """Return a name that keys and indices can contain: one or two words of lower-case letters; reject other names."""
     if not re.fullmatch(r"[a-z]+( [a-z]+)?", called):
-        help_line = 'use one or two words of small letters, "upper rod"'
-        raise Rejected(Complaint("name", f"`{called}` is not a name for a body", help=help_line))
+        help_line = 'use one or two words of lower-case letters, such as "upper rod"'
+        raise Rejected(Complaint("name", f"`{called}` is not a valid name for a body", help=help_line))
     return called

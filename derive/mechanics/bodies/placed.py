@@ -1,8 +1,8 @@
 """The position and orientation of a body. The position is the place of the centre of mass, or of another given point.
 
 The orientation in space is a set of axes. In a plane the orientation is an angle about the normal, positive
-counterclockwise. The body axis perpendicular to the plane points to the reader; at zero angle the next two axes, in the
-cyclic order x, y, z, are along the axes of the plane.
+counterclockwise. One body axis is perpendicular to the plane and points towards the reader. At zero angle, the two body
+axes after it in the cyclic order x, y, z are along the axes of the plane.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ XYZ = "xyz"
 class PlacedBody:
     """A body with its position and its orientation.
 
-    body     an object with a mass, a centre of mass and an inertia about its points
+    body     an object with a mass, a centre of mass and moments of inertia
     turned   the axes of the body; for a motion in a plane, the angle
     point    the point of the body whose place is known
     at       the place of this point of the body
@@ -140,7 +140,8 @@ class PointOfBody(Location):
 
 
 def body_at(place: Any, stated: Any = None) -> Any:
-    """Return the stated body; if none is stated, the body to which a place from `place_of` belongs, otherwise None."""
+    """Return the stated body. If none is stated, return the body to which a place from `place_of` belongs, or None for
+    any other place."""
     return place.body if stated is None and isinstance(place, PointOfBody) else stated
 
 
@@ -156,7 +157,7 @@ def after(turns: tuple[tuple[int, Expr], ...]) -> ImmutableMatrix:
 class Placeable:
     """A base class of bodies that can have a position and an orientation."""
 
-    id: ClassVar[str] = "body"  # the sort of body, in files and in phrases: "thick_shell"
+    id: ClassVar[str] = "body"  # the sort of body, in files and in phrases, such as "thick_shell"
     name: ClassVar[str] = "a body"  # the sort of body in messages, made from `id`
 
     @property
@@ -207,7 +208,7 @@ def _placed(body: Any, turned: Any, point: Point, at: Any, across: str | None) -
         raise Rejected(Complaint("wrong-argument", message))
     if isinstance(turned, Axes):
         if getattr(body, "is_plane", False):
-            message = f"only one moment of {body.name} is known, so it can only move in a plane"
+            message = f"only one moment of {body.name} is known, so the body can only move in a plane"
             raise Rejected(Complaint("wrong-argument", message, help="give its three principal moments"))
         return PlacedBody(body, turned, point, at)
     try:

@@ -1,9 +1,9 @@
 """Checks for impossible bodies: a hole outside the body, parts that overlap, a position map that covers places twice, a
 density that changes its sign, a negative mass or size.
 
-The checks of position maps and of parts are numerical: Newton's method on the position map of one part looks for points
-of another part. The numbers for the symbols are random, except the numbers that the problem gives. These checks reject
-a body only if it is impossible for every set of numbers for which it can be evaluated.
+The checks of position maps and of parts are numerical: Newton's method finds values of the variables for which a
+position map gives a sampled point. The numbers for the symbols are random, except the numbers that the problem gives.
+These checks reject a body only if it is impossible for every set of numbers for which it can be evaluated.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from derive.mechanics.bodies.regions import Bounds
 from derive.steps.signs import sign_known
 
 POINTS = 40  # number of points of a part that are sampled
-TWINS = 6  # number of these points that are tested for a second set of values of the variables with the same position
+TWINS = 6  # number of sampled points for which other values of the variables with the same position are sought
 SHARP = 1e-6  # length added to the bounds of a part, because a part may be flat or straight
 APART = 1e-3  # values of a variable are distinct if they differ by more than this fraction of its range
 
@@ -70,8 +70,11 @@ def _own(part: Any, sign: int) -> Iterator[Piece]:
 
 @dataclass(frozen=True)
 class Fault:
-    """Why no body can consist of the given parts: a word for the reason ("shared", "hole" or "empty"), and the names of
-    the parts at fault, which meet at one place; no names for "empty"."""
+    """Why no body can consist of the given parts.
+
+    why     "shared" (parts overlap), "hole" (a hole is outside the body, or holes overlap) or "empty" (nothing is left)
+    names   the names of the parts that overlap, or of the holes, at one place; none for "empty"
+    """
 
     why: str
     names: tuple[str, ...]
@@ -206,7 +209,7 @@ def _is_between(chart: Chart, at: Place) -> bool:
 
 
 def _covered_twice(chart: Chart) -> bool:
-    """Whether at least one sampled place also belongs to other values of the variables."""
+    """Whether, for at least one sampled place, other values of the variables give the same place."""
     try:
         return any(_has_twin(chart, at) for at in chart.points(TWINS, Random(3), margin=0.1))
     except (TypeError, ValueError, OverflowError, ZeroDivisionError):

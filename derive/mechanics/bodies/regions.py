@@ -57,7 +57,7 @@ class Point:
         return (ends[0], ends[1]) if self.axes[2, 2] == 1 else (ends[1], ends[0])
 
     def along_body(self, z: Expr) -> Expr:
-        """A z measured from this point, converted to z in body axes."""
+        """The coordinate z measured from this point, converted to z in body axes."""
         return self.position[2] + self.axes[2, 2] * z
 
 
@@ -79,8 +79,8 @@ class Region:
 
     @property
     def has_mirrors(self) -> bool:
-        """Whether each of x, y and z is zero or ranges between opposite constants, and the element contains no
-        variable; then all coordinate planes are mirror planes."""
+        """Whether the limits show that all coordinate planes are mirror planes: each of x, y and z is zero or ranges
+        between opposite constants, and the element contains no variable."""
         names = self.names
         opposite = all(lower == -upper and not upper.has(*names) for _, lower, upper in self.limits)
         return opposite and all(x in (*names, 0) for x in self.position) and not self.element.has(*names)
@@ -96,8 +96,8 @@ class Region:
         return whole
 
     def with_named_section(self, taken: Collection[Symbol], primed: str = "") -> Region:
-        """The same region in cylindrical coordinates, with a symbol r for a radius that varies along the axis; the
-        distance from the axis, from 0 to r, is then s.
+        """The same region in cylindrical coordinates, with a symbol r for a radius that varies along the axis. The
+        symbol of the distance from the axis, which ranges from 0 to r, is then s. A constant radius has no symbol.
 
         taken    symbols that are not available for r and s
         primed   text to append to the name of r, such as a prime
@@ -122,8 +122,8 @@ class Region:
 
 
 def coordinates(names: Iterable[str], taken: Collection[Symbol]) -> list[Symbol]:
-    """Symbols for coordinates, distinct from the given symbols, from the letters of the problem and from each other
-    as far as the names in `OTHERS` allow; for example r, or s if r is taken."""
+    """Symbols for coordinates, for example r, or s if r is taken. As far as the names in `OTHERS` allow, they differ
+    from each other, from the symbols in `taken` and from the letters of the problem."""
     letters = {letter.name for letter in (*taken, *named_coordinates())} | given_letters()
     found: list[str] = []
     wanted = list(names)

@@ -165,7 +165,7 @@ class Cylinder(Cylindrical, RoundSolid):
         return Factors(pi, self.radius**2, self.height)
 
     def particles(self) -> Particles:
-        """The particles of a disc, spread evenly along z."""
+        """Copies of the particles of a disc at three values of z, weighted by Simpson's rule."""
         return drawn_out(disc_of_particles(self.mass, self.radius, ZERO), self.ends)
 
 
@@ -295,7 +295,7 @@ class HalfCylinder(OfHeight):
         return Extruded(HalfDisc(self.radius, self.mass).boundary)
 
     def particles(self) -> Particles:
-        """The particles of a half-disc, spread evenly along z."""
+        """Copies of the particles of a half-disc at three values of z, weighted by Simpson's rule."""
         return drawn_out(HalfDisc(self.radius, self.mass).particles(), (ZERO, self.height))
 
 

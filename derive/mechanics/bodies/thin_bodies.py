@@ -313,7 +313,7 @@ class CylindricalShell(Cylindrical):
         return Factors(2, pi, self.radius, self.height)
 
     def particles(self) -> Particles:
-        """The particles of a ring, spread evenly along z."""
+        """Copies of the particles of a ring at three values of z, weighted by Simpson's rule."""
         return drawn_out(ring_of_particles(self.mass, self.radius, ZERO), self.ends)
 
 

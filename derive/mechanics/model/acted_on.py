@@ -105,6 +105,6 @@ def _check_partners(system: WithParts) -> None:
     if all(is_zero(c) for c in resultant):
         return
     (letter, *_) = sorted({s.name for c in open_[0].components for s in c.free_symbols & letters})
-    message = f"a force with {letter} acts between two bodies, but the body that exerts it is not stated"
+    message = f"a force that contains {letter} acts between two bodies, but the body that exerts it is not stated"
     help_line = "name the body on which the opposite force acts, `by: plank`, or write `by: ground`"
     raise WrongPart.of(open_[0], Complaint("which-body", message, help=help_line))

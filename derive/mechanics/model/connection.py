@@ -61,7 +61,7 @@ class Connection(Part):
 
 
 def end_of(given: Any) -> tuple[Location, Any]:
-    """Return a place, and the body or particle to which it belongs; None for a place in space."""
+    """Return a place, and the body or particle to which it belongs; for a place in space, the second item is None."""
     if isinstance(given, PointOfBody):
         return Location(given.components), given.body
     if isinstance(given, PlacedBody):
@@ -72,12 +72,17 @@ def end_of(given: Any) -> tuple[Location, Any]:
 
 
 def require_bodies(verb: str, ends: Sequence[tuple[Location, Any]], otherwise: str = "") -> None:
-    """Require each moving place to belong to a body or particle, because a force acts at the place; `otherwise` is the
-    end of the help line."""
+    """Require each moving place to belong to a body or particle, because a force acts at the place.
+
+    otherwise   the text at the end of the help line
+    """
     for place, of in ends:
         if of is None and (moving := coordinates_in(ImmutableDenseMatrix(place.components))):
             where = ", ".join(map(str, place.components))
-            message = f"`{verb}`: the place ({where}) moves with {next(iter(moving))}, but it belongs to no body"
+            message = (
+                f"`{verb}`: the place ({where}) moves with {next(iter(moving))}, "
+                "but it does not belong to a body or particle"
+            )
             help_line = (
                 "name a particle or a point of a body: `cart`, `{from: cart, by: [0, d]}`, `rod.end`" + otherwise
             )

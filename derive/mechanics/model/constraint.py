@@ -30,7 +30,7 @@ class StaticLimit:
 
     coefficient   the coefficient of static friction, mu_s
     normal        the symbol of the normal force of the same contact
-    slider        the name of the body that would slip, if the author gave one: "block"
+    slider        the name of the body that would slip, such as "block"; empty if the author gave no name
     of_rail       whether the normal force may have either sign
     in_space      whether the friction has two components; the limit is then the limit of its magnitude
     """
@@ -100,7 +100,7 @@ class Constraint(Part):
     def acts(self, side: int) -> str:
         """Return the result of `sense` for a vertical or horizontal force.
 
-        For an oblique friction of constant direction, such as friction on a slope, the result is "up_slope" or
+        For an oblique friction force of constant direction, such as friction on a slope, the result is "up_slope" or
         "down_slope". For any other oblique force, the result is empty.
         """
         sense = self.sense(side)
@@ -205,7 +205,7 @@ def constraint(condition: Any, equals: Any = ZERO, force: str = "lambda") -> Con
     higher = [q for q in moving if (left - right).has(rate(q, 2), rate(q, 3))]
     residual = left - right
     if higher or any(not is_zero(diff(residual, a, b)) for a in rates for b in rates):
-        message = "`constraint` needs a formula in the coordinates, or one linear in their rates"
+        message = "`constraint` needs a formula in the coordinates, or a formula linear in their rates"
         raise Rejected(Complaint("wrong-argument", message))
     made = Constraint(left, right, scalar(force), bool(rates))
     if not is_zero(

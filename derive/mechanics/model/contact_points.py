@@ -26,7 +26,7 @@ def touching(placed: PlacedBody, surface: Surface) -> tuple[Location, Expr, Loca
     normal."""
     if surface.is_two_sided:
         message = "a round body can touch a plane, a curve, a circle or a sphere, but not a rail"
-        raise Rejected(Complaint("no-contact", message, help="let a particle or a point of the body touch it"))
+        raise Rejected(Complaint("no-contact", message, help="let a particle or a point of the body touch the rail"))
     hub = placed.hub
     if isinstance(surface, Curve):
         foot, distance = _foot(placed, surface)
@@ -43,8 +43,8 @@ def touching(placed: PlacedBody, surface: Surface) -> tuple[Location, Expr, Loca
 
 
 def _foot(placed: PlacedBody, curve: Curve) -> tuple[Location, Expr]:
-    """Return the place of a curve whose normal contains the centre of a round body, and the distance of the centre
-    from this place."""
+    """Return the place on a curve where the normal passes through the centre of a round body, and the distance of the
+    centre from this place."""
     for foot in _feet(placed, curve):
         normal = curve.normal(foot)
         distance = tidied(dot(normal, placed.hub - foot))
@@ -52,15 +52,19 @@ def _foot(placed: PlacedBody, curve: Curve) -> tuple[Location, Expr]:
             return foot, distance
     message = f"the place where {placed.body.name} touches the curve is unknown: a coordinate must describe this place"
     help_line = (
-        "let a coordinate x be the horizontal distance of the point of contact: the centre is at "
-        "[x - R*f'/sqrt(1 + f'**2), f + R/sqrt(1 + f'**2)]; for a normal force, write a positive length h instead of R"
+        "use a coordinate x for the horizontal distance of the point of contact from the origin of the curve; the "
+        "centre of a body above the curve is then at [x - R*f'/sqrt(1 + f'**2), f + R/sqrt(1 + f'**2)]; for a normal "
+        "force, write a positive length h instead of R"
     )
     raise Rejected(Complaint("no-contact", message, help=help_line))
 
 
 def _feet(placed: PlacedBody, curve: Curve) -> Iterator[Location]:
-    """Yield places of the curve that a round body may touch: places whose horizontal distance is a coordinate, and the
-    place where the centre would be if its distance from the curve were zero.
+    """Yield places of the curve that a round body may touch.
+
+    First come the places whose horizontal distance from the origin of the curve is a coordinate of the body. Then come
+    the places of the centre of the body with one coordinate, or one symbol of the radius, replaced by zero; only those
+    on the curve are yielded.
     """
     moving = coordinates_in(column_of(placed.hub))
     yield from (curve.point(q) for q in moving)
@@ -97,7 +101,8 @@ def _outline(placed: PlacedBody) -> Round | None:
 
 
 def lowest(placed: PlacedBody, surface: Surface) -> tuple[Location, Expr]:
-    """Return the point of a body with rims that is nearest to a plane, and the distance of this point from the plane.
+    """Find the point of a body with rims that is nearest to a plane. Return this point, and its distance from the
+    plane.
 
     The body is the convex hull of its rims, so the nearest point is on a rim. The vector from the centre of the rim to
     this point is one radius long, and opposite to the projection of the normal of the plane onto the plane of the rim.
@@ -152,7 +157,7 @@ def _check_lowest(placed: PlacedBody, plane: Surface, place: Location, gap: Expr
 
     if not any(is_lowest(*rim) for rim in rims):
         message = "the place of a contact could not be shown to be the lowest point of the body"
-        raise Unverified(Complaint("unverified", message, help="let a horizontal axis be along the surface"))
+        raise Unverified(Complaint("unverified", message, help="choose the axes so that x or y is along the surface"))
 
 
 def _own(placed: PlacedBody, *own: Expr) -> Location:
@@ -177,7 +182,7 @@ def _lower(placed: PlacedBody, one: tuple[Location, Expr], other: tuple[Location
     for held, free in ((one, other), (other, one)):
         if placed.is_held and is_zero(ImmutableDenseMatrix((held[0] - placed.at).components)):
             return free
-    message = f"{placed.body.name} touches the plane along a line, so its forces act at no single point"
+    message = f"{placed.body.name} touches the plane along a line, so the contact forces do not act at a single point"
     raise Rejected(Complaint("no-contact", message, help="hold an end of this line, such as the apex of a cone"))
 
 
@@ -185,7 +190,8 @@ def radius_of(placed: PlacedBody) -> Expr:
     """Return the radius of a body that is round in the plane of motion, or of a ball; reject other bodies."""
     radius = _round_radius(placed)
     if radius is None:
-        message = f"{placed.body.name} is not round in this view, so the point where it touches the surface is unknown"
+        shape = "round in the plane of motion" if placed.is_plane else "a ball"
+        message = f"{placed.body.name} is not {shape}, so the point where it touches the surface is unknown"
         help_line = Spelled(
             'give a point of the body: `rod.place_of("end")`',
             "give a point of the body, `rod.end`, or describe the body by `moments` and its `rim`",

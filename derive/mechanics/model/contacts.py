@@ -49,7 +49,7 @@ class Contact(Connection):
     at       the place of contact
     surface  the surface that the body touches
     gap      the distance between the body and the surface, or the height of a particle above a curve, m
-    normal   the unit vector from the surface to the body
+    normal   the unit vector normal to the surface, towards the body
     gradient  the length of the gradient of `gap` on the surface
     """
 
@@ -126,25 +126,26 @@ def contact(
 ) -> tuple[Contact | Part, ...]:
     """The forces between a body and a surface that it touches, and the conditions that they enforce.
 
-    of         what touches the surface: a particle, a round body, or a point of a body, `rod.place_of("end")`. If a
-               body carries the surface, `of` may also be a fixed place that the surface touches, such as the edge of a
-               table
+    of         what touches the surface: a particle, a round body, or a point of a body such as `rod.place_of("end")`.
+               If a body carries the surface, `of` may also be a fixed place that the surface touches, such as the edge
+               of a table
     on         a surface, `plane(...)`, `circle(...)` or `curve(...)`; or another round body
     normal     the symbol of the normal force along the unit normal, in newtons; positive if the surface pushes. The
                symbol is needed if the coordinates allow the body to leave the surface
     rolling    for a body that does not slip: the symbol of the friction that prevents slipping, in newtons; or True, if
-               the coordinates alone keep the body on the surface. The friction is positive in the direction along the
-               surface that has the free side on its left. In space, the friction has two components along axes in the
-               surface, such as F_x and F_y. If only one horizontal axis is in the surface, the component named after
-               the other horizontal axis is perpendicular to the first axis
+               the coordinates alone keep the body on the surface. In a plane, by default, the friction is positive in
+               the direction along the surface that has the free side on its left. In space, the friction has two
+               components along axes in the surface, such as F_x and F_y. If only one horizontal axis is in the surface,
+               the component named after the other horizontal axis is perpendicular to the first axis
     sliding    the coefficient of sliding friction mu: the friction mu N opposes the velocity of slip s of the material
                points. In space it is -mu N s/|s|, where s is not zero
     direction  "right", "left" or a vector. With `sliding`, the material point of the body slips over the surface in
-               this direction; in space it may be left out, and must be left out if the coordinates allow other
-               directions of slip. With `rolling` or `static`, the friction on the body is positive in this direction
+               this direction. In space, `direction` is optional with `sliding`; leave it out if the coordinates allow
+               other directions of slip. With a symbol of friction under `rolling` or `static`, the friction on the body
+               is positive in this direction; then `direction` is allowed only for a motion in a plane
     static     the coefficient of static friction mu_s: the material points in contact do not move over each other, so
-               a round body rolls; this requires |F| <= mu_s N, for a rail |F| <= mu_s |N|, and in space
-               sqrt(F_x^2 + F_y^2) <= mu_s N
+               a round body rolls. The friction must satisfy |F| <= mu_s N, or |F| <= mu_s |N| on a rail. In space, |F|
+               is sqrt(F_x^2 + F_y^2)
     force      with `static`: the symbol of the friction F, in newtons, positive as for `rolling`
     key        with `rolling=True`: the key of the condition of rolling
 
@@ -173,7 +174,8 @@ def contact(
     if sliding is not None:
         found.append(_sliding(touch, sliding, direction, normal or "N"))
     elif direction is not None and not isinstance(rolling, str) and static is None:
-        raise Rejected(Complaint("unused-key", "`direction` is the direction of a friction, but no friction is given"))
+        message = "`direction` is the direction of the friction, but no friction is given"
+        raise Rejected(Complaint("unused-key", message))
     if static is not None:
         found += _sticking(touch, force, direction, _static_limit(touch, static, normal))
     elif force:
@@ -214,9 +216,9 @@ def _check_carried(touch: Contact, rough: bool) -> None:
 def _check_moves_with_its_material(surface: Surface) -> None:
     """Reject a plane or circle whose shape does not move with the body that carries it, or with its rotating axes.
 
-    A particle of a plane must stay on the plane: n . (v(p) - dp/dt) = 0 and dn/dt = omega x n, where p is a place of
-    the plane, n is its unit normal, and v and omega belong to the material. A particle at the centre of a circle must
-    stay at the centre.
+    A particle of a plane must stay on the plane: n . (v(p) - dp/dt) = 0 and dn/dt = omega x n. Here p is a place of the
+    plane and n is its unit normal; v and omega are the velocity and the angular velocity of the material. A particle at
+    the centre of a circle must stay at the centre.
     """
     if surface.of is None and not isinstance(surface.moves, Axes) or isinstance(surface, Curve):
         return

@@ -2,8 +2,9 @@
 
 A rigid body is equivalent to a few mass points: one has the whole mass, at the centre of mass, and others describe the
 rotation. Each of these other points is the end of a vector that rotates with the body: the unit vector of a body axis,
-or the sum of two such unit vectors. Its `mass` is a second moment, in kg m^2. Kinetic energy, momenta and the virtual
-work of inertial forces follow from the positions of these points as functions of t.
+or the sum of two such unit vectors. Its `mass` is a second moment, or a difference of second moments, in kg m^2.
+Kinetic energy, momenta and the virtual work of inertial forces follow from the positions of these points as functions
+of t.
 
 Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.4 (d'Alembert's principle).
 """
@@ -40,7 +41,7 @@ class Load:
 
     place   the components of the place; for a generalized force, the coordinate or angle along which it acts, as the
             only component
-    held    pairs of a symbol in `place` and its value; the symbol is constant in every displacement, such as a
+    held    pairs of a symbol in `place` and its value. Such a symbol is constant in every displacement; an example is a
             component of the position of a particle in its body
     multiplier   the symbol of a constraint force, which is a factor of the force; None for other forces
     """
@@ -61,9 +62,10 @@ class Load:
 
 @dataclass(frozen=True)
 class MagneticForce:
-    """The force e v x B, N, on a charge e in a uniform magnetic field; for a motion in a plane, B points to the reader.
+    """The force e v x B, N, on a charge e in a uniform magnetic field.
 
-    The vector potential of the field is A = (1/2) B x r, in T m.
+    For a motion in a plane, B is perpendicular to the plane, and positive towards the reader. The vector potential of
+    the field is A = (1/2) B x r, in T m.
     """
 
     charge: Expr

@@ -77,7 +77,7 @@ def described(
     bodies      those parts of the system that are bodies
     expressed   conditions that express a coordinate by others: the coordinate and its formula
     """
-    first = dict(reversed([(q, i) for i, (q, _) in enumerate(expressed)]))  # the first condition for each coordinate
+    first = dict(reversed([(q, i) for i, (q, _) in enumerate(expressed)]))  # coordinate -> index of its first condition
     conditions = [
         plain.Condition(q - function, expresses=q if first[q] == i else None)
         for i, (q, function) in enumerate(expressed)

@@ -1,7 +1,8 @@
 """Forces other than weight and springs: given forces and torques, drag, charges in fields, and potential energies that
 are given as functions.
 
-A couple acts along an angle. A potential energy has a generalized force along each coordinate that it contains.
+The torque of a couple acts along an angle. A potential energy has a generalized force along each coordinate that it
+contains.
 """
 
 from __future__ import annotations
@@ -218,7 +219,7 @@ def _vector(verb: str, role: str, given: Any, count: int) -> Vector:
     try:
         return tuple(as_expr(value) for value in values)
     except TypeError:
-        raise Rejected(Complaint("wrong-argument", f"`{verb}` needs expressions as its `{role}`")) from None
+        raise Rejected(Complaint("wrong-argument", f"`{verb}`: `{role}` must consist of expressions")) from None
 
 
 def _place(verb: str, at: Any) -> Location:

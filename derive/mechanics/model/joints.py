@@ -10,7 +10,7 @@ from sympy import Add, Expr, Integer, Symbol
 
 from derive.algebra.expressions import TimeRate, as_expr, explicit, scalar
 from derive.algebra.tidy import tidied
-from derive.errors import Complaint, Rejected
+from derive.errors import Complaint, Rejected, Spelled
 from derive.mechanics.bodies.placed import PlacedBody
 from derive.mechanics.kinematics.places import Location
 from derive.mechanics.model.connection import Connection, PointForce, end_of, is_end, require_bodies
@@ -50,8 +50,9 @@ def pin(of: Any, to: Any, force: str = "R") -> tuple[Pin | Constraint, ...]:
     """
     for each in (of, to):
         if not is_end(each):
-            message = "`pin` needs points of bodies, particles or places"
-            raise Rejected(Complaint("wrong-argument", message, help='give a point as `rod.place_of("end")`'))
+            message = "each end of a `pin` must be a particle, a body, a point of a body or a place"
+            how = Spelled('give a point as `rod.place_of("end")`', "give a point of a body as `rod.end`")
+            raise Rejected(Complaint("wrong-argument", message, help=how))
     (here, body), (there, other) = end_of(of), end_of(to)
     require_bodies("pin", [(here, body), (there, other)])
     gaps = [tidied(c) for c in (here - there).components]
@@ -86,7 +87,9 @@ def weld(of: Any, to: Any, force: str = "R", torque: str = "C") -> tuple[Pin | C
         raise Rejected(Complaint("wrong-argument", "`weld` needs two bodies that move in a plane"))
     angle = explicit(as_expr(turned[0] - turned[1]))
     if not coordinates_in(angle):
-        message = "the coordinates keep the angle between the two bodies, so the couple of the joint does not appear"
+        message = (
+            "the coordinates keep the angle between the two bodies constant, so the couple of the joint does not appear"
+        )
         raise Rejected(Complaint("not-an-unknown", message, help="use `pin`"))
     at_zero = angle.xreplace(dict.fromkeys(coordinates_in(angle), ZERO))
     return *pin(of, to, force), replace(constraint(angle, at_zero, torque), enforcer="joint")

@@ -12,7 +12,7 @@ from typing import Any, TypeAlias
 from sympy import Expr, ImmutableDenseMatrix, Symbol
 
 from derive.algebra.expressions import stand_in
-from derive.errors import Complaint, Rejected
+from derive.errors import Complaint, Rejected, Spelled
 from derive.mechanics.bodies.placed import PlacedBody, after
 from derive.mechanics.kinematics.places import Axes, Location
 
@@ -68,5 +68,8 @@ def material_point(verb: str, of: Any, at: Location) -> MaterialPoint:
     if hasattr(of, "mass") and isinstance(getattr(of, "at", None), Location):
         return MaterialPoint(of.at.components)
     message = f"`{verb}` must act on a particle or on a body that is placed or held"
-    help_line = 'give the particle or the body as `of=`, or give "massless"'
+    help_line = Spelled(
+        'give the particle or the body as `of=`, or write `of="massless"`',
+        "name the particle or the body, `of: ball`, or write `of: massless`",
+    )
     raise Rejected(Complaint("wrong-argument", message, help=help_line))

@@ -112,7 +112,7 @@ def _independent(
         q = next(iter([*steady, *present]), None)
         if q is None:
             if not is_zero(rest):
-                raise Rejected(Complaint("wrong-argument", f"the body cannot roll there: {rest} must vanish"))
+                raise Rejected(Complaint("wrong-argument", f"the body cannot roll there: rolling requires {rest} = 0"))
             continue
         condition = _Condition(rest, q, dict(known))
         known[rate(q)] = condition.rate
@@ -233,7 +233,7 @@ def _solved(
     """Condition of rolling, solved for one rate."""
     q, found = condition.q, condition.rate
     involved = coordinates_in(ImmutableDenseMatrix([*body.depends_on, *at.components, condition.left]))
-    moving = list(involved)  # those of a surface that moves are in the condition
+    moving = list(involved)  # the condition also contains the coordinates of a moving surface
     marks = [stand_in(f"delta_{i}") for i in range(len(at.components))]
 
     def at_rest(relation: Relation) -> tuple[Expr, Expr]:

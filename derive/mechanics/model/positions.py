@@ -33,8 +33,8 @@ INTEGRATED = Rule(
 def integrated(condition: Quantity, key: str | None = None) -> Quantity:
     """Integral of a linear relation between rates with constant coefficients: s = R theta from s_dot = R theta_dot.
 
-    condition   a step of `no_slip` that expresses one rate by other rates, linearly and with constant coefficients; a
-                condition that already expresses the coordinate itself is returned unchanged
+    condition   a step of `no_slip` that expresses one rate by other rates, linearly and with constant coefficients. If
+                the condition already expresses the coordinate itself, the result is the condition
 
     The constant of integration is zero: all coordinates are assumed to be zero in one position of the system.
     Check: the time derivative of the result is the value of the rate in the condition. If all coordinates are zero, the

@@ -11,7 +11,7 @@ from sympy import Abs, Add, Expr, ImmutableDenseMatrix, Integer, Symbol
 
 from derive.algebra.expressions import as_expr, depends_on_time, explicit, scalar
 from derive.algebra.tidy import tidied
-from derive.errors import Complaint, Rejected
+from derive.errors import Complaint, Rejected, Spelled
 from derive.mechanics.bodies.placed import PlacedBody
 from derive.mechanics.kinematics.places import Location
 from derive.mechanics.model.connection import Connection, PointForce, end_of, is_end, require_bodies
@@ -94,8 +94,8 @@ class Line(Connection):
         return replace(line, pieces=pieces, lengths=lengths)
 
     def drawn_on(self, of: Any) -> list[tuple[Location, Location]]:
-        """Return the pieces that pull a part of the system, for the force diagram of this part: for each piece, the end
-        that pulls the part, and the other end."""
+        """Return the pieces of the line that pull a body, a particle or a pulley, for its force diagram. Each item
+        contains the two ends of a piece: the end that pulls, then the other end."""
         if self.drawn is None or self.rope is not None:
             return []
         ends = [(piece.start, piece.end) for piece in self.pieces], [(piece.end, piece.start) for piece in self.pieces]
@@ -230,7 +230,8 @@ def string(
                  speed of the particle, so that (1/2) M v^2 of the particle is the kinetic energy of the rope. The
                  height of the particle must be constant; gravity acts on each piece of the rope
     drawn_tension   the symbol of the tension in force diagrams, if the coordinates keep the length of the string
-                 constant, so that no equation contains the tension; for a rope with mass, the tension at its bends
+                 constant. No equation contains this tension. For a rope with mass, it is the tension at the bends of
+                 the rope
 
     The tension is the same everywhere in a string without mass. The string pulls each end along the string, and each
     pulley along the two adjacent pieces of the string.
@@ -252,8 +253,8 @@ def string(
 
 
 BESIDE_THE_ROPE = (
-    "gravity acts on each piece of the rope, so the particle may be at any place of constant height that has the speed "
-    "of the rope: `at: [x, 0]` if one end is at `[0, x - l]`"
+    "gravity acts on each piece of the rope, so the particle may be anywhere at a constant height, but must move with "
+    "the speed of the rope: `at: [x, 0]` if one end is at `[0, x - l]`"
 )
 
 
@@ -324,7 +325,8 @@ def _of_length(verb: str, ends: Sequence[Any], length: Any, letter: str) -> tupl
         require_no_coordinate(verb, "length", whole)
     if not all(is_end(each) or isinstance(each, Pulley) for each in ends):
         message = f"`{verb}` must end at a particle, at a body or a point of a body, or at a place"
-        raise Rejected(Complaint("wrong-argument", message, help='give a point of a body as `body.place_of("end")`'))
+        how = Spelled('give a point of a body as `rod.place_of("end")`', "give a point of a body as `rod.end`")
+        raise Rejected(Complaint("wrong-argument", message, help=how))
     for wheel in ends[1:-1]:
         if isinstance(wheel, PlacedBody) and has_radius(wheel):
             message = f"the string runs over {wheel.body.name}, which has a radius"
@@ -401,12 +403,12 @@ def _tangent(one: Any, other: Any) -> tuple[Location, Location]:
         else f"the pulley at ({', '.join(map(str, round_.at.components))})"
     )
     if not found:
-        message = f"no horizontal or vertical piece of string that is tangent to {name} leads to the next end or pulley"
+        message = f"no horizontal or vertical tangent of {name} leads to the next end or pulley"
         help_line = "the end of a vertical string must be one radius to the left or right of the centre"
         raise Rejected(Complaint("no-contact", message, help=help_line))
     if len(found) > 1 and any(isinstance(each, Rim) for each in (one, other)):
         message = f"the string to the next end or pulley may be tangent to {name} on either side"
-        help_line = "put the two axes at different heights and at different horizontal positions"
+        help_line = "put the centres of the pulleys at different heights and at different horizontal positions"
         raise Rejected(Complaint("no-contact", message, help=help_line))
     return found[0]
 
@@ -427,8 +429,8 @@ def _kept_lengths(pieces: Sequence[tuple[Location, Location]], whole: Expr | Non
     """Return the lengths of the pieces if their sum contains no coordinates; otherwise None.
 
     The length of a piece on a fixed line is u or -u. If the sign of u is unknown, it is chosen so that the coordinates
-    cancel; among several choices, a sum equal to the given length is preferred, then lengths that are not negative
-    where the coordinates are zero, then a sum without a leading minus sign.
+    cancel. Among several choices, the first criterion is a sum equal to the given length. The second is lengths that
+    are not negative where the coordinates are zero. The third is a sum without a leading minus sign.
     """
     kept = []
     for lengths in product(*(_possible_lengths(*piece) for piece in pieces)):
@@ -474,7 +476,7 @@ def wound_string(end: Any, on: Any, tension: str = "T", over: Sequence[Any] = ()
     tension  the symbol of the tension, N; positive if the string pulls
     over     the massless pulleys or holes between the end and the body, as for `string`
 
-    Along the string, the rim at the point of contact and the string have the same velocity.
+    At the point of contact, the rim and the string have the same velocity component along the string.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 7.
     """
     rims = on if isinstance(on, tuple) else (on,)
@@ -484,7 +486,10 @@ def wound_string(end: Any, on: Any, tension: str = "T", over: Sequence[Any] = ()
         message = "`wound_string` is for motion in a plane, with an end and one round body or two round bodies"
         raise Rejected(Complaint("wrong-argument", message))
     if not all(is_end(each) or isinstance(each, Pulley) and each in over for each in other):
-        message = "`end` of a `wound_string` must be a particle, a point of a body or a place; `over` may name pulleys"
+        message = (
+            "`end` of a `wound_string` must be a particle, a point of a body or a place; "
+            "`over` may also contain pulleys"
+        )
         raise Rejected(Complaint("wrong-argument", message))
     wound = [Rim((), each.hub, radius_of(each), each) for each in rims]
     pieces = _pieces([*wound[1:], *other, wound[0]])

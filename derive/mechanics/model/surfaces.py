@@ -43,8 +43,8 @@ class Surface(ABC):
     """A surface; the bodies that touch it are on its free side.
 
     of      the body or particle of the system that carries the surface; None if the system has no such body
-    moves   if `of` is None, the motion of the material along the surface: for a turntable, the axes in which the
-            material is at rest; for a belt, a place that moves with the material; None without such a motion
+    moves   if `of` is None, the motion of the material along the surface. A turntable has axes in which the material is
+            at rest; a belt has a place that moves with the material. None without such a motion
     is_two_sided   whether the surface can push bodies to both sides, like a rail; the normal force may have either sign
     """
 
@@ -392,7 +392,7 @@ def _positive(length: Expr) -> Expr:
     """Return u or -u for a distance |u|: the expression that is positive for all values of its symbols.
 
     If the sign depends on the values, return the expression that is positive where all coordinates are zero, and assume
-    that this expression stays positive. Reject a distance whose sign is unknown there.
+    that this expression stays positive. Reject an expression whose sign is unknown there.
     """
     moving = coordinates_in(ImmutableDenseMatrix([length]))
     at_zero = Add(*(term for term in Add.make_args(length.xreplace(dict.fromkeys(moving, Integer(0))).expand())
@@ -403,7 +403,7 @@ def _positive(length: Expr) -> Expr:
         if (sign * at_zero).is_positive:
             assume(Relation(sign * length, ">", Integer(0)))
             return sign * length
-    message = f"the sign of {length} is unknown, so the distance is |{length}|"
+    message = f"the distance |{length}| cannot be written without an absolute value: the sign of {length} is unknown"
     raise Rejected(Complaint("sign", message, help=help_to_sign(length, [*moving, *prescribed_in(length)])))
 
 

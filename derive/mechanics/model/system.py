@@ -92,8 +92,9 @@ class MovingBody(Part):
 
     @property
     def mass_points(self) -> Sequence[MassPoint]:
-        """The mass points that represent the body. One has its mass and is at the centre of mass. The others have
-        second moments as weights, and are at the ends of vectors that start at the origin and rotate with the body."""
+        """The mass points that represent the body. One has the mass of the body and is at its centre of mass. Each of
+        the others is at the end of a vector that starts at the origin and rotates with the body. Its `mass` is a second
+        moment, or a difference of second moments."""
         placed = self.placed
         spread = central_second_moments(placed.body)
         points = [MassPoint(placed.body.mass, placed.centre.components)]
@@ -275,8 +276,8 @@ class System:
             help_line = "place a body with `.placed` or `.held`" if isinstance(unknown[0], Placeable) else None
             raise Rejected(Complaint("wrong-argument", message, help=help_line))
         if name and not re.fullmatch(r"[a-z]+( [a-z]+)?", name):
-            help_line = 'use one or two words of small letters, "first"'
-            raise Rejected(Complaint("name", f"`{name}` is not a name for a system", help=help_line))
+            help_line = 'use one or two words of lower-case letters, such as "first"'
+            raise Rejected(Complaint("name", f"`{name}` is not a valid name for a system", help=help_line))
         self.called = name
         self.conditions = tuple(part for part in parts if isinstance(part, Quantity))
         known = _known_by_all(self.conditions)
@@ -386,7 +387,8 @@ class System:
     def described(self) -> Described:
         """The input of the witness: the parts before conditions eliminate coordinates."""
         moving = {**self.coordinates, **coordinates_in(ImmutableDenseMatrix([*self.known, ZERO]))}
-        expressed = [_known_by(condition) for condition in self.conditions]  # as given, not put into one another
+        # the conditions as given: none is substituted into another
+        expressed = [_known_by(condition) for condition in self.conditions]
         return Described(described(self._described, self.described_bodies, expressed, moving))
 
     @cached_property

@@ -39,15 +39,15 @@ MOMENT_OF_PARTS = Rule(
 
 
 def moment_of_parts(body: Any, axis: str, point: Point, symbol: str, key: str) -> Quantity | None:
-    """Moment of inertia of a composite body about an axis through a point, I = sum of I_part + m d^2 over its parts.
+    """Moment of inertia of a composite body about an axis through a point, I = sum of (I_part + m d^2) over its parts.
 
     body    a composite body; the moments of cavities are subtracted
     axis    the body axis that is parallel to the axis of the moment: "x", "y" or "z"
     point   a point on the axis
 
     For each part except particles, a step derives the moment I_part about the parallel axis through the centre of mass
-    of the part. The distance between the two axes is d. Return None if some part has no body axis parallel to
-    `axis`. The result is also None if the parallel axis of a composite part has another name.
+    of the part. The distance between the two axes is d. Return None if some part has no body axis parallel to `axis`.
+    For a composite part, the result is also None unless this parallel axis has the name `axis`.
     Second route: the sum of m d^2 over the equimomental particles of all parts; the integral of the squared distance
     from the axis over the whole body.
     Outcomes: moved (the centre of some part is off the axis), alone (all centres are on the axis, and exactly one part
@@ -104,7 +104,7 @@ def _own_moment(body: Any, axis: str, letter: str, turn: MatrixBase) -> Quantity
              the whole body has no parallel axis
     turn     the matrix whose columns are the axes of the whole body, in components along the axes of the part
 
-    Second route: the sum of m d^2 over the equimomental particles of the part; the integral of the squared distance.
+    Second route: the sum of m d^2 over the equimomental particles of the part; the integral of d^2 dm over the part.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, section 7.3.
     """
     called = {own: whole for whole, own in _parallel_to(turn).items()}.get(axis, "axial")
@@ -191,8 +191,8 @@ def _of_whole(called: str) -> dict[str, str]:
 
 
 def _squares_beside(way: ImmutableMatrix, k: int) -> Expr:
-    """Return the squared distance of a point from axis k, as a sum of squares of the other components; a component
-    without a positive term is replaced by its negative: (R + l)^2 in place of (-R - l)^2."""
+    """Return the squared distance of a point from axis k, as a sum of squares of the other components. A component
+    without a positive term has the opposite sign in its square: (R + l)^2 in place of (-R - l)^2."""
     sizes = [-x if _is_all_negative(x) else x for i, x in enumerate(way) if i != k and x != 0]
     squares = [Pow(x, 2, evaluate=not x.is_Mul) for x in sizes]
     return squares[0] if len(squares) == 1 else Terms(*squares) if squares else Integer(0)

@@ -29,8 +29,8 @@ from derive.steps.claims import both, lasts, letters_in, negated, never_vanishes
 from derive.steps.rule import Judged, Naming, Predicate, handed_on_by
 from derive.steps.step import is_zero
 
-# moments of uniform bodies that tables give: words -> the point, the axes, and the moment divided by the mass, as a
-# function of the sizes in the order of `measures`
+# moments of uniform bodies that tables give: words -> the point, the axes, and a function that returns the moment
+# divided by the mass; its arguments are the sizes, in the order of `measures`
 _TABLE: Mapping[str, tuple[str, str, Callable[..., Expr]]] = {
     "rod_about_its_end": ("end", "xy", lambda length: length**2 / 3),
     "rod_about_its_centre": ("centre", "xy", lambda length: length**2 / 12),
@@ -80,7 +80,8 @@ def is_mirrored(facts: Judged) -> bool:
 
 
 def is_across_flat(facts: Judged) -> bool:
-    """Whether the result is the moment about the z axis of a body with no extension along z from the point."""
+    """Whether the result is the moment about the z axis through the point, and all of the mass is in the plane through
+    the point and normal to z."""
     body, point = facts.subject.body, facts.subject.point
     return bool(entry("zz")(facts)) and is_zero(body.over_mass(lambda r: r[2] ** 2, point))
 
@@ -381,8 +382,8 @@ def turned_as_told(facts: Judged, outcome: str) -> bool:
 
 
 def inward(facts: Judged, outcome: str) -> bool:
-    """Whether the sentence names the centre of mass (another point for the outcome "outward"), and mentions edges only
-    if the edges are along the axes."""
+    """Whether the sentence names the right point: the centre of mass, but another point for the outcome "outward". The
+    sentence may mention edges only if the edges are along the axes."""
     about_centre = facts.words.get("about") in {"centre", "centre_of_mass"}
     return about_centre != (outcome == "outward") and edges_along_the_axes(facts, outcome)
 
@@ -395,9 +396,11 @@ def _sign(value: Expr) -> int | None:
 
 
 def order_is(wanted: str) -> Predicate:
-    """Judge whether the moment about the axis compares with the other two as `wanted` states: "greatest", "least",
-    between them ("unstable"), equal to one of them ("marginal"), different from two equal ones ("symmetric"), or
-    dependent on the symbols ("conditional")."""
+    """Judge whether the moment about the axis compares with the other two moments as `wanted` states.
+
+    wanted   "greatest" or "least"; "unstable": between the other two; "marginal": equal to one of them, or to both;
+             "symmetric": different from the other two, which are equal; "conditional": the order depends on the symbols
+    """
 
     def is_so(facts: Judged) -> bool:
         moments, axis = list(facts.inputs["moments"]), int(facts.inputs["axis_index"])
@@ -474,7 +477,7 @@ def inward_or_outward(facts: Judged, outcome: str) -> bool:
 def names_the_axis_of_the_whole(facts: Judged, outcome: str) -> bool:
     """Whether the axis of the whole body that the sentence names is the index of the symbol, as in I_z, and is parallel
     to the axis of the part. If there is no parallel axis, or if the moment is not the moment of a part, the sentence
-    must not name one."""
+    must not name an axis of the whole body."""
     seen, whole, turn = facts.words.get("seen"), facts.words.get("whole"), facts.inputs.get("turn")
     if turn is None:
         in_its_way = seen != "mapped" or not facts.subject.body.is_of_particles

@@ -250,7 +250,7 @@ def vector_component(of: Quantity, axis: str, symbol: str | None = None, key: st
     i = AXES.index(axis)
     turned = ImmutableDenseMatrix([[0, 1, 0], [0, 0, 1], [1, 0, 0]]) ** i
     letter: Symbol = component_names(symbol or of.symbol.name)[i]
-    only_renames = letter == component_names(of.symbol.name)[i]  # omega_z already is the symbol of the component
+    only_renames = letter == component_names(of.symbol.name)[i]  # omega_z is already the symbol of the component
     return establish(
         VECTOR_COMPONENT,
         letter,

@@ -149,7 +149,7 @@ class RigidBody(Placeable, OfParticles):
 
     @cached_property
     def second_moments(self) -> tuple[Expr, Expr, Expr]:
-        """The integrals of x^2, y^2 and z^2 over the mass, from I_x = integral of y^2 + z^2, and so on."""
+        """The integrals of x^2, y^2 and z^2 over the mass, from I_x = integral of (y^2 + z^2) dm, and so on."""
         x, y, z = (tidied(sum(self.moments, Integer(0)) / 2 - moment) for moment in self.moments)
         return x, y, z
 
@@ -267,8 +267,9 @@ def rate_in_space(
     omega      angular velocity of the body, vector (3), 1/s, body axes
     in_body    the rate of L in the body by the equations of motion; by default the rates of omega remain unknown
 
-    Second route: the derivative of L, rotated with the body by a rotation matrix; the sum of m r x a over particles;
-    the rate of L . n for a direction n that is fixed in space. In the body, this direction has n_dot = -omega x n.
+    Second route: a rotation matrix rotates L with the body, and the rotated vector is differentiated. The result is
+    also compared with the sum of m r x a over particles, and with the rate of L . n for a direction n that is fixed in
+    space. In the body, this direction has n_dot = -omega x n.
     Outcomes: zero (L is constant in space), zero_in_both (L is constant in space and in the body), driven (a torque
     acts), generic (the equations of motion are not substituted).
     Errors: `momentum` is not an angular momentum, or `omega` is not an angular velocity.
@@ -401,8 +402,8 @@ def _euler_equation(rate: Quantity, i: int, torque: tuple[Expr, Expr, Expr]) -> 
 
 
 def _without_common_factor(left: Expr, torque: Expr) -> Relation:
-    """Return the equation; without a torque, it is divided by the positive factors that its terms have in common:
-    13 omega_x_dot - 5 omega_y omega_z = 0 for a block with the edges a, 2a and 3a."""
+    """Return the equation. Without a torque, the equation is divided by the positive factors that its terms have in
+    common. For a block with the edges a, 2a and 3a, it is then 13 omega_x_dot - 5 omega_y omega_z = 0."""
     terms = Add.make_args(left)
     if torque != 0 or len(terms) < 2:
         return Relation(left, "=", torque)

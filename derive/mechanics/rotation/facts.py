@@ -91,6 +91,6 @@ class RateByParticles(Fact):
         raise NotImplementedError  # defined in subclasses; not abstract, so that `Quantity.fact` accepts the class
 
     def in_any_axes(self, torque: Any) -> Any:
-        """Return the rate of a scalar under this torque, or the scalar product of a vector with its rate. The body axes
-        are arbitrary, so the tensor may have products of inertia."""
+        """Return the rate of a scalar if a torque acts; for a vector, the scalar product of the vector with its rate.
+        The body axes are arbitrary, so the tensor may have products of inertia."""
         raise NotImplementedError  # defined in subclasses; not abstract, so that `Quantity.fact` accepts the class

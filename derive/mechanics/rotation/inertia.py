@@ -82,8 +82,9 @@ def inertia_tensor(
     through the point are normal to the axes, steps derive only the moments. For a composite body, the tensors of its
     parts are added instead.
     Second route: the moment about any axis n is the sum of m |n x r|^2 over equimomental particles. For a body defined
-    by a position map, the sum is numerical, over the cells of the body. Checks: these particles or cells have the
-    centre of mass of the body; except for a position map, the tensor is also equal to the integral that defines it.
+    by a position map, the sum is numerical, over the cells of the body.
+    Checks: these particles or cells have the centre of mass of the body. Unless a position map defines the body, the
+    tensor is also equal to the integral that defines it.
     Outcomes: isotropic (the same about every axis), two_equal (diagonal, two moments equal), diagonal, generic; round
     or round_isotropic, if steps derive only two entries.
     Errors: the body has no such point or no such coordinates.
@@ -438,13 +439,14 @@ def moved_from_centre(inertia: Quantity, centre: Quantity, symbol: str = "J", ke
     Second route: each entry, and the whole tensor, integrated about the other point. Check: the trace is twice the
     integral of r.r dm.
     Outcomes: outward.
-    Errors: the tensor is not about the centre of mass; the axes differ; no step derives the entries of the tensor.
+    Errors: the tensor is not about the centre of mass; the tensor and the vector have different axes; no step derives
+    the entries of the tensor.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3 (parallel axes).
     """
     body: Body = inertia.needed(OfBody).body
     target = centre.needed(CountedFrom).start
     if inertia.needed(AboutPoint).point != replace(body.middle, axes=target.axes):
-        message = f"`{inertia.key}` is not about the centre of mass along the axes of `{centre.key}`"
+        message = f"`{inertia.key}` is not about the centre of mass, or its axes are not the axes of `{centre.key}`"
         raise Rejected(Complaint("another-origin", message, help="start from the tensor about the centre of mass"))
     return _moved(inertia, centre, target, symbol, key)
 
@@ -535,7 +537,7 @@ def _entry_moved(there: Quantity, centre: Quantity, target: Point, name: str, ke
     pairs = pairs_left_by_symmetry(body, other)
     entry = next((parent for parent in there.parents if parent.key.endswith(f"_{'xyz'[i]}{'xyz'[j]}")), None)
     if entry is None and (i == j or not is_zero(there.value[i, j])):
-        message = f"no step derives this entry of `{there.key}`"
+        message = f"no step derives the entry {'xyz'[i]}{'xyz'[j]} of `{there.key}`"
         help_line = '`inertia_tensor(body, about="...")` derives the entries of a body without parts'
         raise Rejected(Complaint("no-entries", message, help=help_line))
     # If c is measured from a point on the axis of a round body, only the component of c along the axis is not zero.

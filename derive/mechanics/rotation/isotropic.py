@@ -34,9 +34,9 @@ def isotropic_where(moments: Quantity, letter: Expr, key: str = "special_case") 
     moments   principal moments (3), kg m^2, at least two of them equal
     letter    the symbol of a positive quantity, or an expression such as 2b that contains this symbol
 
-    Check: with the result substituted, the tensor is a multiple of the unit tensor; and the difference of the two
-    moments has opposite signs for greater and smaller values of the symbol. If no condition on a symbol is derived, the
-    sign of this difference is checked instead.
+    Check: with the result substituted, the tensor is a multiple of the unit tensor. Also, the difference of the two
+    distinct moments has opposite signs for greater and smaller values of the symbol. If no condition on a symbol is
+    derived, the sign of this difference is checked instead.
     Outcomes: special (for one value of the symbol), always (the moments are equal for all values of the symbols), never
     (one moment is greater for all values of the symbols).
     Errors: all three moments are distinct; the equation does not have exactly one positive root for the symbol.

@@ -1,7 +1,7 @@
 """Perturbed rotations: small deviations from a steady rotation about a principal axis, and the free symmetric body.
 
 Euler's equations are linearised in the two components of the angular velocity perpendicular to the axis. Second routes
-use the accelerations of the particles of a rotating body.
+use the accelerations of the particles of a rotating body, or conserved quantities.
 """
 
 from __future__ import annotations
@@ -321,10 +321,10 @@ def perturbation_rate(squared: Quantity, symbol: str | None = None, key: str = "
         return a * c * square, b * d
 
     def not_negative(found: Expr) -> tuple[Expr, Expr]:
-        """Compare the rate with its absolute value at one point where Omega^2, or kappa^2, is positive.
+        """Compare the rate with its absolute value for one set of numbers for which Omega^2, or kappa^2, is positive.
 
-        The determinant does not determine the sign of the rate. One point is enough, because the sign changes only
-        where the rate vanishes.
+        The determinant does not determine the sign of the rate. One set of numbers is enough, because the sign changes
+        only where the rate vanishes.
         """
         letters = sorted(value.free_symbols, key=str)
         turned = (letters[turn:] + letters[:turn] for turn in range(len(letters) + 1))

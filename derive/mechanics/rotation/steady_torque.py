@@ -53,16 +53,15 @@ def torque(omega: Quantity, momentum: Quantity, symbol: str = "tau", key: str = 
     Second route: rotate L about omega by a rotation matrix and differentiate.
     Outcomes: zero (omega is along a principal axis), generic (the torque is never zero), in_general (the torque may be
     zero for some values of the symbols).
-    Errors: omega or L changes in the body; omega is known at one instant only; L belongs to another rotation;
-    `momentum` is not an angular momentum, or `omega` is not an angular velocity.
+    Errors: omega or L changes in the body; omega is known at one instant only; L is the angular momentum of a different
+    rotation; `momentum` is not an angular momentum, or `omega` is not an angular velocity.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 4.9 and 5.5.
     """
     require_kind("torque", "omega", omega, "angular speed")
     require_kind("torque", "momentum", momentum, "angular momentum")
-    require_constant("torque", "angular velocity", omega, "for a rotation that changes use `rate_in_space`, dL/dt")
-    require_constant(
-        "torque", "angular momentum in the body", momentum, "for a rotation that changes use `rate_in_space`, dL/dt"
-    )
+    help_line = "for a rotation that changes, use `rate_in_space`"
+    require_constant("torque", "angular velocity", omega, help_line)
+    require_constant("torque", "angular momentum in the body", momentum, help_line)
     if omega.fact(Momentary) is not None:
         message = f"`torque` needs a steady rotation, but `{omega.key}` is known at one instant only"
         raise Rejected(Complaint("wrong-argument", message))

@@ -105,7 +105,7 @@ def _centre_distance(body: Body, point: Point, mass: Quantity | None) -> Quantit
 
     body    a composite body, or a body with a known centre of mass
     point   the point from which l is measured
-    mass    the step of the mass of the whole body, if there is one
+    mass    the step that derives the mass of the whole body; None if there is no such step
 
     Second route: the sum of m (z - l) is zero, with z measured from the point. The sum is over particles that have the
     mass, the centre of mass and the second moments of the body.

@@ -92,7 +92,7 @@ def turned_tensor(
     angle     the angle of this right-handed rotation
 
     Second route: the sum of m (r.r 1 - r r) over equimomental particles, with components along the rotated axes. Check:
-    the trace is the same.
+    the traces of I and I' are equal.
     Outcomes: isotropic, two_equal, diagonal, generic.
     Errors: there is no such axis; `inertia` is not the tensor of a body.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 4.3 and 5.2.
@@ -252,7 +252,9 @@ def principal_angle(inertia: Quantity, symbol: str = "theta", key: str = "princi
     require_kind("principal_angle", "inertia", inertia, MOMENT)
     body, point, I = inertia.needed(OfBody).body, inertia.needed(AboutPoint).point, inertia.value
     if not (is_zero(I[0, 2]) and is_zero(I[1, 2])):
-        message = f"the z axis is not a principal axis of `{inertia.key}`, so the other axes are not in the x-y plane"
+        message = (
+            f"the z axis is not a principal axis of `{inertia.key}`, so no two principal axes are in the x-y plane"
+        )
         raise Rejected(Complaint("not-in-a-plane", message, help="`principal_axes` derives the axes in space"))
     if is_zero(I[0, 0] - I[1, 1]):
         what = (

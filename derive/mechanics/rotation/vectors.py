@@ -96,7 +96,7 @@ class RateOfEnergy(RateByParticles):
 
 @dataclass(frozen=True)
 class RateOfTurning(RateByParticles):
-    """The rate of the angular momentum L = I w in space, as the sum of m r x a. For a torque N the component of this
+    """The rate of the angular momentum L = I w in space, as the sum of m r x a. For a torque N, the component of this
     rate along L is N . L/|L|."""
 
     inertia: Quantity
@@ -239,7 +239,10 @@ def _check_point(verb: str, inertia: Quantity, omega: Quantity) -> dict[str, str
     point, at_rest = inertia.needed(AboutPoint).point.name, omega.needed(Through).point
     if point != at_rest:
         message = f"`{inertia.key}` is about the {point}, but the axis of `{omega.key}` goes through the {at_rest}"
-        help_line = f'move the tensor with `moved_to`, or give the axis with `through="{point}"`'
+        help_line = (
+            "move the tensor to the centre of mass with `moved_to`, or away from it with `moved_from_centre`; "
+            f'or give the axis with `through="{point}"`'
+        )
         raise Rejected(Complaint("wrong-point", message, help=help_line))
     return {"about": point, "point": point}
 
@@ -302,10 +305,11 @@ def kinetic_energy(
 
 
 def _energy_by_components(inertia: Any, omega: Any) -> list[Form]:
-    """Return a list with the kinetic energy as an explicit sum, (1/2) w^2/14 (M a^2/12) (13 1^2 + 10 2^2 + 5 3^2).
+    """Return a list with the kinetic energy as an explicit sum, such as
+    (1/2) w^2/14 (M a^2/12) (13 1^2 + 10 2^2 + 5 3^2) for a block.
 
-    The list is empty unless the axes are principal axes with moments that are not all equal, the angular velocity is
-    not along one of these axes, and the ratios of all moments and of all components are numbers.
+    The list is empty unless the axes are principal axes and the ratios of all moments and of all components are
+    numbers. It is also empty if all moments are equal, or if the angular velocity is along one of the axes.
     """
     (w, along), (I, moments) = size_and_rest(omega), factored_matrix(inertia)
     terms = [Factors(moment, n**2) for moment, n in zip(moments.diagonal(), along, strict=True) if n != 0]

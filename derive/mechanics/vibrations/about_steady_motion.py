@@ -43,12 +43,12 @@ ZERO = Integer(0)
 
 @dataclass(frozen=True, eq=False)
 class About:
-    """A potential energy of one coordinate `q`, the mass points and forces to which it belongs, and the value of `q` at
+    """A potential energy of one coordinate `q`, the mass points and forces of the same system, and the value of `q` at
     rest or in steady motion.
 
     rates     the rates of the cyclic coordinates in the steady motion
-    momenta   symbols with their values in the steady motion: for each cyclic momentum, its symbol or, if a value of the
-              momentum is given, a symbol in this given value
+    momenta   for each cyclic momentum, a symbol and its value in the steady motion. The symbol denotes the momentum;
+              but if a formula for the momentum is given, it is a symbol in this formula
     letter    a symbol that the condition of the steady motion determines, and the value of this symbol; may be empty
     instead   a rate expressed by the symbol of a momentum, for a shorter result; may be empty
     """
@@ -72,8 +72,8 @@ class About:
         return bound(bound(bound(value, self.momenta), self.letter), self.instead)
 
     def by_momenta(self) -> Iterator[About]:
-        """Yield copies in which a momentum eliminates one rate: with w = s + Omega cos(alpha), the rate s becomes
-        w - Omega cos(alpha)."""
+        """Yield copies in which `instead` expresses one rate by the symbol of a momentum. For example, from
+        w = s + Omega cos(alpha), the rate s is w - Omega cos(alpha)."""
         for momentum, value in self.momenta.items():
             for turning in self.rates.values():
                 found = solved_for_letter(momentum - value, turning) if isinstance(turning, Symbol) else None
@@ -118,7 +118,7 @@ def frequency_squared_about(
     Second route: d'Alembert's principle gives equations for all coordinates, including the cyclic ones. To first order
     in the displacements, the determinant of these equations vanishes for oscillations of this frequency.
     Outcomes: stable (positive), unstable (negative), neutral (zero), conditional (the sign depends on the symbols).
-    Errors: several coordinates remain; the condition belongs to another Lagrangian, or cannot be solved for `without`.
+    Errors: several coordinates remain; the condition is for a different Lagrangian, or cannot be solved for `without`.
     Source: Landau, Lifshitz, *Mechanics*, section 21; Goldstein, Poole, Safko, *Classical Mechanics*, section 3.6.
     """
     about = _about_steady(of, at, without) if at.fact(Steady) is not None else _about_rest(of, at)

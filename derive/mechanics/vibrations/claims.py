@@ -414,8 +414,11 @@ def _vanishes_at(polynomial: Poly, place: Expr) -> bool:
 
 
 def _is_root(square: Expr, facts: Judged, times: int | None) -> bool:
-    """Whether det(K - lambda M) vanishes at lambda = `square`. If `times` is given, the derivative must also vanish at
-    this value if `times` is greater than 1, and must not vanish if `times` is 1."""
+    """Whether det(K - lambda M) vanishes at lambda = `square`.
+
+    times   1: the derivative must not vanish there; greater than 1: the derivative must vanish there; None: the
+            derivative is not tested
+    """
 
     def is_so(point: Point) -> bool:
         polynomial, place = _polynomial(facts, point), value_at(explicit(square), point)

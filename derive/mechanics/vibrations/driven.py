@@ -62,8 +62,8 @@ def steady_amplitude(
     tangent of the lag, tan(delta) = b omega/(c - a omega^2). Without damping, the second result is the lag itself;
     if the sign of c - a omega^2 is unknown, c > a omega^2 is assumed.
 
-    equation   a q_ddot + b q_dot + c q = F cos(omega t), F sin(omega t) or a sum of both, which may contain a constant;
-               the motion is then about the displacement under the constant force
+    equation   a q_ddot + b q_dot + c q = f(t), where f(t) is F cos(omega t), F sin(omega t) or a sum of both. The force
+               f(t) may also contain a constant; the motion is then about the displacement under this constant force
     q          the coordinate of the equation of motion
 
     Check: the forced oscillation with this amplitude and this lag is substituted back into the equation.
@@ -93,8 +93,11 @@ def steady_amplitude(
         return put_back(equation, q, motion), Integer(0)
 
     def lagging(tangent: Expr) -> tuple[Any, Any]:
-        """Check that the component of the residual a quarter of a period behind the force vanishes, for the motion
-        cos(omega t) + tan(delta) sin(omega t), which is proportional to cos(omega t - delta)."""
+        """Check one component of the residual: the component a quarter of a period behind the force vanishes.
+
+        For the force cos(omega t), the motion is cos(omega t) + tan(delta) sin(omega t). This motion is proportional to
+        cos(omega t - delta).
+        """
         motion = drive.in_phase + (tangent if damped == "damped" else tan(tangent)) * drive.behind
         return drive.component_behind(put_back(equation, q, expand(motion))), Integer(0)
 
@@ -186,8 +189,8 @@ class _Drive:
         return self.phase[0] * value.coeff(sin(self.angle)) - self.phase[1] * value.coeff(cos(self.angle))
 
     def told(self, size: Symbol, lag: Symbol, at_rest: Expr) -> dict[str, tuple[Expr, Expr]]:
-        """Return two items for the sentence: the motion, unless the force has both a cosine and a sine; and the
-        displacement under the constant force, if there is one."""
+        """Return formulas for the sentence, by name: `motion` is the forced oscillation, unless the force has both a
+        cosine and a sine; `static` is the displacement under the constant force, if there is a constant force."""
         found = {} if self.static == 0 else {"static": (self.static, at_rest)}
         if ZERO in self.phase:
             swing = cos if self.phase[1] == 0 else sin
@@ -215,7 +218,8 @@ def _drive(linear: LinearCoefficients, equation: Quantity) -> _Drive:
 
 
 def _one_frequency(force: Expr) -> tuple[Expr, tuple[Expr, Expr]]:
-    """Return omega t, and the factors of its cosine and sine; both factors are zero for any other force."""
+    """Return omega t, and the factors of its cosine and sine, for a force with one angular frequency omega. For any
+    other force, both factors are zero."""
     angles = {f.args[0] for f in force.atoms(cos, sin) if depends_on_time(f)}
     if len(angles) != 1:
         return ZERO, (ZERO, ZERO)
@@ -256,7 +260,7 @@ def quality_factor(equation: Quantity, q: Coordinate, symbol: str = "Q", key: st
     the energy that the damping dissipates in one period.
     Outcomes: oscillates (Q > 1/2: the free motion oscillates), critical (Q = 1/2), creeps (Q < 1/2), depends (the
     symbols leave open whether Q > 1/2).
-    Errors: the equation is not linear with constant coefficients, or has no damping or no restoring force.
+    Errors: the equation is not linear with constant coefficients; a, b or c is not known to be positive.
     Source: Taylor, *Classical Mechanics*, section 5.6; French, *Vibrations and Waves*, chapter 3.
     """
     linear = linear_equation(equation, q)
@@ -271,7 +275,8 @@ def quality_factor(equation: Quantity, q: Coordinate, symbol: str = "Q", key: st
         return expand(driven - _sense(equation, linear, q) * force * cos(w * TIME)), Integer(0)
 
     def energy(found: Expr) -> tuple[Any, Any]:
-        """Compare with the energy of the oscillation cos(omega_0 t) and the work of b q_dot in one period."""
+        """Compare Q with 2 pi times the energy of the oscillation cos(omega_0 t), divided by the work that b q_dot does
+        in one period."""
         whole = linear.c / 2
         work = integrate(linear.b * diff(cos(w * TIME), TIME) ** 2, (TIME, 0, 2 * pi / w))
         return found, 2 * pi * whole / work

@@ -83,7 +83,7 @@ class Linear(LinearSystem, Fact):
         return ImmutableDenseMatrix([[tidied(matrix[i, j] / self.common(i)) for j in size] for i in size])
 
     def common(self, i: int) -> Expr:
-        """Return the common factor of all terms of one equation: m l for m l^2 theta_ddot + m g l theta.
+        """Return the common factor of all terms of one equation, such as m l for m l^2 theta_ddot + m g l theta.
 
         The factor contains no rational number, and no part that may be zero or negative.
         """
@@ -99,8 +99,11 @@ class Linear(LinearSystem, Fact):
 
 @dataclass(frozen=True)
 class Mode(Fact):
-    """The root lambda = omega^2 that gives the frequency or growth rate of a mode, with the sign and the shapes of the
-    root; the entries of a shape are the amplitudes of the coordinates `moving`."""
+    """The root lambda = omega^2 that gives the frequency or growth rate of a mode.
+
+    root     the root, with its sign and its shapes
+    moving   the coordinates whose amplitudes are the entries of a shape
+    """
 
     missing = "is not the frequency of a normal mode"
     root: CharacteristicRoot

@@ -1,7 +1,8 @@
 """The general motion of one coordinate with the equation a q_ddot + b q_dot + c q = f(t).
 
-The trial q = e^(s t) gives a s^2 + b s + c = 0. The two roots give two free motions, whose sum with two constants and a
-particular motion is the general motion. The initial values determine the constants.
+The trial q = e^(s t) gives a s^2 + b s + c = 0. The two roots give two free motions. The general motion is the sum of
+these free motions, each multiplied by a constant, and of a particular motion. The initial values determine the
+constants.
 """
 
 from __future__ import annotations
@@ -68,7 +69,7 @@ class Sought:
     """A linear equation whose motion is to be found.
 
     sort        the kind of motion, an outcome of `solution`
-    condition   the condition for this kind, if the symbols leave it open
+    condition   the condition for this kind, if the symbols do not determine the kind
     excluded    the condition against resonance, if there is one
     particular  a motion under the driving force, or 0 without a driving force
     proposals   the usual constants of an oscillator
@@ -165,8 +166,8 @@ def _root_over(inside: Expr, below: Expr) -> Expr:
 
 
 def general_motion(sought: Sought) -> GeneralMotion | None:
-    """Return the general motion, with the steps that lead to this motion; None for an equation of first order or with
-    c = 0, whose motion is found without these steps."""
+    """Return the general motion, with the steps that lead to this motion. Return None for an equation of first order or
+    with c = 0, because its motion is found without these steps."""
     if sought.sort != "oscillates" and (sought.sort not in BY_EXPONENTS or 0 in (sought.linear.a, sought.linear.c)):
         return None
     known = _known(sought, f"{sought.key}_general", HARMONIC_MOTION, GENERAL_MOTION)
@@ -276,7 +277,7 @@ def _exponents(sought: Sought, characteristic: Quantity) -> Quantity:
     Source: Taylor, *Classical Mechanics*, section 5.4.
     """
     linear, sort = sought.linear, sought.sort
-    present = characteristic.value.free_symbols  # a coordinate s does not occur in the characteristic equation
+    present = characteristic.value.free_symbols  # a coordinate of the system with the name s is not among them
     (s,) = (q for q in characteristic.coordinates if q in present and q.name in (*LETTERS_OF_EXPONENT, "s_0"))
     middle = tidied(-linear.b / (2 * linear.a))
     unit = {"critically_damped": ZERO, "underdamped": I}.get(sort, ONE)

@@ -63,7 +63,7 @@ class Equations(Generic[Kind]):
 
     @property
     def named(self) -> dict[str, Quantity]:
-        """The equations, which a sentence names if they are not all equations of the system."""
+        """The equations of the group, for a sentence that names them; empty if the group is the whole system."""
         return {} if self.is_whole else {f"equation_{n}": each for n, each in enumerate(self.linear, 1)}
 
     def with_motion(self, motion: Sequence[Expr]) -> list[Expr]:
@@ -88,8 +88,8 @@ class Equations(Generic[Kind]):
         return self.together.rows_of(self.system.at(s))
 
     def judged_by(self, conditions: Sequence[Relation] = ()) -> dict[str, Any]:
-        """Return the data for testing an outcome: the matrices, the stated conditions, the condition for the
-        equilibrium."""
+        """Return the data for testing an outcome: the matrices, the stated conditions, and the condition under which
+        the equilibrium exists, if there is one."""
         system = self.system
         found: dict[str, Any] = {"stiffness": system.stiffness, "turning": system.turning, "mass": system.mass}
         exists = {} if system.exists is None else {"exists": system.exists}

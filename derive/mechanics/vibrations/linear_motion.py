@@ -273,7 +273,7 @@ def _sort(linear: LinearCoefficients, case: str | None, equation: Quantity | Non
 
 
 def _is_positive(value: Expr, key: str) -> bool:
-    """Whether a value that does not vanish is positive; reject a value with an unknown sign."""
+    """Whether a value is positive; reject zero and a value of unknown sign."""
     sign = sign_known(value)
     if not sign:
         open_value = "the sign of {} is unknown" if sign is None else "{} is 0 for the given numbers"

@@ -143,7 +143,7 @@ def _one(
         for matrix, n in ((linear.mass, 2), (linear.turning, 1), (linear.stiffness, 0))
     ]
     if any(matrix[i, j].has(nan, zoo) for matrix, _ in ordered for j in range(len(eta))):
-        message = f"`{key}`: the equation of motion has no derivative at the equilibrium"
+        message = f"`{key}`: the equation of motion is not differentiable at the equilibrium"
         raise Rejected(Complaint("no-value", message, help="a force such as sqrt(x_dot**2) has a corner there"))
     common = linear.common(i)
     terms = [
@@ -237,7 +237,7 @@ def _before(small: Expr | None, moving: Sequence[Coordinate]) -> list[Form]:
 
 
 def _functions_of(equation: Quantity, q: Coordinate, small: Expr | None) -> dict[str, Expr]:
-    """Return the sine and the cosine of the coordinate if they are expanded and occur in the equation."""
+    """Return the sine and the cosine of the coordinate that occur in the equation; none if `small` is None."""
     functions = {"sine": sin(q.symbol), "cosine": cos(q.symbol)} if small is not None else {}
     return {role: f for role, f in functions.items() if explicit(equation.value).residual.has(f)}
 
@@ -327,8 +327,8 @@ def _check_exists(at: Any) -> None:
 
 
 def _check_rest(equations: Sequence[Quantity], moving: Sequence[Coordinate], place: Mapping[Symbol, Expr]) -> None:
-    """Check that the coefficients do not depend on the time, and that at rest, at the given values of the coordinates,
-    only driving forces remain in the equations."""
+    """Check that the coefficients do not depend on the time, and that the given values of the coordinates are an
+    equilibrium: without motion, only driving forces remain in the equations."""
     where = ", ".join(f"{s} = {value}" for s, value in place.items())
     for equation in equations:
         value = explicit(equation.value).residual
@@ -377,8 +377,8 @@ def _displacements(moving: Sequence[Coordinate], place: Mapping[Symbol, Expr]) -
 
 
 def _pointed(equations: Sequence[Quantity], i: int) -> dict[str, Quantity]:
-    """Return the equations that the sentence names: equation i and, if there are several equations, another one; for
-    the first of more than two equations, two others."""
+    """Return the equations that the sentence names: equation i and, if there are several equations, another equation.
+    For the first of more than two equations, the sentence names two other equations."""
     others = {"other": equations[i - 1]} if len(equations) > 1 else {}
     middle = {"middle": equations[1]} if len(equations) > 2 and i == 0 else {}
     return {"motion": equations[i], **others, **middle}

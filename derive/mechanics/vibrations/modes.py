@@ -453,7 +453,7 @@ def beats(slow: Quantity, fast: Quantity, symbol: str = "omega_beat", key: str =
         raise Rejected(
             Complaint(
                 "no-beats",
-                f"`{slow.key}` and `{fast.key}` do not beat",
+                f"oscillations with the frequencies `{slow.key}` and `{fast.key}` have no beats",
                 help="give two different frequencies other than 0",
             )
         )

@@ -65,10 +65,10 @@ def _proposed(
     of: Mapping[str, Any],
     others: tuple[Proposal, ...] = (),
 ) -> Proposal | None:
-    """Propose a constant. A defined quantity, or the frequency of an earlier answer, is proposed instead if it has the
-    same value; an earlier result is proposed instead if it has the same symbol and value.
+    """Propose a constant, or an earlier quantity that takes its place.
 
-    Return None if the symbol already has another meaning, or if the value is a single symbol or number.
+    The earlier quantity is a defined quantity or a frequency with the same value, or a result with the same symbol and
+    the same value. Return None if the symbol already has another meaning, or if the value is a single symbol or number.
     """
     value = tidied(value)
     name = free_letter(name)

@@ -54,7 +54,7 @@ class UncoupledModes:
     before: int
 
     def found(self) -> list[Quantity]:
-        """Return a frequency for each of these coordinates; if these are all coordinates of the system, and their
+        """Return a frequency for each of these coordinates. If no coordinates of the system are coupled, and all
         frequencies are equal, return a single frequency."""
         whole = self.linear[0].needed(Linear)
         roots = {i: whole.part((i,)).of_kind(Conservative).roots[0] for i in self.alone}
@@ -74,8 +74,9 @@ def _frequency(
     """Frequency of coordinates that are not coupled to any other, omega = sqrt(k/m), or their growth rate.
 
     own        the indices of the coordinates with this frequency
-    coupling   a word of the sentence: none (no equations are coupled), told (an earlier sentence says this), all (no
-               equations are coupled, and all coordinates have the same frequency), others (some equations are coupled)
+    coupling   a word of the sentence: none (no equations are coupled), told (an earlier sentence states that none are
+               coupled), all (no equations are coupled, and all coordinates have the same frequency), others (some
+               equations are coupled)
 
     Check: the motion of each coordinate by itself satisfies all linear equations.
     Outcomes: oscillating, growing, free, conditional.

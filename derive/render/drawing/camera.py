@@ -23,7 +23,7 @@ from derive.figures.polhodes import order_of
 from derive.figures.space import Stance, Vector, angle_of, cross, dot, plus, size_of, unit
 
 ANGLE = pi / 5
-APART = 0.25  # a tip that is closer to a corner in the view makes the view worse; relative to the size of the bodies
+APART = 0.25  # an arrowhead closer than this to a corner makes a view less suitable; relative to the size of the bodies
 OPEN = 0.5  # least cosine, if possible, of the angle between the normal of a flat body and the line of sight
 THIN = 0.1  # greatest thickness of a flat body, relative to its size
 SHARES = (0.8, 0.6, 1.0, 0.7)  # values of coordinates without a number, except angles, in units of `typical`
@@ -90,7 +90,7 @@ class Numbers:
         return x, y, rest[0] if rest else 0.0
 
     def along(self, column: Any, letter: Any, ends: tuple[Any, Any], steps: int) -> list[Vector]:
-        """Return the positions on a curve as the symbol `letter` runs from one end to the other."""
+        """Return the positions on a curve as the symbol `letter` runs from the first of `ends` to the second."""
         curves = [self._along(entry, letter, *(self.of(end) for end in ends), steps) for entry in _entries(column)]
         return [(x, y, rest[0] if rest else 0.0) for x, y, *rest in zip(*curves, strict=True)]
 
@@ -129,7 +129,7 @@ def stance_from(azimuth: float, elevation: float) -> Stance:
 
 FLAT = Stance((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 USUAL = stance_from(25, 18)
-# Views for polhodes, if the axis of the intermediate moment is x, y or z.
+# The views for polhodes: the first if the intermediate moment is about x, the second for y, the third for z.
 FROM_A_CORNER = stance_from(37, 30), stance_from(53, 30), stance_from(45, 42)
 
 

@@ -20,7 +20,7 @@ INNER = 9.0  # in points: the distance of a legend from the axes with their tick
 LONGEST = 0.35  # greatest part of a curve that the gap for its name takes away
 STUB = 15.0  # in points: the least piece of an open curve between the gap for its name and an end of the curve
 TURN = 4.0  # in points: the least distance, if possible, of the gap in a closed curve from a turning point of the curve
-ENDS = 0.04  # part of a curve at either end that has no name
+ENDS = 0.04  # fraction of a curve, at each of its ends, at which no name is tried
 
 
 def dots_of(spots: Sequence[Spot]) -> list[Spot]:

@@ -2,8 +2,8 @@
 
 For each label, several positions around its point are tried. A position has a cost for each line point and each label
 that it covers. A second, smaller cost grows with the distance from the position that the mark prefers. The position
-with the lowest total cost is used. The labels choose one after another, in several rounds. If the total cost is still
-high, they choose again in another order.
+with the lowest total cost is used. The labels are placed one after another, in several rounds. If the total cost is
+still high, they are placed again in another order.
 """
 
 from __future__ import annotations
@@ -25,8 +25,8 @@ OUTSIDE = 6.0  # cost of a position outside the thing that the label names
 BESIDE, TOGETHER = 9.0, 5.0  # gap in points below which two labels in a row look like a product; cost of such a pair
 STACKED = 4.0  # the gap in a column, in points, below which two labels look like a fraction
 HEAVY_ENOUGH = 20.0  # if the total cost is at least this number, the labels are placed again in another order
-# A drawn point counts as near a label at less than the distance NEAR, in points. Each near point costs DOUBT; all
-# near points together cost at most MOST_DOUBT.
+# A drawn point that is closer to a label than NEAR, in points, costs DOUBT. All such points together cost at most
+# MOST_DOUBT.
 NEAR, DOUBT, MOST_DOUBT = 3.0, 0.6, 12.0
 WIDE = 1.0  # in points: a wider line is represented by its two edges
 OWN = 1.5  # in points; drawn points closer than this to the line that a label names belong to that line
@@ -40,8 +40,8 @@ NARROW = 12.0  # cost of a letter inside an arc that has little room
 
 @dataclass(frozen=True)
 class Placed:
-    """A label with the lower left corner of its box, the box, and its cost: what the box covers, and how far it is from
-    the preferred position."""
+    """A label with its box and the lower left corner of this box. The cost depends on what the box covers, and on its
+    distance from the preferred position."""
 
     label: Any
     corner: Spot
@@ -64,7 +64,7 @@ def placed(
     is_inside = [tag.on or tag.round is not None for tag in tags]
     order = sorted(range(len(tags)), key=lambda i: (not is_inside[i], tags[i].way is not None))
     costs, found = _one_by_one(order, tried, drawn)
-    if sum(costs.values()) >= HEAVY_ENOUGH:  # labels probably cover something: search again, fewest positions first
+    if sum(costs.values()) >= HEAVY_ENOUGH:  # labels probably cover something: place those with few positions first
         other = sorted(order, key=lambda i: (not is_inside[i], len(tried[i])))
         again = _one_by_one(other, tried, drawn)
         costs, found = min((costs, found), again, key=lambda each: sum(each[0].values()))
@@ -89,7 +89,7 @@ def _one_by_one(
 
 
 def _best(tried: Tries, drawn: Sequence[Spot], others: Sequence[Extent]) -> tuple[float, Extent]:
-    """Return the least total cost of a box of the label, with this box."""
+    """Return the least total cost of a box of the label, and this box."""
     least, best = inf, (-1, (0.0, 0.0, 0.0, 0.0))
     for place, (cost, box) in tried:
         if cost > least:
@@ -231,7 +231,7 @@ def _seen(pieces: Sequence[Piece], width: Callable[[Stroke], float]) -> list[Spo
 
 
 def _dots(piece: Piece, width: float) -> list[Spot]:
-    """Return a stroke or a bullet as dots."""
+    """Return points along a stroke, or on the edge of a bullet."""
     if isinstance(piece, Bullet):
         x, y = piece.spot
         reach = max(1, round(piece.size - 0.6))

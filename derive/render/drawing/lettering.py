@@ -16,7 +16,7 @@ LETTERS = 10.0  # the font size of labels, in points
 
 PAPER, SCREEN = "cm", "stix"  # Computer Modern, the font of a PDF, and STIX, the font of formulas in a browser
 
-LINES = {1: "M", 2: "L", 4: "C"}  # commands of a path by matplotlib's codes
+LINES = {1: "M", 2: "L", 4: "C"}  # matplotlib's code of a segment -> letter of a `Contour`
 
 Lettered: TypeAlias = tuple[Contour, Extent]  # a contour and its extent
 Letters: TypeAlias = Callable[[Collection[str]], Mapping[str, Lettered]]

@@ -30,7 +30,7 @@ MOST_ACROSS, MOST_UP = 6, 4  # usual greatest number of intervals between ticks,
 NAME = 17.0  # in points: the space for the name of an extremum above or below a curve
 MOST_NAME = 0.25  # greatest part of the height of a panel for the names at one side
 HEIGHT = 88.0  # in points: the usual height of a panel between its axes
-BARELY = 0.02  # no line at zero if at most this part of the height of a curve is on the other side of zero
+BARELY = 0.02  # no line is drawn at zero if zero is closer to an end of the range than this part of the range
 MARGIN = 0.08  # margin around a curve or a path on sides without names, in units of its size
 PORTRAIT = 0.85  # height divided by width of a phase portrait
 # Part of the vertical axis of a diagram, at its lower end, without numbers, because the numbers of the horizontal axis
@@ -38,9 +38,10 @@ PORTRAIT = 0.85  # height divided by width of a phase portrait
 LOWEST = 0.03
 DIAGRAM = 0.6  # height divided by width of a bifurcation diagram
 FLATTEST, STEEPEST = 0.25, 1.4  # limits of height divided by width, for a path whose axes have the same scale
-NEAR_ZERO = 0.25  # the axis of a positive curve begins at zero if its least value is below this part of its height
+# The axis of a positive curve begins at zero if the least value is below this part of the curve's height.
+NEAR_ZERO = 0.25
 FEWEST = 3  # least number of ticks, if smaller steps can give it
-AT_TICK = 1e-5  # greatest distance of a place from its tick, divided by the distance of the outermost ticks
+AT_TICK = 1e-5  # a tick marks a place if their distance is at most this part of the distance of the outermost ticks
 USUAL = (-2, 4)  # numbers at an axis have no factor 10^n if the power of ten of the greatest number is in this range
 
 _ROOT = re.compile(r"\\sqrt\{(?:[^{}]|\{[^{}]*\})*\}")
@@ -100,7 +101,7 @@ class Panel:
     changes          the bifurcations
     shape            height divided by width; None for the usual shape
     points           zeros of a curve, or points at which two curves meet, with their names
-    heights          horizontal lines at energies, from one end to the other
+    heights          horizontal lines at energies, each given by its two ends
     is_signed        whether the vertical axis extends well to both sides of zero, so that a thin line shows zero
     is_signed_across whether the horizontal axis of a path does so, too
     has_open         whether the dots of maxima are open, because they are unstable equilibria
@@ -248,7 +249,7 @@ def curve_panel(
 
 
 def _turning_points(own: Sequence[Curve], across_by: float, up_by: float) -> tuple[tuple[Spot, str], ...]:
-    """Return the points where a line at an energy meets its curve, without names."""
+    """Return the points at which the horizontal lines of energies meet the curve, without names."""
     return tuple(
         ((place * across_by, energy * up_by), "")
         for curve in own
@@ -269,8 +270,8 @@ def _point(
     at: float, value: float, is_zero: bool, curves: Curves, own: Sequence[Curve], across: Ticks, notation: Notation
 ) -> tuple[Spot, str]:
     """Return a point of a panel with its name: the symbol of its place on the horizontal axis, with the value unless
-    the axis is divided by a quantity. Without a symbol, the name of a meeting point has the values on both axes, and a
-    zero at a tick has no name."""
+    the values on the axis are divided by a quantity. Without a symbol, the name of a meeting point has the values on
+    both axes, and a zero at a tick has no name."""
     x, y = at * curves.variable.per_unit, value * curves.up.per_unit
     for curve in own:
         (found,) = with_names([Extremum(at, value, MINIMUM)], curve.places, NEAR * (curve.upper - curve.lower))

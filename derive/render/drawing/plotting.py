@@ -291,7 +291,7 @@ def _names_of_points(
 
 
 def _names_of_curves(panel: Panel, frame: Frame, writing: Writing, points: Sequence[Extent]) -> Names:
-    """Return the names of several curves and of their extrema, clear of the values at marked points."""
+    """Return the names of several curves and of their extrema, which do not cover the labels of marked points."""
     lines = [dots_of(frame.spots(trace.points)) for trace in panel.traces]
     sizes = [writing.size(trace.name, SMALLEST) for trace in panel.traces]
     left, below, right, above = frame.paper
@@ -429,8 +429,8 @@ def _dot(turn: Turn, frame: Frame, has_open: bool) -> Iterator[Piece]:
 def _names_of_turns(
     panel: Panel, frame: Frame, writing: Writing, taken: Sequence[Extent]
 ) -> list[tuple[Shape, Extent]]:
-    """Return the names of the extrema with their boxes. If not all names of a curve have room, they are short; if these
-    have no room either, all names of the curve are left out.
+    """Return the names of the extrema with their boxes. If not all names of a curve have room, the short
+    names are used. If not all short names have room, the names of this curve are left out.
 
     taken   boxes of other names
     """
@@ -538,7 +538,7 @@ def _parts(spots: Sequence[Spot], gaps: Sequence[Extent]) -> Iterator[tuple[Spot
 
 
 def _index_of(part: float, spots: Sequence[Spot]) -> int:
-    """Return the index, at least 1, of the point after this part of the length of a line."""
+    """Return the index, at least 1, of the first point at or beyond the fraction `part` of the length of a line."""
     lengths = [*accumulate((dist(one, other) for one, other in pairwise(spots)), initial=0.0)]
     return max(1, bisect_left(lengths, lengths[-1] * part))
 

@@ -63,8 +63,9 @@ def _is_of_positive_letters(step: Step) -> bool:
 
 
 def _in_letters(named: StepNames, letters: set[Symbol]) -> dict[str, Any]:
-    """Return an answer in the letters of the problem, and the quantities, such as mu, that its formula on the page has;
-    an empty mapping if there are none. A platform that compares formulas does not know these quantities."""
+    """Return an answer in the letters of the problem, and the quantities, such as mu, that its formula on the page
+    contains; an empty mapping if there are no such quantities. A platform that compares formulas does not know these
+    quantities."""
     from sympy import Expr, Symbol
 
     from derive.algebra.node import explicit
@@ -85,7 +86,8 @@ def _in_letters(named: StepNames, letters: set[Symbol]) -> dict[str, Any]:
 def _components(step: Step, notation: Notation) -> list[str]:
     """Return the symbols of the components of a vector in TeX; an empty list for any other answer.
 
-    A vector that is known up to a factor, such as the amplitudes of a mode, and a set in any order have no components.
+    There are no components if the vector is known up to a factor, such as the amplitudes of a mode, or if the answer is
+    a list of values in any order.
     """
     from sympy import MatrixBase
 

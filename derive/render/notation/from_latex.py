@@ -84,8 +84,6 @@ def layout_of_latex(tex: str) -> Layout:
 
 
 class _Reader:
-    """Reads the tokens of a formula once."""
-
     def __init__(self, tokens: Sequence[str]):
         self.tokens = [token for token in tokens if token.strip() and token not in ("~", "\\ ")]
         self.at = 0
@@ -138,7 +136,8 @@ class _Reader:
         token = self.taken()
         if token.startswith("\\text{"):
             word = token[len("\\text{") : -1].strip()
-            return Upright(f"{word} {self.taken()}" if self.next[:1].isdigit() else word)  # the number is not a factor
+            # A number after a word is not a factor: it belongs to the word.
+            return Upright(f"{word} {self.taken()}" if self.next[:1].isdigit() else word)
         command = token.removeprefix("\\") if token.startswith("\\") else ""
         if token == "{":
             self.at -= 1

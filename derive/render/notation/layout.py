@@ -63,7 +63,7 @@ class Operator:
 
 @dataclass(frozen=True)
 class Sign:
-    """A sign of a formula that an author wrote, by its command in LaTeX: `ll`, `infty`, `sum`."""
+    """A sign in a quoted formula of the author, by its LaTeX command: `ll`, `infty`, `sum`."""
 
     command: str
 
@@ -111,7 +111,7 @@ class Fenced:
 
 @dataclass(frozen=True)
 class Bracketed:
-    """An antiderivative in brackets with limits after them: [F]."""
+    """An antiderivative in brackets with limits after them: [F]_a^b."""
 
     inside: Layout
     lower: Layout

@@ -92,14 +92,16 @@ from derive.render.notation.products import (
 
 
 def _swings(factor: Expr) -> bool:
-    """Return whether a factor contains a function of time: the sine in v/omega sin(omega t)."""
+    """Return whether a factor contains a function of time, such as the sine in v/omega sin(omega t)."""
     return any(each.has(ex.TIME) for each in factor.atoms(Function))
 
 
 def _is_root_of_quadratic(total: Expr, below: int) -> bool:
-    """Return whether a sum over `below` is like the quadratic formula: two numbers, at least one with a square root; or
-    two terms, exactly one of them a root of a sum with a coefficient that is not a multiple of `below`, as in (b +
-    sqrt(b^2 + c^2))/2 but not in sqrt(b^2 + c^2) + b/2."""
+    """Return whether a sum over `below` is like the quadratic formula: (b + sqrt(b^2 + c^2))/2.
+
+    The sum has two numbers, at least one with a square root, or two terms. Exactly one of the two terms must then be a
+    root of a sum, and its coefficient must not be a multiple of `below`: sqrt(b^2 + c^2) + b/2 is not such a sum.
+    """
     roots = [term for term in total.args if _has_root(term)]
     if len(total.args) != 2 or total.is_number:
         return len(total.args) == 2 and roots != []
@@ -229,9 +231,11 @@ class Notation:
         return row(number, *(within(each, Binding.OPEN) for each in behind)) if letters else number
 
     def _is_letter_before_functions(self, letters: list[Expr]) -> bool:
-        """Return whether the factors are one letter without dots, or such a letter and functions if the letter is a
-        length or has no known dimension. Divided by 2, these factors are written a/2 or a/2 sin x, and other factors
-        1/2 M a^2 or 1/2 x_dot."""
+        """Return whether the factors, divided by a number such as 2, are written a/2 or a/2 sin x, not 1/2 M a^2.
+
+        The first factor must be a letter without dots, and the others must be functions. If there are others, the
+        letter must be a length, or its dimension must be unknown.
+        """
         first, *others = (self.layout(letter) for letter in letters)
         is_function = all(isinstance(other, Applied) for other in others)
         dimension = self.known_dimensions.get(letters[0])

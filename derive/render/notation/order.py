@@ -98,8 +98,8 @@ def _has_root(term: Expr) -> bool:
 def motion_first(terms: list[Any], moving: Mapping[str, int]) -> list[Any]:
     """Sort terms by the order of the coordinates and by powers: first terms with accelerations, then terms with rates.
 
-    Among the other terms, constants come last, m y_ddot + k y - m g, and terms with a coordinate whose acceleration the
-    sum contains come first. Without accelerations, quadratic terms come before linear ones:
+    Among the other terms, terms with a coordinate whose acceleration the sum contains come first, and constants come
+    last: m y_ddot + k y - m g. Without accelerations, quadratic terms come before linear ones:
     x_dot^2 + y_dot^2 + 2 Omega x y_dot. Squares without functions come before other squares:
     theta_dot^2 + phi_dot^2 sin^2 theta.
     """

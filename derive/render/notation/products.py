@@ -223,8 +223,8 @@ def gathered(expr: Expr) -> Expr:
 
 
 def roots_together(expr: Expr) -> Expr:
-    """Combine square roots: sqrt(M) sqrt(g)/sqrt(I + M a^2) as the root of a fraction, 1/(sqrt(L) sqrt(C)) as 1/root,
-    and l^(3/2) sqrt(g) as l sqrt(g l).
+    """Combine square roots: sqrt(M) sqrt(g)/sqrt(I + M a^2) as the root of a fraction, 1/(sqrt(L) sqrt(C)) as
+    1/sqrt(L C), and l^(3/2) sqrt(g) as l sqrt(g l).
 
     A single root is unchanged.
     """

@@ -1,8 +1,8 @@
 """The names in the lines of a step: the value of each name, and its text as plain SymPy.
 
-A symbol is written as its own name if this identifier is free. Otherwise the identifier is changed: the vector `omega`
-becomes `omega_` if a scalar omega also occurs. The identifier of a formula such as dV/dtheta is the key of its step, or
-the formula is written out: `Derivative(V, theta(t))`.
+A symbol is written as its name if this name is free. Otherwise the name is changed: the vector `omega` becomes
+`omega_` if a scalar omega also occurs. The identifier of a formula such as dV/dtheta is the key of its step, or the
+formula is written out: `Derivative(V, theta(t))`.
 """
 
 from __future__ import annotations
@@ -97,7 +97,7 @@ class StepNames:
     """The lines of one step as plain SymPy, with the names in them.
 
     values        the names to substitute, with their values: symbols, and formulas written as identifiers
-    has_formula   whether the left side is a formula of names whose value equals the first line of the chain
+    has_formula   whether the left side is a formula of names, and its value equals the first line of the chain
     """
 
     step: Step

@@ -12,8 +12,8 @@ each line equals the line before it, with these exceptions:
     the motion      (`because: motion`): the line equals the one before after `motion` is substituted
 
 If the left side is a formula (`symbol.formula`), it equals the first line. A step that `approximates` a symbol is a
-limit or a series of that symbol; a result derived from such a step is only `about` equal to its first line. A step
-with two roots has a list in place of each text.
+limit or a series of that symbol; a result derived from such a step is only approximately equal to its first line
+(`about`). A step with two roots has a list in place of each text.
 """
 
 from __future__ import annotations

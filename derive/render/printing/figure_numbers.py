@@ -29,8 +29,8 @@ def figure_number(number: int) -> str:
 
 
 def equations_numbered(problems: Iterable[tuple[str, str]]) -> list[str]:
-    """Return the problems of a page, given with their numbers; with several problems, equation 3 of problem 5 is
-    (5.3)."""
+    """Return the problems of a page with the final numbers of their equations. If the page has several problems,
+    equation 3 of problem 5 is (5.3)."""
     listed = list(problems)
     return [body.replace(OF_PROBLEM, f"{number}." if len(listed) > 1 else "") for number, body in listed]
 

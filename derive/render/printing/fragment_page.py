@@ -1,4 +1,4 @@
-"""A page as LaTeX for another document, in amsmath, with equation numbers of that document and with labels.
+"""A page as LaTeX for another document: it uses amsmath, labels, and the equation numbers of that document.
 
 A drawing does not float. If the drawing has a caption, it also has a figure number.
 """

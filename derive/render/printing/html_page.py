@@ -143,7 +143,7 @@ class HtmlPage:
         return Html(f"<strong>{escape(self.words.labels['checked'])}</strong> {self.inline(self.document.closing)}")
 
     def inline(self, nodes: Sequence[Inline]) -> Html:
-        """Return words and formulas; no line begins with the punctuation after a formula, or with a measured value."""
+        """Return words and formulas. No line ends before the punctuation after a formula, or within `M = 1.5 kg`."""
         found: list[str] = []
         for before, node in zip((None, *nodes), nodes, strict=False):
             printed = self._node(node)

@@ -54,7 +54,7 @@ CHARACTERS, NOTE_CHARACTERS = 92, 14
 _ADJACENT_DISPLAYS = re.compile(r"(,?)\\\] *(\w{0,4}) *\\\[")  # two formulas with at most a short word between them
 END_OF_DISPLAY = r"\]"
 END_LETTERS = 11  # characters at the end of a paragraph that stay on one line
-LETTERS_OF_A_REFERENCE = 4  # characters of a reference such as (3)
+LETTERS_OF_A_REFERENCE = 4  # assumed number of characters of a reference, such as (3)
 FEW_ROWS = 4  # a display of at most this many steps is not divided between pages if each step is one low row
 
 
@@ -180,9 +180,11 @@ class LatexPage:
         return any(first[-1] is block and self.has_answer(second) for first, second in pairs)
 
     def is_in_first_row(self, block: Paragraph, display: Display) -> bool:
-        """Return whether words may be in the first row of their display, if they are short: words that continue the
-        sentence of the display before them, and words before the law of an answer. Words with a displayed formula are
-        never in this row; if the document has notes in the margin, no words are."""
+        """Return whether words, if they are short, may be in the first row of the display after them.
+
+        The words must continue the sentence of the display before them, or precede the law of an answer. They must not
+        contain a displayed formula, and the document must not have notes in the margin.
+        """
         first, *others = printed_lines(display.groups[0], self.notation)
         is_law = not first.framed and first.left is not None and any(line.framed for line in others)
         has_display = any(isinstance(node, DisplayedMath) for node in block.nodes)
@@ -202,8 +204,8 @@ class LatexPage:
         return Tex(_ADJACENT_DISPLAYS.sub(r"\1\\quad\\text{\2}\\quad ", "".join(found)))
 
     def _ended_together(self, nodes: Sequence[Inline]) -> Iterator[Inline]:
-        """Yield the nodes with no-break spaces between the last words of each paragraph that is longer than a third of
-        a line, so that its last line is not a single short word."""
+        """Yield the nodes. In a paragraph longer than a third of a line, no-break spaces join the last words, so that
+        the last line is not a single short word."""
         for _, paragraph in groupby(nodes, lambda node: isinstance(node, NewParagraph)):
             together = [(node, self._letters(node)) for node in paragraph]
             after = sum(letters for _, letters in together)
@@ -339,7 +341,8 @@ class LatexPage:
         return Tex(rf"{{{self.file(drawing)}}}{{{alt}}}{{{number}}}{{{caption}}}")
 
     def _figure_name(self, number: int, space: str) -> str:
-        """Return the name of a figure; TeX adds the figures of earlier problems of the document to its number."""
+        """Return the name of a figure; TeX increases its number by the number of figures of earlier
+        problems."""
         return rf"{escaped(self.words.labels['figure'])}{space}\figureno{{{number}}}"
 
     def margin(self, display: Display, before: Sequence[Inline] = ()) -> Tex:

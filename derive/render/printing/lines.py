@@ -17,10 +17,11 @@ from derive.render.notation.layout import Layout, width
 from derive.render.notation.notation import Notation
 from derive.render.notation.text import plain
 
-LINE_WIDTH, PAGE_WIDTH, TEXT_WIDTH = 74.0, 66.0, 60.0  # widths of a line on paper, in a browser and in text
+# Widths are in characters.
+LINE_WIDTH, PAGE_WIDTH, TEXT_WIDTH = 74.0, 66.0, 60.0  # greatest widths of a line on paper, in a browser, in text
 LINE_INDENT = 4.0  # indent of a continuation line
 GAP = 5.0  # width of the gap between two equations on one row
-MOST_BEFORE = 2  # greatest number of lines before an answer that shares its frame with other answers
+MOST_BEFORE = 2  # an answer with more lines before it never shares its frame with other answers
 INEQUALITIES = {"less", "greater", "at_most", "at_least", "unequal"}
 MOST_SIDES = 4  # greatest number of right sides on one line of a chain
 
@@ -50,7 +51,7 @@ def printed_lines(equations: Equations, notation: Notation, limit: float = LINE_
     packed: list[Printed] = []
     begun: Layout | None = None  # the left side of the current equation
     relations: list[str] = []  # the relation signs of the current equation
-    result = len(equations.lines) - equations.framed  # the first line that is framed
+    result = len(equations.lines) - equations.framed  # the index of the first framed line
     for i, line in enumerate(equations.lines):
         framed = i >= result
         side = (line.relation, notation.result(line.right) if line.presented else notation.layout(line.right))
@@ -126,7 +127,7 @@ def before_answers(steps: Sequence[Sequence[Printed]], limit: float = LINE_WIDTH
 
 
 def _filled(laws: Sequence[Printed], limit: float) -> list[list[Printed]]:
-    """Distribute laws among rows: each law is in the row of the last one if it has room there."""
+    """Distribute laws among rows: a law is added to the last row if there is room for it."""
     rows: list[list[Printed]] = []
     for law in laws:
         last = reduce(_beside, rows[-1]) if rows else None

@@ -39,7 +39,7 @@ def page_text(document: Document, words: Phrases, notation: Notation) -> str:
     return _Page(standalone(document), words, notation).text()
 
 
-_BLANKS = re.compile(r"(?:[^\S\xa0]|(?<!«)\xa0(?![;:?!%»]))+")  # a French sign keeps its no-break space
+_BLANKS = re.compile(r"(?:[^\S\xa0]|(?<!«)\xa0(?![;:?!%»]))+")  # a French punctuation mark keeps its no-break space
 
 
 def inline_text(nodes: Sequence[Inline], notation: Notation, numbers: Mapping[str, Number] | None = None) -> str:

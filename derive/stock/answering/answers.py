@@ -150,7 +150,7 @@ class StockAnswers(Answers[W]):
                 latest[like] = drawing.key
 
     def place_of_mark(self, node: Tree, name: str, letters: InLetters) -> MatrixBase:
-        """Return the place of a mark, whose components are written in the file."""
+        """Return the place of a mark from the components that the file states."""
         if not isinstance(node, SequenceNode):
             rejected("wrong-type", f"`{name}` must be a list of components, such as `[a, 0, 0]`", node.place)
         return ImmutableDenseMatrix(each([partial(letters.of_kind, item, name, "length") for item in node.items]))

@@ -162,7 +162,7 @@ class ByName:
         return found
 
     def _one_of(self, own: str, name: str, found: Sequence[Quantity]) -> Quantity | None:
-        """Return the step of the answer `own` that `name` denotes; None if it denotes none of them."""
+        """Return the step of the answer `own` that `name` denotes; None if the answer has no such step."""
         by_key = _called(name, {q.key: q for q in found})
         if len(by_key) == 1:
             return by_key[0]

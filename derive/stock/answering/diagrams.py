@@ -133,5 +133,5 @@ def ratio(name: Any, expr: Expr, letters: Sequence[Symbol], against: Word, keys:
         if not rest.has(letter):
             symbol = stand_in("x", positive=True) if expr.is_positive else stand_in("x")
             return Parameter(name, symbol, "number", (letter, symbol / rest), keys)
-    message = f"`{against}` is not proportional to one of its letters, so it cannot be the parameter of a diagram"
+    message = f"`{against}` is not proportional to any of its letters, so it cannot be the parameter of a diagram"
     rejected("wrong-argument", message, against.place, "write a letter or a ratio, such as `omega` or `omega/omega_c`")

@@ -65,7 +65,8 @@ class ImpactAnswers(Answers[DescribedImpact]):
 
     @property
     def by_momentum(self) -> bool:
-        """Return whether the laws of momentum and of angular momentum replace the integrated equations of Lagrange."""
+        """Return whether the laws of momentum and of angular momentum replace Lagrange's equations integrated over the
+        impact."""
         return self.of.method in (NEWTON, ANGULAR_MOMENTUM)
 
     @answer

@@ -1,4 +1,5 @@
-"""`marks` and `like` under `drawings:`: points, lines, curves, lengths, arrows, angles, turns that a problem adds."""
+"""`marks` and `like` under `drawings:`: marks, such as points and arrows, that a problem adds to a drawing of the
+engine, and drawings that repeat another drawing."""
 
 from __future__ import annotations
 
@@ -95,8 +96,8 @@ class Marked:
             drawings[drawings.index(shown[name])] = own
 
     def _kept(self, marks: Sequence[Mark]) -> Iterator[Mark]:
-        """Yield the marks of a drawing, except marks whose labels the problem leaves out; a surface that is not a
-        dashed line stays, without its label."""
+        """Yield the marks of a drawing, except marks whose labels the problem leaves out. Of these, surfaces that are
+        not dashed lines stay, without their labels."""
         labels = {str(mark.label) for mark in marks if mark.label is not None}
         for word in self.drawing.without:
             if word not in labels:
@@ -158,7 +159,7 @@ class Marked:
         return Arrow(at, along, size or LONG[is_plane], bool(own_keys), label=label, keys=(*used, *own_keys))
 
     def _cone(self, keys: MarkKeys, drawing: Drawing) -> Mark:
-        """Return the cone that an arrow of the drawing describes."""
+        """Return the cone that an arrow of the drawing describes when it rotates about the axis `along`."""
         node = keys.end
         assert node is not None  # `_mark` rejects a cone without this key
         value, used, _ = self._way(node, "to", 3)
@@ -181,7 +182,7 @@ class Marked:
         assert keys.against is not None and keys.between  # `_mark` rejects a curve without these keys
         letter, _ = read_expression(keys.against.scalar, self._letters.letters)
         if not letter.is_Symbol or not at.has(letter):
-            message = f"`at` is the same for all values of `{keys.against}`"
+            message = f"`against` must be a letter on which `at` depends, but it is `{keys.against}`"
             rejected("wrong-argument", message, keys.against.place, "write a place that contains the letter")
         lower, upper = (read_expression(end.scalar, self._letters.letters)[0] for end in keys.between)
         return WayMark(at, letter, lower, upper, "edge", label=label, keys=used)
@@ -271,8 +272,8 @@ class Marked:
 
 
 def _circle(centre: MatrixBase, through: MatrixBase, around: MatrixBase) -> MatrixBase:
-    """Return the point at ANGLE on the circle about `centre` that begins at `through`; in space, `around` is its
-    axis."""
+    """Return the point of the circle about `centre` at the angle ANGLE from the point `through`; in space, `around` is
+    the axis of the circle."""
     arm = through - centre
     x, y = (arm[0], arm[1])
     across = ImmutableDenseMatrix([-y, x]) if arm.rows == 2 else around.cross(arm) / sqrt(around.dot(around))

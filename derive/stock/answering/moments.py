@@ -56,8 +56,8 @@ def check_starts(results: Sequence[Result], assumed: Sequence[Relation]) -> None
 
 
 def struck(impact: Impact) -> Moment:
-    """Return the positions and rates just before an impact, the given impulses at places, and the places that
-    collide."""
+    """Return the positions and rates just before an impact, the given impulses with the places where they act, and the
+    places that collide."""
     pushes = [act for act in impact.acts if isinstance(act, Impulse) and len(act.at) > 1]  # not the angular impulses
     meeting = [place for act in impact.acts if isinstance(act, Collision) for place in (act.start, act.end) if place]
     rates = {q: impact.before[rate(q)] for q in impact.moving}

@@ -1,4 +1,5 @@
-"""`plot` and `curves` under `drawings:`: curves of answers, paths of two answers or formulas, phase portraits."""
+"""`plot` and `curves` under `drawings:`: curves of answers, paths of two answers or formulas, phase portraits,
+bifurcation diagrams."""
 
 from __future__ import annotations
 
@@ -63,7 +64,7 @@ class Plotted:
     shown: Collection[str] = ()
 
     def draw(self, against: LetterOrRatio, ends: Range) -> None:
-        """Draw the plot against a coordinate, the time or a declared symbol."""
+        """Draw the plot against a coordinate, the time or a declared symbol; a diagram may also be against a ratio."""
         if self.drawing.is_diagram:
             self._diagram(self.drawing.plot[0], against, ends)
         elif self.drawing.curves:
@@ -83,8 +84,8 @@ class Plotted:
         self._keep(unit)
 
     def measure(self) -> None:
-        """Add to the recorded plot the energies of its horizontal lines, and the quantities by which its axes are
-        divided."""
+        """Add to the recorded plot the energies of its horizontal lines, and the quantities by which the values on its
+        axes are divided."""
         run, written = current_run.get(), self.drawing.per
         if run is None or not (written or self.drawing.energies):
             return

@@ -129,7 +129,7 @@ class QuotedKeys(ShapeKeys):
 class PartKeys(QuotedKeys):
     """The keys of a part of a body."""
 
-    at: tuple[Tree, ...] = key("the position of its centre of mass or, with `of`, of that point", PLACE)
+    at: tuple[Tree, ...] = key("the position of its centre of mass or, with `of`, of the point that `of` names", PLACE)
     of: Word | None = key("the point of the part whose position is `at`: `end`, `corner`, `base`", TEXT)
     turned: Mapping[Word, Tree] = key("the angles by which it is rotated: `{x: pi/2}`", mapping_of(SCALAR))
     cut_out: bool = key("whether it is cut out of the rest", YES_OR_NO)
@@ -260,7 +260,7 @@ class Bodies:
         written.check_integrated(faults)
         faults.stop()
         if whole_mass is not None and written.mass is not None:
-            message = f"the mass of the whole body is given and divided among its parts, so `{name}` has no `mass`"
+            message = f"the mass of the whole body is divided among its parts, so `mass` of `{name}` is not allowed"
             rejected("unknown-key", message, written.places["mass"], "leave `mass` out, here or for the whole body")
         body = self._alone(written, whole_mass)
         with told_at(name.place):
@@ -362,7 +362,7 @@ class Bodies:
                 message = f"`{name}` is declared under `symbols`, but is also a variable of this body"
                 rejected("letter-clash", message, name.place, "remove it from `symbols`")
             if name in RESERVED or name == TIME.name or not name.replace("_", "").isalnum() or not name[0].isalpha():
-                rejected("symbol", f"`{name}` is not a valid symbol for a position", name.place)
+                rejected("symbol", f"`{name}` is not a valid symbol for a variable of `position`", name.place)
             kind, (lower, upper) = known.ends(name, ends)
             if (upper - lower).is_nonpositive:
                 message = f"nothing lies between the limits of `{name}`, {lower} and {upper}"

@@ -64,8 +64,8 @@ RIGHT_OR_LEFT = one_of(("right", "left"))
 
 @dataclass(frozen=True)
 class Connected:
-    """The objects to which connections may refer: bodies and particles by name, surfaces, pulleys, places, symbols; and
-    the number of contacts at which a body rolls without a symbol for the friction."""
+    """The objects to which connections may refer. `rolling` is the number of contacts whose rolling friction has no
+    symbol."""
 
     bodies: Collection[str]
     surfaces: Mapping[str, Deferred[Any]]
@@ -130,7 +130,7 @@ class SurfaceKeys(Record):
                     named[role] = direction_of(nodes, letters)
             return Deferred(plane, (places.at(self.through, "through"),), named, carried, self.places[""])
         rejected(
-            "missing-key", f"the surface `{name}` is not a plane, a circle or a curve", self.places[""], SURFACE_SHAPES
+            "missing-key", f"the keys of the surface `{name}` do not specify its shape", self.places[""], SURFACE_SHAPES
         )
 
     def _check_side(self, allowed: Collection[str]) -> None:
@@ -142,11 +142,10 @@ class SurfaceKeys(Record):
             rejected("unused-key", message, self.places["side"], "leave it out")
 
     def _curve(self, written: Tree, places: Places, letters: InLetters) -> tuple[Any, ...]:
-        """Return the arguments of `curve`."""
         for name in ("along", "normal", "centre", "radius"):
             if name in self.places:
                 message = f"`{name}` does not belong to a curve `y`"
-                rejected("unused-key", message, self.places[name], "leave one of them out")
+                rejected("unused-key", message, self.places[name], f"leave `{name}` or `y` out")
         if X in letters.letters and f"{X}_dot" not in letters.letters:
             message = f"in the formula of a curve, `{X}` is the horizontal distance, but `{X}` is under `symbols` too"
             rejected("letter-clash", message, self.places["y"], "give the symbol another name")
@@ -381,7 +380,7 @@ class StringKeys(Record):
         for name in ("to", "length", "mass_of", "drawn_tension"):
             if name in self.values_at:
                 message = f"`{name}` has no effect on a string with `wound_on`"
-                rejected("unused-key", message, self.places[name], "leave one of them out")
+                rejected("unused-key", message, self.places[name], f"leave `{name}` or `wound_on` out")
         if self.tension is None:
             message = "a string with `wound_on` needs `tension`, the symbol of its tension"
             help_line = "if the coordinates already keep the string on the body, leave the string out"
@@ -520,7 +519,7 @@ def _line(
 
 
 def _over(written: WrittenPlace, known: Connected) -> Any:
-    """Return a pulley, or the body, particle or place of a pulley without a radius."""
+    """Return a pulley, or the body, particle or place that serves as a pulley without a radius."""
     if written.name is not None and written.name in known.pulleys:
         return known.pulleys[str(written.name)]
     places = [*known.pulleys, *known.places.written, *known.bodies]

@@ -39,7 +39,8 @@ class FoundLetter(Declared):
 
 @dataclass(frozen=True)
 class Formula:
-    """An expression whose names are symbols or answers; a name that could denote either denotes the given symbol."""
+    """An expression whose names are symbols or answers. A name that is both denotes the symbol, unless the symbol is a
+    `FoundLetter`."""
 
     node: Scalar
     letters: Mapping[str, Declared]

@@ -57,8 +57,8 @@ class CollisionKeys(Record):
     end: WrittenPlace | None = key("the other place", PLACE, called="to")
     at: WrittenPlace | None = key("in place of `from` and `to`, the place that hits an object at rest", PLACE)
     of: Tree | None = key(
-        "the bodies or particles that meet, if a place does not move with its body: `of: [ball, rod]` for `from` "
-        "and `to`, or one name for `at`",
+        "the bodies or particles that meet, needed if a place does not move with the body that meets there: "
+        "`of: [ball, rod]` for `from` and `to`, or one name for `at`",
         as_written(one_or_more(TEXT.schema), "a body, or a list of two"),
     )
     along: tuple[Tree, ...] = key(
@@ -85,7 +85,7 @@ class CollisionKeys(Record):
         if self.restitution is not None and not self.along:
             message = "`restitution` has no effect without `along`: after such a collision the two bodies stay together"
             rejected(
-                "unused-key", message, self.places["restitution"], "give the components of the common normal, `along`"
+                "unused-key", message, self.places["restitution"], "give `along`, the components of the common normal"
             )
         ends = [(self.start, "from"), (self.end, "to"), (self.at, "at")]
         read: list[Callable[[], Any]] = [partial(places.at, place, name) for place, name in ends if place]

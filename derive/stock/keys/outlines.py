@@ -41,7 +41,7 @@ def drawn(answers: Any, about: str = "", is_named: bool = False, key: str = "", 
     """Draw the outline of a body, by default under the name of the body.
 
     about      the name of a point; if it is `centre` and the corners of the body are symmetric about one point, the
-        axes begin there
+        axes begin there, otherwise at the reference point of the body
     is_named   whether `about` is a point that the problem names, such as a pivot
     shown      the marks of SHOWS that are drawn in addition to the outline
     """
@@ -83,7 +83,7 @@ def _principal(answers: Any, origin: Point) -> list[Mark]:
 
 
 def _direction(answers: Any, origin: Point) -> list[Mark]:
-    """Return the axis of `moment_about`, with the angles in its components."""
+    """Return the axis of `moment_about`, with arcs for the angles in its components."""
     body, along = answers.body, answers.described.direction
     if along is None:
         return []
@@ -129,7 +129,8 @@ def _has_known_centre(body: Body) -> bool:
 
 
 def _proportions(body: Body) -> dict[Expr, Expr]:
-    """Return values for the drawing, such as the radius of the section of a torus as a fraction of its radius."""
+    """Return values for the drawing, such as the radius of the section of a torus as a fraction of the radius of the
+    torus."""
     match body.boundary:
         case Toroidal(radius, section):
             small, large = section, radius / 4
@@ -154,7 +155,8 @@ def _inclination(components: Sequence[Expr]) -> list[Mark]:
 
 
 def drawn_turning(answers: Any, has_angle: bool) -> None:
-    """Draw a body that is round or has faces, with its axes and its axis of rotation or angular velocity.
+    """Draw a body that is round or has faces, with its axes and its axis of rotation or angular velocity; draw nothing
+    for other bodies.
 
     If `has_angle` is true and the axis of rotation is given, a second drawing shows the angle between the angular
     velocity and the angular momentum.

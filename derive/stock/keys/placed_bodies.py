@@ -114,7 +114,6 @@ class MovingBodyKeys(BodyKeys, QuotedKeys):
         return Deferred(held, (body, turned, point), named, place=self.places[""])
 
     def _check_used(self) -> None:
-        """Reject keys without effect."""
         own = {"moments", "middle", "rim", "mass", "turned", "centre", "held", "on", "across", "from", "to", "along"}
         beside = {
             "moments": [name for name in self.values_at if name not in own],
@@ -125,7 +124,7 @@ class MovingBodyKeys(BodyKeys, QuotedKeys):
         for first, others in beside.items():
             for other in others if first in self.values_at else ():
                 message = f"`{other}` has no effect on a body with `{first}`"
-                faults.error("unused-key", message, self.places[other], help="leave one of them out")
+                faults.error("unused-key", message, self.places[other], help=f"leave `{first}` or `{other}` out")
         for name, what in (("middle", "where the centre of mass is"), ("rim", "its boundary")):
             if name in self.values_at and "moments" not in self.values_at:
                 message = f"`{name}` has no effect on a body without `moments`"
@@ -141,7 +140,7 @@ class MovingBodyKeys(BodyKeys, QuotedKeys):
             rejected("missing-key", f"a body needs {listed}, which specifies its {what}", self.places[""])
         if len(given) > 1:
             message = f"a body can have only one of {listed}: each specifies its {what}"
-            rejected("twice", message, self.places[given[1]], "leave one of them out")
+            rejected("twice", message, self.places[given[1]], "keep only one of them")
 
     def _turned(self, places: Places, letters: InLetters) -> Axes | Expr:
         if self.turned is None:

@@ -164,7 +164,7 @@ def _order(verb: ResultVerb, key: ResultKey, word: Word, letters: InLetters) -> 
 def _symbol(verb: ResultVerb, key: ResultKey, node: Tree, letters: InLetters) -> Word:
     found = names(node)
     if len(found) > 1:
-        rejected("wrong-argument", f"`{verb.name}` finds one quantity, with one symbol", found[1].place)
+        rejected("wrong-argument", f"`{verb.name}` finds one quantity, so only one symbol is allowed", found[1].place)
     return found[0]
 
 
@@ -341,7 +341,7 @@ def _check_verb(written: Record, name: str, faults: Faults) -> None:
     for first, second in verb.excludes:
         if first in there and second in there:
             message = f"`{second}` has no effect on a `{verb.name}` with `{first}`"
-            faults.error("unused-key", message, written.places[second], help="leave one of them out")
+            faults.error("unused-key", message, written.places[second], help=f"leave `{first}` or `{second}` out")
     for needed in verb.needs:
         if needed not in there:
             faults.error("missing-key", f"`{verb.name}` needs `{needed}`", written.places[verb.name], help=uses)

@@ -290,7 +290,7 @@ def _parts(written: SystemKeys, places: Places, known: InLetters, faults: Faults
             places.contacts.setdefault(name, []).append(point)
     for i, name in enumerate(written.wires):
         if name in written.wires[:i]:
-            faults.error("twice", f"`{name}` is on a wire twice", name.place, help="leave one of them out")
+            faults.error("twice", f"`{name}` is on a wire twice", name.place, help="name it once")
     acting += attempted(faults, each, [partial(wire_on, name, connected) for name in written.wires]) or []
     _check_surfaces_used(written, faults)
     _check_pulleys(written, faults)
@@ -308,19 +308,17 @@ def _landed_on(written: SystemKeys) -> set[str]:
 
 
 def _check_surfaces_used(written: SystemKeys, faults: Faults) -> None:
-    """Report a surface that no contact and no flight names."""
     used = {str(each.on) for each in written.contacts} | _landed_on(written)
     if used <= {str(name) for name in (*written.surfaces, *written.bodies)}:
         for name in written.surfaces:
             if name not in used:
                 help_line = (
-                    "describe the contact under `contacts`, name it under `on` of `lands`, or leave the surface out"
+                    "describe the contact under `contacts`, name the surface under `on` of `lands`, or leave it out"
                 )
                 faults.error("unused-key", f"no contact uses the surface `{name}`", name.place, help=help_line)
 
 
 def _check_pulleys(written: SystemKeys, faults: Faults) -> None:
-    """Report an unused pulley, and a pulley with the name of another object."""
     over = {str(place.name) for each in written.strings for place in each.over if place.name is not None}
     known = {*written.pulleys, *written.bodies, *written.particles, *written.points}
     for name in written.pulleys:
@@ -338,8 +336,8 @@ def _connections(written: SystemKeys) -> list[Any]:
 
 
 def _lagrangian(written: SystemKeys, letters: InLetters) -> tuple[Expr, str | None] | None:
-    """Return the formula of a given Lagrangian and the kind of its values, or None instead of the kind if there is no
-    kind with this dimension. Return None if no Lagrangian is given."""
+    """Return the formula of a given Lagrangian and the kind of its values, which is None if no kind has this dimension.
+    Return None if no Lagrangian is given."""
     if written.lagrangian is None:
         return None
     beside = next((name for name in REPLACED_BY_LAGRANGIAN if name in written.places), None)
@@ -480,7 +478,7 @@ def _state(
 
 
 def _check_range(q: Word, value: Expr, lies: Range | None) -> None:
-    """Reject a value that is not inside the range of its coordinate, because small displacements need room on both
+    """Reject a number that is not inside the range of its coordinate, because small displacements need room on both
     sides."""
     if lies is not None and value.is_number and not (lies.least < value and value < lies.greatest):
         message = f"`{q}` must be between {lies.least} and {lies.greatest}, so it cannot be {value} in a state"

@@ -41,8 +41,9 @@ def test_what_is_not_finished_or_out_of_place_is_refused(text: str) -> None:
 
 def test_a_sign_of_both_kinds_is_plus_in_one_branch_and_minus_in_the_other() -> None:
     assert [value(r"a \mp b", branch) for branch in (0, 1)] == [a - b, a + b]
-    assert complaint(r"a \pm b \text{ or } h").message == "a value can have two branches at most"
-    assert complaint(r"a \text{ or } b \text{ or } h").message == "a value can have two branches at most"
+    most_two = "a value can have at most two alternatives, from one `or` or from `\\pm`"
+    assert complaint(r"a \pm b \text{ or } h").message == most_two
+    assert complaint(r"a \text{ or } b \text{ or } h").message == most_two
 
 
 def test_every_relation_begins_a_side() -> None:

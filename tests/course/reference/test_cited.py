@@ -110,7 +110,7 @@ def test_what_the_document_prints_is_quoted_from_it(cites: Cites) -> None:
     [
         ("lines: 12, answer: cosine", "`problems/hw9/block.md` has no formula at line 12", "reference.yaml:8:15"),
         ("lines: 90, answer: cosine", "`problems/hw9/block.md` has no formula at line 90", "reference.yaml:8:15"),
-        ("lines: 26, answer: cosine", "line 26 has 2 formulas in a sentence", "reference.yaml:8:15"),
+        ("lines: 26, answer: cosine", "there are 2 formulas in sentences at line 26", "reference.yaml:8:15"),
         ("lines: 9, side: 4, answer: cosine", "the formula at this line has 2 sides", "reference.yaml:8:15"),
         ("lines: 33, answer: cosine", "`[` is closed by `)`", "block.md:33:14"),
         ("lines: 3.1", "`problems/hw9/block.md` has no section 3.1", "reference.yaml:8:15"),

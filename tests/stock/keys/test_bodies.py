@@ -176,9 +176,9 @@ def test_what_is_cut_out_has_its_share_of_the_mass(tmp_path: Path) -> None:
         ),
         (
             "{mass: M, parts: {rod: {shape: rod, length: h, mass: M}}}",
-            "5: the mass of the whole body is given and divided among its parts, so `rod` has no `mass`",
+            "5: the mass of the whole body is divided among its parts, so `mass` of `rod` is not allowed",
         ),
-        ("{parts: {Rod: {shape: rod, length: h, mass: M}}}", "5: `Rod` is not a name for a body"),
+        ("{parts: {Rod: {shape: rod, length: h, mass: M}}}", "5: `Rod` is not a valid name for a body"),
         (
             "{radius: R, parts: {rod: {shape: rod, length: h, mass: M}}}",
             "5: a body made of parts has no `radius` of its own",

@@ -108,7 +108,7 @@ def test_what_cannot_be_meant_by_a_formula_is_told(made: str, said: str, tmp_pat
     ("old", "new", "said"),
     [
         ("values: {r: r_0}", "values: {m: r_0}", "but `m` is neither"),
-        ("symbol: Omega", "symbol: [Omega, Xi]", "each free cyclic rate (phi_dot), but `symbol` lists 2"),
+        ("symbol: Omega", "symbol: [Omega, Xi]", "one symbol for each free cyclic rate (phi_dot), but"),
         ("symbol: Omega", "symbol: r_0", "`r_0` already denotes something else"),
         ("results: orbit, for: Omega", "for: Omega", "`frequency` needs `results`"),
     ],

@@ -65,7 +65,7 @@ def test_a_letter_may_be_given_to_what_is_found(tmp_path: Path) -> None:
         ("{where: acceleration_x, is: '>', for: m_1, symbol: a}", "`symbol` has no effect on `where`"),
         (
             "{put_in: acceleration_x, values: {m_2: m_1}, symbol: [a, b]}",
-            "`put_in` finds one quantity, with one symbol",
+            "`put_in` finds one quantity, so only one symbol is allowed",
         ),
         ("{for: m_2}", "`made` needs one of `amplitude`, `answer`"),
         ("{limit: acceleration_x, put_in: acceleration_y}", "`made` needs one of `amplitude`"),
