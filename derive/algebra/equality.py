@@ -296,7 +296,8 @@ def _equivalent(left: Any, right: Any, nonzero: Sequence[Expr]) -> Verdict:
     if whole is not None and _is_borne(left.operator, right.operator, _without_factors(whole, nonzero)):
         # If both residuals are zero, any factor fits, so a negative factor does not show that the operators agree.
         if left.operator != right.operator and vanishes(left.residual):
-            return Verdict(Grade.REFUTED, f"{left.operator} against {right.operator}, and both sides are equal")
+            said = f"{left.operator} against {right.operator}; the sides of each relation are equal"
+            return Verdict(Grade.REFUTED, said)
         return Verdict(Grade.PROVED, f"equal up to the factor {whole}" if whole**2 != 1 else "polynomial normal form")
     if _same_mark(left.operator, right.operator, 1) and _both_squared(left, right):
         return Verdict(Grade.PROVED, "both sides squared, neither negative")

@@ -29,7 +29,7 @@ MOST_VALUES = 2**13
 
 
 class SwingTime(ScalarNode):
-    """The integral of dq/sqrt(f) from 0 to A, up to a power of A. Arguments: f, q, A, the power."""
+    """The integral of dq/sqrt(f) from 0 to A, as a series in A. Arguments: f, q, A, the highest power."""
 
     def doit(self, **hints: object) -> Expr:
         f, q, amplitude, order = self.args

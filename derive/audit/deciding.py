@@ -46,8 +46,8 @@ SMALL = (Rational(1, 100), Rational(1, 1000))
 
 
 def same(left: Value, right: Value) -> bool:
-    """Whether two values are equal. Values with ± must be equal for both signs, with the same sign in both values or
-    with opposite signs."""
+    """Whether two values are equal. If both contain ±, the upper sign of one must match the upper sign of the other
+    and the lower sign the lower, or the signs must match crosswise."""
     if isinstance(left, MatrixBase) != isinstance(right, MatrixBase):
         return False
     if isinstance(left, MatrixBase) and left.shape != right.shape:

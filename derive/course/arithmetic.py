@@ -142,7 +142,7 @@ class Arithmetic:
         """Return a power whose exponent has letters, such as (r/a)**n. The base must be dimensionless and positive."""
         if base.dimension != NUMBER:
             message = f"`{self.shown(base)}` is {base.is_a}, but the exponent `{self.shown(exponent)}`"
-            message += " needs a dimensionless base, such as `(r/a)**n`"
+            message += " needs a dimensionless base, as in `(r/a)**n`"
             self.refuse("dimension", message, base.start, exponent.end)
         if not base.expr.is_positive:
             message = f"the base `{self.shown(base)}` of the exponent `{self.shown(exponent)}`"

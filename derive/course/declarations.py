@@ -82,10 +82,11 @@ def check_name(word: Word, faults: Faults) -> None:
 
 
 def range_of_sort(name: str, sort: SortOfLetter, faults: Faults) -> Range | None:
-    """Return the range that a declaration states. Return None if the declaration states no range, if the range has an
-    error, or if the declaration states only that the quantity is positive, and its kind already implies this.
+    """Return the range that a declaration states. Without a range, return POSITIVE if the declaration says `positive`
+    and the kind does not already imply this; otherwise, and after an error, return None.
     """
-    with faults:
-        if sort.ends:
+    if sort.ends:
+        with faults:
             return read_range(name, sort.ends, sort)
+        return None
     return POSITIVE if sort.positive and not about_kind(sort).positive else None

@@ -98,6 +98,7 @@ def _drawn(drawing: DrawingKeys) -> Iterator[str]:
 def _texts(written: ProblemKeys) -> Iterator[Prose]:
     yield from (part.ask for part in written.parts)
     yield from (prose for prose in (written.statement, written.strategy, written.note) if prose)
+    yield from (limit.why for limit in written.limits if limit.why)
     yield from (prose for outcomes in written.wording.values() for prose in outcomes.values())
 
 

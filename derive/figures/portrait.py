@@ -159,7 +159,8 @@ def _along(
 
 
 def _head(across: Any, rate: Any, inner: tuple[float, float]) -> int:
-    """Return the index of the arrowhead: where the coordinate changes fastest, if possible outside the margins."""
+    """Return the index of the arrowhead: the point outside the margins at which the coordinate changes fastest, or the
+    middle of the line if no point is outside the margins."""
     away = (across > inner[0]) & (across < inner[1])
     if not np.any(away):
         return len(across) // 2

@@ -1,9 +1,9 @@
 """The verdict on a formula: equal, equal under a convention that is stated, or what is wrong with it.
 
-The first of these tests that succeeds gives the verdict: equal; equal with the definitions of the problem; equal up to
-rounded decimals; equal under a convention; the opposite sign; another quantity of the problem; another dimension;
-letters that the problem does not have; a factor; a term; an approximate quantity of the problem; special values; a
-factor that contains sums.
+The tests are tried in this order, and the first that succeeds gives the verdict. Right: equal; equal with the
+definitions of the problem; equal up to rounded decimals; equal under a convention. Wrong: the opposite sign; another
+quantity of the problem; another dimension; letters that the problem does not have; wrong by a factor; wrong in one
+term; an approximate quantity of the problem; right for special values only; wrong by a factor that contains sums.
 """
 
 from __future__ import annotations

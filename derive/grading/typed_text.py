@@ -197,8 +197,7 @@ def _read_commas(source: Source, notes: list[str]) -> None:
 
 
 def with_points(entries: str) -> str:
-    """Return entries with decimal points in place of decimal commas; the entries are not separated by commas, as in
-    `1,5; 0; 2`."""
+    """Replace decimal commas by decimal points. The entries must not be separated by commas: `1,5; 0; 2`."""
     return re.sub(r"(?<=\d),(?=\d)", ".", entries)
 
 

@@ -245,7 +245,7 @@ def _matters(
     numbers: Sequence[Mapping[Any, Expr]],
     ends: Sequence[Expr],
 ) -> bool:
-    """Whether the curves, after division by the divisors of the axes, depend on the number of a letter."""
+    """Whether the curves, divided by the divisors of the axes, depend on the numerical value of a letter."""
     for (plot, _), known in zip(pairs, numbers, strict=True):
         other = {**known, letter: known[letter] * CHANGED}
         for share in SHARES:

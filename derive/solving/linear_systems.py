@@ -364,7 +364,7 @@ def _discriminant(a: Expr, b: Expr, c: Expr) -> Expr:
 
 
 def _of_chain(part: Poly) -> list[Expr] | None:
-    """The roots 4 sin^2(a pi/2b), b < `FINEST`, of a uniform chain; None for any other polynomial.
+    """The roots 4 sin^2(a pi/(2 b)), with integers a and b < `FINEST`, of the polynomial of a uniform chain, or None.
 
     Such a polynomial divides T_b(1 - lambda/2) -+ 1, where T_b is a Chebyshev polynomial. The recursion T_(b + 1) = 2 x
     T_b - T_(b - 1) is computed modulo this polynomial.

@@ -55,6 +55,10 @@ def test_what_a_description_says_without_effect_is_a_warning(
         [("l: length,", "l: length, b: length,"), ("statement: A bob.", "statement: A bob.\nnote: If $b = 2l$.")],
         [
             ("l: length,", "l: length, b: length,"),
+            ("parts:", "limits: [{of: motion_theta, letter: m, why: 'for $b = 2l$'}]\nparts:"),
+        ],
+        [
+            ("l: length,", "l: length, b: length,"),
             ("statement: A bob.", "statement: A bob.\nwording: {motion_theta: 'For $b = 2l$, <<chain>>'}"),
         ],
     ],

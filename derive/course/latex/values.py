@@ -532,7 +532,7 @@ class Values(Grids):
         while isinstance(call, Pow | EvalBar):
             call = call.base if isinstance(call, Pow) else call.inner
         if isinstance(call, Apply) and isinstance(call.arguments[0], Letter):
-            help_line = "leave out the brackets, both for a product and for a function"
+            help_line = "write a product without brackets, and a function without its argument"
             end = self.text.find(")", call.arguments[0].span.end) + 1
             whole = self.text[node.span.start : end]
             self.refuse("ambiguous", f"`{whole}` could be a function", node.span.start, end, help_line)

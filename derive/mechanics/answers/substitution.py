@@ -93,7 +93,7 @@ def put_in(
     a prescribed function is given, as a function of the time or as a constant, its rates are substituted too.
     Check: all letters of the original replaced at once by their final values; if `again` is given, also equality with
     this earlier result.
-    A rate from conservation of energy has the opposite sign at a place that the motion reaches after turning back.
+    If the motion reaches a place only after turning back, a rate from conservation of energy changes its sign there.
     If the motion reaches the place only under a condition, the sentence states this condition.
     Outcomes: results (with results), values (with values only), zero (with values only, and the result is zero),
     identity (an equation that always holds after the substitution), again (an earlier result is reproduced), turned (a

@@ -231,8 +231,8 @@ def _without_common_factor(left: Expr, moving: Sequence[Symbol]) -> Expr:
 def _in_whole_numbers(terms: Sequence[Expr]) -> list[Expr]:
     """Make all numeric factors integers: 2 l theta_ddot + 3 g sin(theta), not l theta_ddot/3 + g sin(theta)/2.
 
-    All terms remain unchanged if they have fractional coefficients and a factor is a sum with denominators in some
-    terms only, such as a moment of inertia I + M a^2/4.
+    Return the terms unchanged if a coefficient is a fraction and some term has a factor such as the moment of inertia
+    I + M a^2/4, a sum in which only some summands have a denominator.
     """
     apart: list[tuple[Expr, list[Expr]]] = []
     for term in terms:
@@ -383,7 +383,7 @@ def momentum_rate(momentum: Quantity, q: Coordinate, key: str | None = None) -> 
     momentum   the generalized momentum dL/dq_dot
     q          the coordinate of the momentum
 
-    Check: differentiate with each coordinate as its Taylor series in t.
+    Check: replace each coordinate by its Taylor series in t, and differentiate with respect to t.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.4.
     """
     moving = list(momentum.coordinates)

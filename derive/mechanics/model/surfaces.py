@@ -323,7 +323,7 @@ def curve(
         )
         raise Rejected(Complaint("which-body", message, help="give a place that moves with the body, `through: track`"))
     if isinstance(of, PlacedBody) and not is_zero(_turning(of)):
-        message = f"a curve moves without rotation, but {of.body.name} rotates"
+        message = f"a curve must not rotate, but the body that carries it, {of.body.name}, rotates"
         raise Rejected(Complaint("wrong-argument", message, help="let a particle carry the curve"))
     return Curve(of, None, through, letter, formula, below, is_two_sided=is_two_sided)
 

@@ -119,8 +119,8 @@ def _arrival(
 
 
 def words_of(arrivals: Sequence[Arrival]) -> dict[str, str]:
-    """Return the word `lasts`, which names the contact or the tension that must last until the motion comes to these
-    places. Return an empty mapping if the sentence states no condition, or if nothing has to last."""
+    """Return {"lasts": "contact"} or {"lasts": "taut"} for a sentence: the contact or the tension must last until the
+    motion reaches these places. Return an empty mapping if the sentence states no condition or nothing must last."""
     lasting = next((each.lasts for each in arrivals if each.reached is not None and each.lasts), "")
     return {"lasts": lasting} if lasting else {}
 

@@ -388,8 +388,8 @@ def _without_angles(weight: Expr) -> Expr:
 
 
 def _told_square(region: Region, pair: Pair, weight: Expr) -> dict[str, tuple[Any, Any]]:
-    """For a moment, return the squared distance from the axis, and |e x r|^2 for the unit vector e along the axis.
-    These two must be equal. For a product of inertia, return an empty mapping."""
+    """For a moment of inertia, return the squared distance from the axis, and |e x r|^2 for the unit vector e along the
+    axis. These two must be equal. For a product of inertia, return an empty mapping."""
     if pair[0] != pair[1]:
         return {}
     across = Cross(column(*(int(k == pair[0]) for k in range(3))), region.position)

@@ -112,7 +112,7 @@ class GeneralMotion:
     constants: tuple[Symbol, Symbol]
 
     def told(self, motion: Expr, basis: Sequence[Expr], particular: Expr, values: Sequence[Expr]) -> dict[str, Any]:
-        """Return the values of the constants for a sentence, each also computed from the motion by Cramer's rule."""
+        """Return two values of each constant: the given value, and the value from the motion by Cramer's rule."""
         one, other = basis
         free = motion - particular
         at = [explicit(each).subs(TIME, 0) for each in (one, other, free, *(diff(f, TIME) for f in (one, other, free)))]

@@ -97,7 +97,7 @@ def _swings(factor: Expr) -> bool:
 
 
 def _is_root_of_quadratic(total: Expr, below: int) -> bool:
-    """Return whether a sum over `below` is like the quadratic formula: (b + sqrt(b^2 + c^2))/2.
+    """Return whether a sum divided by `below` looks like the quadratic formula: (b + sqrt(b^2 + c^2))/2.
 
     The sum has two numbers, at least one with a square root, or two terms. Exactly one of the two terms must then be a
     root of a sum, and its coefficient must not be a multiple of `below`: sqrt(b^2 + c^2) + b/2 is not such a sum.

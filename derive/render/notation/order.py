@@ -30,7 +30,7 @@ RATE_OF_TURNING = dimension_of_kind("angular speed")
 def ordered_terms(expr: Add, moving: Mapping[str, int]) -> list[Expr]:
     """Return the terms of a sum in the order of print.
 
-    moving   name -> index, for all symbols; a symbol is a coordinate if its rate is one of these symbols
+    moving   name -> index, for all symbols of the notation; a symbol is a coordinate if the mapping contains its rate
     """
     terms = roots_last(expr.as_ordered_terms())
     if expr.has(ex.Amount):  # 0.2 m + 1/2 (0.05 m), like R + a/2

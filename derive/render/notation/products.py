@@ -355,7 +355,8 @@ def _needs_dot(before: Layout, item: Layout) -> bool:
 
 
 def _would_be_argument(before: Layout, item: Layout) -> bool:
-    """Return whether a factor after a function could be misread as part of the argument, as in cos x·a^n."""
+    """Return whether a factor after a function could be misread as part of the argument: cos x a^n is printed as
+    cos x·a^n."""
     last, first = last_of(before), first_of(item)
     bare = isinstance(last, Applied) and not isinstance(last.argument, Fenced)
     letter = first.base if isinstance(first, Raised) else first

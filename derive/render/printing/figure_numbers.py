@@ -24,7 +24,7 @@ def equation_number(number: Number) -> str:
 
 
 def figure_number(number: int) -> str:
-    """Return the number of a figure between marks."""
+    """Return the number of a figure, enclosed in two HTML comments."""
     return f"<!--figure-->{number}<!--end of figure-->"
 
 

@@ -1,7 +1,7 @@
 """Hyphenation of documents that are not in English, with the dictionaries of Pyphen.
 
 TeX hyphenates words by the patterns of their language, and the engine that derive installs has only the English
-patterns. The words of the document with their possible hyphens are therefore written into the document.
+patterns. The document therefore contains a list of its words with their hyphenation points.
 """
 
 from __future__ import annotations

@@ -405,7 +405,8 @@ class MasslessRodKeys(Record):
     end: WrittenPlace = key("the other end", PLACE, called="to", required=True)
     length: Tree | None = key("its length", SCALAR)
     force: Word | None = key(
-        "the symbol of the force in the rod, positive in tension, if a coordinate allows the rod to change its length",
+        "the symbol of the force in the rod, positive in tension; needed if the coordinates alone do not keep the "
+        "length constant",
         TEXT,
     )
 

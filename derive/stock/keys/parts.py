@@ -93,7 +93,7 @@ class CentralKeys(Record):
 
 @dataclass(frozen=True)
 class ForceKeys(Record):
-    """The keys of one entry of `forces:`, a force at a place or a torque on an angle."""
+    """The keys of one entry of `forces:`, a force at a place, or a torque."""
 
     components: tuple[Tree, ...] = key("its components in space", COMPONENTS)
     at: WrittenPlace | None = key(
@@ -110,7 +110,7 @@ class ForceKeys(Record):
         TEXT,
     )
     torque: Tree | None = key("in place of `components` and `at`, a torque", SCALAR)
-    on: Tree | None = key("the angle on which the torque acts", SCALAR)
+    on: Tree | None = key("the angle that a positive torque tends to increase", SCALAR)
 
     def part(self, places: Places, letters: InLetters, bodies: Collection[str]) -> Deferred[Any]:
         if self.components and self.at and not (self.torque or self.on):

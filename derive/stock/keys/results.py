@@ -60,7 +60,7 @@ def _of_a_body(
     symbol: str | None = None,
 ) -> Quantity:
     if elsewhere is None:
-        rejected("wrong-argument", "`answer` asks about another point of a body and needs `solve: body`", None)
+        rejected("wrong-argument", "`answer` is for another point or axis of a body and needs `solve: body`", None)
     return elsewhere(answer, key, about, origin, direction, symbol)
 
 
