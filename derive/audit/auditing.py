@@ -11,7 +11,7 @@ from itertools import islice, pairwise, product
 from time import process_time
 
 import sympy
-from sympy import MatrixBase, Symbol
+from sympy import Expr, MatrixBase, Symbol
 
 from derive.audit.assumptions import Assumed
 from derive.audit.claims import Claim, Definition, Outcome, Verdict
@@ -25,6 +25,9 @@ from derive.audit.systems import (
     equations_of_motion,
     expanded,
     frequency_equations,
+    is_linear,
+    moving_letters,
+    rates,
     root_equation,
 )
 from derive.audit.time_limit import FAULTS, LimitReached, time_limited
@@ -268,7 +271,8 @@ class _Auditor:
         except RecursionError:
             claim.verdict = Verdict(Outcome.UNDECIDED, "this formula is nested too deeply")
         search = min(seconds, SECONDS_OF_SEARCH)
-        display, undecided = claim.row.block.display, claim.verdict.outcome is Outcome.UNDECIDED and not too_long
+        undecided = claim.verdict.outcome is Outcome.UNDECIDED and not too_long
+        display = claim.row.block.display or (undecided and self.is_general(claim))
         if claim.verdict.outcome is Outcome.DEFINES or (undecided and display):
             with suppress(LimitReached, RecursionError, *FAULTS), time_limited(search):
                 self.accuse_if_near(claim, claim.verdict)
@@ -297,12 +301,18 @@ class _Auditor:
     def conditions_here(self, claim: Claim) -> frozenset[int]:
         """Return the conditions of the sentence before a display that hold in a row: "with `r = l`, this becomes".
 
-        A row that contains the letter is about other instants: "the energy at `x = 0` is conserved"."""
+        A row that contains the letter is about other instants: "the energy at `x = 0` is conserved". Conditions of
+        equilibrium hold in rows of the same part without rates.
+        """
         written = {each.identity for each in letters_in(claim.left, claim.right)}
-        conditions = [self.claims[each] for each in self.known.sentence & self.known.conditions]
-        return frozenset(each.number for each in conditions if written.isdisjoint(
+        conditions = [self.claims[each] for each in self.known.sentence & self.known.conditions - self.known.at_rest]
+        here = {each.number for each in conditions if written.isdisjoint(
             letter.identity for letter in letters_in(each.left)
-        ))  # fmt: skip
+        )}  # fmt: skip
+        if any(each.dots for each in letters_in(claim.left, claim.right)):
+            return frozenset(here)
+        part = claim.row.block.part
+        return frozenset(here | {each for each in self.known.at_rest if self.claims[each].row.block.part == part})
 
     def explain(self, claim: Claim) -> None:
         """Remember the values of letters that the sentence after this display gives."""
@@ -471,7 +481,7 @@ class _Auditor:
             return
         if any(isinstance(each, Int) for side in sides for each in side.walk()):
             return  # a letter of an integrand may depend on the variable of integration
-        in_sentence = not claim.is_step and not claim.row.block.display
+        in_sentence = not claim.is_step and not claim.row.block.display and not self.is_general(claim)
         if verdict.outcome is Outcome.DEFINES and claim.values[0] in self.known.definitions:
             self.doubt(verdict, self.change_of_value(claim))  # it may have another value in another part or case
             return
@@ -500,6 +510,15 @@ class _Auditor:
         verdict.because = f"it does not follow from {because}, but would with one change"
         verdict.suggestion = suggestion_of(edit)
         verdict.why_plausible, verdict.span = WHY[edit.kind], edit.span
+
+    def is_general(self, claim: Claim) -> bool:
+        """Whether an equation with rates in a sentence has several terms and no words that may name a special case."""
+        if claim.values is None or claim.is_step or claim.row.block.display or claim.row.block.cues & SPECIAL:
+            return False
+        if any(isinstance(each, MatrixBase) for each in claim.values) or self.may_be_special(claim):
+            return False
+        value = sympy.expand(claim.values[0] - claim.values[1])
+        return len(sympy.Add.make_args(value)) > 1 and any(map(self.known.is_rate, value.free_symbols))
 
     def doubt(self, verdict: Verdict, edit: Edit | None) -> None:
         """Leave a row undecided that may be a special case, or may contain a slip."""
@@ -626,7 +645,7 @@ class _Auditor:
             return near.of_root(right_node, at_root[0], at_root[1])
         if letter is not None and (edit := self.near_motion(claim, near, right_node, letter)):
             return edit
-        near.linear = Cue.APPROXIMATE in claim.row.block.cues
+        near.linear = Cue.APPROXIMATE in claim.row.block.cues or self.is_linear(claim)
         edit = near.of_claim(left_node, right_node, letter, claim.is_step)
         return None if edit is not None and claim.is_step and self.repeats_a_side(claim, edit.node) else edit
 
@@ -913,7 +932,8 @@ class _Auditor:
     def is_condition(self, claim: Claim, verdict: Verdict) -> bool:
         """Whether a formula in a sentence may hold in one case or at one instant only."""
         if verdict.outcome in (Outcome.HOLDS, Outcome.APPROXIMATES):
-            return bool(self.known.conditions & set(verdict.given))
+            general = self.known.at_rest if claim.row.block.display else set()  # a root of a condition is a value
+            return bool((self.known.conditions - general) & set(verdict.given))
         if claim.row.block.display or claim.number in self.explained:
             return False
         if verdict.outcome is not Outcome.DEFINES or claim.values is None:
@@ -923,7 +943,40 @@ class _Auditor:
             return True
         if value.is_Symbol and claim.index + 1 < len(claim.statement.relations):
             return True  # `theta = phi = 0`
+        if moving_letters(set(self.known.new_letters(value.free_symbols)), self.meaning):
+            return False  # `r = r_0 + eta` introduces another coordinate
         return any(letter in equation.free_symbols for equation, _ in self.known.equations)
+
+    def is_linear(self, claim: Claim) -> bool:
+        assert claim.values is not None
+        left, right = claim.values
+        return isinstance(left, Expr) and isinstance(right, Expr) and is_linear(left - right, self.meaning)
+
+    def is_equilibrium(self, claim: Claim) -> bool:
+        """Whether an equation contains one coordinate and no rates, although earlier rows contain rates of this
+        coordinate: it holds at an equilibrium only."""
+        if claim.values is None or claim.relation != "=" or isinstance(claim.values[0], Symbol | MatrixBase):
+            if claim.values is None or claim.values[0] not in self.meaning.derivatives:
+                return False
+        if isinstance(claim.values[1], MatrixBase):
+            return False
+        value, _ = expanded(self.known, claim.values[0] - claim.values[1], sure=True)
+        changing = moving_letters(value.free_symbols, self.meaning)
+        if len(changing) != 1 or self.meaning.symbols[changing[0]].dots:
+            return False
+        rates = {replace(self.meaning.symbols[changing[0]], dots=dots) for dots in (1, 2)}
+        return any(self.meaning.symbol(each) in self.known.seen for each in rates)
+
+    def is_constant_length(self, claim: Claim) -> bool:
+        """Whether the text calls a letter constant that is a sum of coordinates: `l = x + 2 y`."""
+        assert claim.values is not None
+        letter, value = claim.values
+        if Cue.CONSTANT not in claim.row.block.cues or not isinstance(letter, Symbol) or isinstance(value, MatrixBase):
+            return False
+        moving = moving_letters(value.free_symbols, self.meaning)
+        if not moving or moving_letters({letter}, self.meaning) or any(self.known.is_rate(each) for each in moving):
+            return False
+        return all(sympy.diff(value, each).is_number for each in moving)
 
     def remember(self, claim: Claim, believed: bool = False) -> None:
         """Remember what a claim gives to the rows that follow: definitions, an equation or a bound."""
@@ -931,9 +984,12 @@ class _Auditor:
             return
         if self.is_special_case(claim):
             return
-        self.known.seen |= claim.values[0].free_symbols | claim.values[1].free_symbols
         if self.is_condition(claim, claim.verdict):
             self.known.conditions.add(claim.number)
+        elif self.is_equilibrium(claim):
+            self.known.conditions.add(claim.number)
+            self.known.at_rest.add(claim.number)
+        self.known.seen |= claim.values[0].free_symbols | claim.values[1].free_symbols
         if claim.relation not in ("=", ":="):
             start = claim
             while start.before is not None:
@@ -946,6 +1002,8 @@ class _Auditor:
         if claim.row.block.display and claim.verdict.outcome is Outcome.DEFINES and isinstance(left, Symbol):
             self.known.named.add(left)
         number = claim.number
+        for rate in rates(claim.values[1], self.meaning, self.known) if self.is_constant_length(claim) else ():
+            self.known.state(rate, number)
         first = claim
         while first.before is not None:
             first = first.before
