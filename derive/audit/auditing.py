@@ -512,13 +512,17 @@ class _Auditor:
         verdict.why_plausible, verdict.span = WHY[edit.kind], edit.span
 
     def is_general(self, claim: Claim) -> bool:
-        """Whether an equation with rates in a sentence has several terms and no words that may name a special case."""
+        """Whether a sentence states an equation that always holds: it is not the value of a letter without rates, and
+        no words near it may name a special case."""
         if claim.values is None or claim.is_step or claim.row.block.display or claim.row.block.cues & SPECIAL:
             return False
         if any(isinstance(each, MatrixBase) for each in claim.values) or self.may_be_special(claim):
             return False
-        value = sympy.expand(claim.values[0] - claim.values[1])
-        return len(sympy.Add.make_args(value)) > 1 and any(map(self.known.is_rate, value.free_symbols))
+        left, right = claim.values
+        value = sympy.expand(left - right)
+        is_value = isinstance(left, Symbol) or right.is_number
+        has_rates = any(map(self.known.is_rate, value.free_symbols))
+        return len(sympy.Add.make_args(value)) > 1 and (has_rates or not is_value)
 
     def doubt(self, verdict: Verdict, edit: Edit | None) -> None:
         """Leave a row undecided that may be a special case, or may contain a slip."""
@@ -593,12 +597,17 @@ class _Auditor:
                 continue
             if not self.letters_behind(earlier) & wanted:
                 continue
-            if undecided and earlier.row.block.part != claim.row.block.part:
+            if undecided and earlier.row.block.part != claim.row.block.part and not self.is_motion(earlier):
                 continue  # a later part may be about another case
             tried += 1
             edit = self.near_edit(earlier, self.known_without(earlier, claim))
             found += [Fix(claim, earlier, edit)] if edit is not None else []
         return found
+
+    def is_motion(self, claim: Claim) -> bool:
+        """Whether a display states an equation of motion, which holds in later parts, too."""
+        letters = letters_in(claim.left, claim.right)
+        return claim.row.block.display and any(each.dots == 2 for each in letters)
 
     def may_be_changed(self, claim: Claim) -> bool:
         if claim.verdict is None or claim.verdict.outcome not in (Outcome.DEFINES, Outcome.UNDECIDED) or claim.is_step:
@@ -701,7 +710,7 @@ class _Auditor:
             between = self.claims[formula.number + 1 : claim.number]
             used = any(each.verdict and formula.number in each.verdict.given for each in between)
             of_same = formula.values is not None and claim.values is not None and formula.values[0] == claim.values[0]
-            if used or not of_same:
+            if used or not of_same or formula.verdict.outcome is Outcome.HOLDS:
                 later = []
             if later:
                 because = f"line {claim.row.line} gives another value, and later rows follow only from that value"
@@ -737,7 +746,10 @@ class _Auditor:
                 break
             if each.row.block.display or each.values is None or each.row is claim.row:
                 continue
-            if each.relation not in ("=", ":=") or each.values[1].is_number or isinstance(each.values[1], Symbol):
+            right = each.values[1]
+            if each.relation not in ("=", ":=") or right.is_number:
+                return True
+            if isinstance(right, Symbol) and not self.known.is_rate(right):
                 return True
         return False
 
@@ -929,8 +941,10 @@ class _Auditor:
         simple = isinstance(left, Symbol) and left in self.known.seen and isinstance(right, sympy.Expr)
         return bool(simple and not block.display and Cue.GIVEN in block.cues and right.as_coeff_Mul()[1].is_Symbol)
 
-    def is_condition(self, claim: Claim, verdict: Verdict) -> bool:
+    def is_condition(self, claim: Claim, verdict: Verdict, believed: bool = False) -> bool:
         """Whether a formula in a sentence may hold in one case or at one instant only."""
+        if believed and self.is_general(claim):
+            return False
         if verdict.outcome in (Outcome.HOLDS, Outcome.APPROXIMATES):
             general = self.known.at_rest if claim.row.block.display else set()  # a root of a condition is a value
             return bool((self.known.conditions - general) & set(verdict.given))
@@ -984,7 +998,7 @@ class _Auditor:
             return
         if self.is_special_case(claim):
             return
-        if self.is_condition(claim, claim.verdict):
+        if self.is_condition(claim, claim.verdict, believed):
             self.known.conditions.add(claim.number)
         elif self.is_equilibrium(claim):
             self.known.conditions.add(claim.number)
