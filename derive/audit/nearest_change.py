@@ -136,8 +136,9 @@ class Nearness:
             return None
         wanted = expand(expanded(self.known, difference, sure=True)[0])
         count = len(Add_.make_args(wanted))
-        if count < 2 or not any(map(self.known.is_rate, difference.free_symbols)):
-            return None  # at rest, the terms with rates are missing
+        if count < 2:
+            return None
+        rates = any(map(self.known.is_rate, difference.free_symbols))
         for each in equations_of(self.known, self.meaning, sure=True, written=self.written):
             terms = Add_.make_args(expand(each.value))
             if len(terms) != count + 1 or len(terms) > MOST_TERMS_OF_EQUATION:
@@ -147,6 +148,8 @@ class Nearness:
                 if any(map(self.is_rate, ratio.free_symbols)):
                     continue
                 lost = expand(wanted - ratio * each.value)
+                if not rates and not lost.free_symbols <= wanted.free_symbols:
+                    continue  # at rest, or in another special case, terms are missing
                 if not lost.is_Add and lost != 0 and -lost in map(expand, (ratio * other for other in terms)):
                     return -lost
         return None

@@ -282,13 +282,14 @@ def motion(known: Known, meaning: Meaning) -> Iterator[tuple[Expr, tuple[int, ..
 
 
 def motion_of(place: Value, value: Value, meaning: Meaning) -> dict[Symbol, Expr]:
-    """Return a coordinate and its first two rates with their values for a motion x(t); nothing for other values."""
+    """Return a coordinate and its first two rates with their values for a motion x(t), or the rate and its own rate for
+    a speed x'(t); nothing for other values."""
     letter = meaning.symbols.get(place) if isinstance(place, Symbol) else None
     time = next((each for each in value.free_symbols if each.name == "t"), None)
-    if letter is None or letter.dots or time is None or isinstance(value, MatrixBase):
+    if letter is None or letter.dots > 1 or time is None or isinstance(value, MatrixBase):
         return {}
-    rates = [meaning.symbol(replace(letter, dots=dots)) for dots in range(3)]
-    return {rate: sympy.diff(value, time, dots) if dots else value for dots, rate in enumerate(rates)}
+    rates = [meaning.symbol(replace(letter, dots=dots)) for dots in range(letter.dots, 3)]
+    return {rate: sympy.diff(value, time, order) if order else value for order, rate in enumerate(rates)}
 
 
 def equations_of_motion(place: Value, value: Value, meaning: Meaning, known: Known) -> list[tuple[Expr, int]]:
@@ -299,7 +300,7 @@ def equations_of_motion(place: Value, value: Value, meaning: Meaning, known: Kno
         for each, number in known.equations[-LAST_EQUATIONS:]
         if number not in known.conditions
         and each.free_symbols & rates
-        and not any(map(known.is_rate, each.free_symbols - rates))
+        and not any(map(known.is_rate, each.free_symbols - rates - {place}))
     ]
 
 
