@@ -22,6 +22,7 @@ from derive.audit.knowledge import ASSUMED, Known
 from derive.audit.nearest_change import Nearness, letters_in, terms_in
 from derive.audit.slips import WHY, Edit, nearest_edit
 from derive.audit.systems import (
+    difference_of_energies,
     equations_of_motion,
     expanded,
     frequency_equations,
@@ -249,6 +250,7 @@ class _Auditor:
         self.explain(claim)
         self.known.sentence = self.claims_of_sentence(claim)
         self.known.here = self.conditions_here(claim)
+        self.state_lagrangian(claim)
         if claim.right is None or (claim.left is None and claim.before is None):
             claim.verdict = Verdict(Outcome.UNREADABLE, claim.fault or "this is not read")
             return
@@ -313,6 +315,18 @@ class _Auditor:
             return frozenset(here)
         part = claim.row.block.part
         return frozenset(here | {each for each in self.known.at_rest if self.claims[each].row.block.part == part})
+
+    def state_lagrangian(self, claim: Claim) -> None:
+        """State L = T - U before the first display that gives a value to the Lagrangian L without T and U."""
+        left = claim.left
+        if not claim.row.block.display or claim.before is not None or not isinstance(left, Letter) or left.base != "L":
+            return
+        symbol, found = self.meaning.symbol(replace(left, dots=0)), difference_of_energies(self.known)
+        letters = {each.base for each in letters_in(claim.right)}
+        if left.sub or left.dots or left.marks or letters & set("TKUV") or found is None:
+            return
+        if symbol not in self.known.definitions:
+            self.known.state(symbol - found[0], found[1])
 
     def explain(self, claim: Claim) -> None:
         """Remember the values of letters that the sentence after this display gives."""
@@ -520,7 +534,7 @@ class _Auditor:
             return False
         left, right = claim.values
         value = sympy.expand(left - right)
-        is_value = isinstance(left, Symbol) or right.is_number
+        is_value = left.as_base_exp()[0].is_Symbol or right.is_number
         has_rates = any(map(self.known.is_rate, value.free_symbols))
         return len(sympy.Add.make_args(value)) > 1 and (has_rates or not is_value)
 
@@ -602,7 +616,22 @@ class _Auditor:
             tried += 1
             edit = self.near_edit(earlier, self.known_without(earlier, claim))
             found += [Fix(claim, earlier, edit)] if edit is not None else []
-        return found
+        return found or self.lost_before(claim)
+
+    def lost_before(self, claim: Claim) -> list[Fix]:
+        """Return a term of the right side of a step that an earlier value of a letter on its left side has lost."""
+        assert claim.values is not None
+        if not claim.is_step or claim.right is None:
+            return []
+        terms = terms_in([claim.right], self.shown)
+        for earlier in reversed(self.claims[: claim.number]):
+            if not self.may_be_changed(earlier) or earlier.statement is claim.statement or earlier.values is None:
+                continue
+            if scope_of(self.document, earlier.row) == self.scope and earlier.values[0] in claim.values[0].free_symbols:
+                edit = self.near_edit(earlier, self.known_without(earlier, claim), terms)
+                if edit is not None:
+                    return [Fix(claim, earlier, edit)]
+        return []
 
     def is_motion(self, claim: Claim) -> bool:
         """Whether a display states an equation of motion, which holds in later parts, too."""
@@ -634,8 +663,11 @@ class _Auditor:
         finally:
             self.known = kept
 
-    def near_edit(self, claim: Claim, known: Known) -> Edit | None:
-        """Return one change of a side after which a claim would follow from other rows; None if no change is found."""
+    def near_edit(self, claim: Claim, known: Known, lost: list[Node] | None = None) -> Edit | None:
+        """Return one change of a side after which a claim would follow from other rows; None if no change is found.
+
+        lost   terms that the claim may have lost
+        """
         left_side = self.last_good_side(claim)
         if claim.right is None or left_side is None or claim.values is None:
             return None
@@ -645,7 +677,7 @@ class _Auditor:
         letter = claim.values[0] if isinstance(claim.values[0], Symbol) and not claim.is_step else None
         letters = self.with_other_indices(letters_in(left_node, right_node))
         letters += self.lost_letters(claim, letters) if known is self.known else []
-        terms = self.terms_before(claim) if known is self.known and not self.may_be_special(claim) else None
+        terms = self.terms_before(claim) if known is self.known and not self.may_be_special(claim) else lost
         near = Nearness(
             self.meaning, known, [each for each in letters if letter is None or self.meaning.symbol(each) != letter],
             self.shown, known is not self.known, terms=terms,

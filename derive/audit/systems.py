@@ -228,21 +228,30 @@ def _before(claim: int, known: Known) -> Known:
 
 
 def _lagrangians(known: Known, last: int) -> list[tuple[Expr, int]]:
-    """Return the last values of each letter L, or T - U if the document speaks of Lagrange and states no L."""
-    energies: dict[str, Definition] = {}
+    """Return the last values of each letter L, or T - U if the document states no L."""
     found = []
     for symbol, definitions in list(known.definitions.items()):
         letter = known.meaning.symbols.get(symbol)
-        if letter is None or letter.dots or letter.primes:
-            continue
-        if letter.base == "L":
+        if letter is not None and letter.base == "L" and not letter.dots and not letter.primes:
             found += [(each.value, each.claim) for each in reversed(definitions[-last:])]
-        elif letter.base in ("T", "K", "U", "V") and not letter.sub and definitions[-1].claim not in known.conditions:
+    difference = difference_of_energies(known)
+    return found or ([difference] if difference is not None else [])
+
+
+def difference_of_energies(known: Known) -> tuple[Expr, int] | None:
+    """Return T - U and the number of the later of the two claims; None unless the document speaks of Lagrange and gives
+    values to both energies."""
+    energies: dict[str, Definition] = {}
+    for symbol, definitions in list(known.definitions.items()):
+        letter = known.meaning.symbols.get(symbol)
+        if letter is None or letter.dots or letter.primes or letter.sub or definitions[-1].claim in known.conditions:
+            continue
+        if letter.base in ("T", "K", "U", "V"):
             energies["kinetic" if letter.base in "TK" else "potential"] = definitions[-1]
-    if found or len(energies) < 2 or not known.meaning.facts.has_lagrange:
-        return found
+    if len(energies) < 2 or not known.meaning.facts.has_lagrange:
+        return None
     kinetic, potential = energies["kinetic"], energies["potential"]
-    return [(kinetic.value - potential.value, max(kinetic.claim, potential.claim))]
+    return kinetic.value - potential.value, max(kinetic.claim, potential.claim)
 
 
 def _lagrange_equations(value: Expr, meaning: Meaning) -> Iterator[tuple[Symbol, Expr]]:
@@ -315,7 +324,11 @@ def root_equation(letter: Symbol, meaning: Meaning, known: Known) -> tuple[Symbo
     plain = meaning.symbol(replace(named, sub=""))
     of_others = {each.claim for symbol, found in known.definitions.items() if symbol != plain for each in found}
     for value, number in reversed(known.equations[-MOST_EQUATIONS:]):
-        if plain not in value.free_symbols or number in known.conditions - known.at_rest | of_others or value.has(Integral):
+        if (
+            plain not in value.free_symbols
+            or number in known.conditions - known.at_rest | of_others
+            or value.has(Integral)
+        ):
             continue
         found, _ = expanded(known, value, plain, sure=True)
         if any(map(known.is_rate, found.free_symbols)):
