@@ -11,7 +11,7 @@ from itertools import islice, pairwise, product
 from time import process_time
 
 import sympy
-from sympy import MatrixBase, Symbol
+from sympy import Expr, MatrixBase, Symbol
 
 from derive.audit.assumptions import Assumed
 from derive.audit.claims import Claim, Definition, Outcome, Verdict
@@ -22,9 +22,13 @@ from derive.audit.knowledge import ASSUMED, Known
 from derive.audit.nearest_change import Nearness, letters_in, terms_in
 from derive.audit.slips import WHY, Edit, nearest_edit
 from derive.audit.systems import (
+    difference_of_energies,
     equations_of_motion,
     expanded,
     frequency_equations,
+    is_linear,
+    moving_letters,
+    rates,
     root_equation,
 )
 from derive.audit.time_limit import FAULTS, LimitReached, time_limited
@@ -246,6 +250,7 @@ class _Auditor:
         self.explain(claim)
         self.known.sentence = self.claims_of_sentence(claim)
         self.known.here = self.conditions_here(claim)
+        self.state_lagrangian(claim)
         if claim.right is None or (claim.left is None and claim.before is None):
             claim.verdict = Verdict(Outcome.UNREADABLE, claim.fault or "this is not read")
             return
@@ -268,7 +273,8 @@ class _Auditor:
         except RecursionError:
             claim.verdict = Verdict(Outcome.UNDECIDED, "this formula is nested too deeply")
         search = min(seconds, SECONDS_OF_SEARCH)
-        display, undecided = claim.row.block.display, claim.verdict.outcome is Outcome.UNDECIDED and not too_long
+        undecided = claim.verdict.outcome is Outcome.UNDECIDED and not too_long
+        display = claim.row.block.display or (undecided and self.is_general(claim))
         if claim.verdict.outcome is Outcome.DEFINES or (undecided and display):
             with suppress(LimitReached, RecursionError, *FAULTS), time_limited(search):
                 self.accuse_if_near(claim, claim.verdict)
@@ -300,12 +306,29 @@ class _Auditor:
         `r = l`, this becomes".
 
         A condition such as `x = 0` is not used in a row that contains `x`, because the row is about other instants:
-        "the energy at `x = 0` is conserved"."""
+        "the energy at `x = 0` is conserved". Conditions of equilibrium hold in rows of the same part without rates.
+        """
         written = {each.identity for each in letters_in(claim.left, claim.right)}
-        conditions = [self.claims[each] for each in self.known.sentence & self.known.conditions]
-        return frozenset(each.number for each in conditions if written.isdisjoint(
+        conditions = [self.claims[each] for each in self.known.sentence & self.known.conditions - self.known.at_rest]
+        here = {each.number for each in conditions if written.isdisjoint(
             letter.identity for letter in letters_in(each.left)
-        ))  # fmt: skip
+        )}  # fmt: skip
+        if any(each.dots for each in letters_in(claim.left, claim.right)):
+            return frozenset(here)
+        part = claim.row.block.part
+        return frozenset(here | {each for each in self.known.at_rest if self.claims[each].row.block.part == part})
+
+    def state_lagrangian(self, claim: Claim) -> None:
+        """State L = T - U before the first display that gives a value to the Lagrangian L without T and U."""
+        left = claim.left
+        if not claim.row.block.display or claim.before is not None or not isinstance(left, Letter) or left.base != "L":
+            return
+        symbol, found = self.meaning.symbol(replace(left, dots=0)), difference_of_energies(self.known)
+        letters = {each.base for each in letters_in(claim.right)}
+        if left.sub or left.dots or left.marks or letters & set("TKUV") or found is None:
+            return
+        if symbol not in self.known.definitions:
+            self.known.state(symbol - found[0], found[1])
 
     def explain(self, claim: Claim) -> None:
         """Remember the values that the words after this display give to letters: `..., where rho = M/V`."""
@@ -474,7 +497,7 @@ class _Auditor:
             return
         if any(isinstance(each, Int) for side in sides for each in side.walk()):
             return  # a letter of an integrand may depend on the variable of integration
-        in_sentence = not claim.is_step and not claim.row.block.display
+        in_sentence = not claim.is_step and not claim.row.block.display and not self.is_general(claim)
         if verdict.outcome is Outcome.DEFINES and claim.values[0] in self.known.definitions:
             # the letter may have another value in another part or case
             self.doubt(verdict, self.change_of_value(claim))
@@ -504,6 +527,19 @@ class _Auditor:
         verdict.because = f"it does not follow from {because}, but would with one change"
         verdict.suggestion = suggestion_of(edit)
         verdict.why_plausible, verdict.span = WHY[edit.kind], edit.span
+
+    def is_general(self, claim: Claim) -> bool:
+        """Whether a sentence states an equation that always holds: it is not the value of a letter without rates, and
+        no words near it may name a special case."""
+        if claim.values is None or claim.is_step or claim.row.block.display or claim.row.block.cues & SPECIAL:
+            return False
+        if any(isinstance(each, MatrixBase) for each in claim.values) or self.may_be_special(claim):
+            return False
+        left, right = claim.values
+        value = sympy.expand(left - right)
+        is_value = left.as_base_exp()[0].is_Symbol or right.is_number
+        has_rates = any(map(self.known.is_rate, value.free_symbols))
+        return len(sympy.Add.make_args(value)) > 1 and (has_rates or not is_value)
 
     def doubt(self, verdict: Verdict, edit: Edit | None) -> None:
         """Leave a row undecided if one change would make it follow: it contains a slip or is a special case."""
@@ -578,12 +614,32 @@ class _Auditor:
                 continue
             if not self.letters_behind(earlier) & wanted:
                 continue
-            if undecided and earlier.row.block.part != claim.row.block.part:
+            if undecided and earlier.row.block.part != claim.row.block.part and not self.is_motion(earlier):
                 continue  # a later part may be about another case
             tried += 1
             edit = self.near_edit(earlier, self.known_without(earlier, claim))
             found += [Fix(claim, earlier, edit)] if edit is not None else []
-        return found
+        return found or self.lost_before(claim)
+
+    def lost_before(self, claim: Claim) -> list[Fix]:
+        """Return a term of the right side of a step that an earlier value of a letter on its left side has lost."""
+        assert claim.values is not None
+        if not claim.is_step or claim.right is None:
+            return []
+        terms = terms_in([claim.right], self.shown)
+        for earlier in reversed(self.claims[: claim.number]):
+            if not self.may_be_changed(earlier) or earlier.statement is claim.statement or earlier.values is None:
+                continue
+            if scope_of(self.document, earlier.row) == self.scope and earlier.values[0] in claim.values[0].free_symbols:
+                edit = self.near_edit(earlier, self.known_without(earlier, claim), terms)
+                if edit is not None:
+                    return [Fix(claim, earlier, edit)]
+        return []
+
+    def is_motion(self, claim: Claim) -> bool:
+        """Whether a display states an equation of motion, which holds in later parts, too."""
+        letters = letters_in(claim.left, claim.right)
+        return claim.row.block.display and any(each.dots == 2 for each in letters)
 
     def may_be_changed(self, claim: Claim) -> bool:
         if claim.verdict is None or claim.verdict.outcome not in (Outcome.DEFINES, Outcome.UNDECIDED) or claim.is_step:
@@ -610,8 +666,11 @@ class _Auditor:
         finally:
             self.known = kept
 
-    def near_edit(self, claim: Claim, known: Known) -> Edit | None:
-        """Return one change of a side after which a claim would follow from other rows; None if no change is found."""
+    def near_edit(self, claim: Claim, known: Known, lost: list[Node] | None = None) -> Edit | None:
+        """Return one change of a side after which a claim would follow from other rows; None if no change is found.
+
+        lost   terms that the claim may have lost
+        """
         left_side = self.last_good_side(claim)
         if claim.right is None or left_side is None or claim.values is None:
             return None
@@ -621,7 +680,7 @@ class _Auditor:
         letter = claim.values[0] if isinstance(claim.values[0], Symbol) and not claim.is_step else None
         letters = self.with_other_indices(letters_in(left_node, right_node))
         letters += self.lost_letters(claim, letters) if known is self.known else []
-        terms = self.terms_before(claim) if known is self.known and not self.may_be_special(claim) else None
+        terms = self.terms_before(claim) if known is self.known and not self.may_be_special(claim) else lost
         near = Nearness(
             self.meaning, known, [each for each in letters if letter is None or self.meaning.symbol(each) != letter],
             self.shown, known is not self.known, terms=terms,
@@ -630,7 +689,7 @@ class _Auditor:
             return near.of_root(right_node, at_root[0], at_root[1])
         if letter is not None and (edit := self.near_motion(claim, near, right_node, letter)):
             return edit
-        near.linear = Cue.APPROXIMATE in claim.row.block.cues
+        near.linear = Cue.APPROXIMATE in claim.row.block.cues or self.is_linear(claim)
         edit = near.of_claim(left_node, right_node, letter, claim.is_step)
         return None if edit is not None and claim.is_step and self.repeats_a_side(claim, edit.node) else edit
 
@@ -686,7 +745,7 @@ class _Auditor:
             between = self.claims[formula.number + 1 : claim.number]
             used = any(each.verdict and formula.number in each.verdict.given for each in between)
             of_same = formula.values is not None and claim.values is not None and formula.values[0] == claim.values[0]
-            if used or not of_same:
+            if used or not of_same or formula.verdict.outcome is Outcome.HOLDS:
                 later = []
             if later:
                 because = f"line {claim.row.line} gives another value, and later rows follow only from that value"
@@ -723,7 +782,10 @@ class _Auditor:
                 break
             if each.row.block.display or each.values is None or each.row is claim.row:
                 continue
-            if each.relation not in ("=", ":=") or each.values[1].is_number or isinstance(each.values[1], Symbol):
+            right = each.values[1]
+            if each.relation not in ("=", ":=") or right.is_number:
+                return True
+            if isinstance(right, Symbol) and not self.known.is_rate(right):
                 return True
         return False
 
@@ -918,10 +980,13 @@ class _Auditor:
         simple = isinstance(left, Symbol) and left in self.known.seen and isinstance(right, sympy.Expr)
         return bool(simple and not block.display and Cue.GIVEN in block.cues and right.as_coeff_Mul()[1].is_Symbol)
 
-    def is_condition(self, claim: Claim, verdict: Verdict) -> bool:
+    def is_condition(self, claim: Claim, verdict: Verdict, believed: bool = False) -> bool:
         """Whether a claim may hold in one case or at one instant only, as a formula in a sentence may."""
+        if believed and self.is_general(claim):
+            return False
         if verdict.outcome in (Outcome.HOLDS, Outcome.APPROXIMATES):
-            return bool(self.known.conditions & set(verdict.given))
+            general = self.known.at_rest if claim.row.block.display else set()  # a root of a condition is a value
+            return bool((self.known.conditions - general) & set(verdict.given))
         if claim.row.block.display or claim.number in self.explained:
             return False
         if verdict.outcome is not Outcome.DEFINES or claim.values is None:
@@ -931,7 +996,40 @@ class _Auditor:
             return True
         if value.is_Symbol and claim.index + 1 < len(claim.statement.relations):
             return True  # `theta = phi = 0`
+        if moving_letters(set(self.known.new_letters(value.free_symbols)), self.meaning):
+            return False  # `r = r_0 + eta` introduces another coordinate
         return any(letter in equation.free_symbols for equation, _ in self.known.equations)
+
+    def is_linear(self, claim: Claim) -> bool:
+        assert claim.values is not None
+        left, right = claim.values
+        return isinstance(left, Expr) and isinstance(right, Expr) and is_linear(left - right, self.meaning)
+
+    def is_equilibrium(self, claim: Claim) -> bool:
+        """Whether an equation contains one coordinate and no rates, although earlier rows contain rates of this
+        coordinate: it holds at an equilibrium only."""
+        if claim.values is None or claim.relation != "=" or isinstance(claim.values[0], Symbol | MatrixBase):
+            if claim.values is None or claim.values[0] not in self.meaning.derivatives:
+                return False
+        if isinstance(claim.values[1], MatrixBase):
+            return False
+        value, _ = expanded(self.known, claim.values[0] - claim.values[1], sure=True)
+        changing = moving_letters(value.free_symbols, self.meaning)
+        if len(changing) != 1 or self.meaning.symbols[changing[0]].dots:
+            return False
+        rates = {replace(self.meaning.symbols[changing[0]], dots=dots) for dots in (1, 2)}
+        return any(self.meaning.symbol(each) in self.known.seen for each in rates)
+
+    def is_constant_length(self, claim: Claim) -> bool:
+        """Whether the text calls a letter constant that is a sum of coordinates: `l = x + 2 y`."""
+        assert claim.values is not None
+        letter, value = claim.values
+        if Cue.CONSTANT not in claim.row.block.cues or not isinstance(letter, Symbol) or isinstance(value, MatrixBase):
+            return False
+        moving = moving_letters(value.free_symbols, self.meaning)
+        if not moving or moving_letters({letter}, self.meaning) or any(self.known.is_rate(each) for each in moving):
+            return False
+        return all(sympy.diff(value, each).is_number for each in moving)
 
     def remember(self, claim: Claim, believed: bool = False) -> None:
         """Remember what a claim gives to the rows that follow: definitions, an equation or a bound."""
@@ -939,9 +1037,12 @@ class _Auditor:
             return
         if self.is_special_case(claim):
             return
-        self.known.seen |= claim.values[0].free_symbols | claim.values[1].free_symbols
-        if self.is_condition(claim, claim.verdict):
+        if self.is_condition(claim, claim.verdict, believed):
             self.known.conditions.add(claim.number)
+        elif self.is_equilibrium(claim):
+            self.known.conditions.add(claim.number)
+            self.known.at_rest.add(claim.number)
+        self.known.seen |= claim.values[0].free_symbols | claim.values[1].free_symbols
         if claim.relation not in ("=", ":="):
             start = claim
             while start.before is not None:
@@ -954,6 +1055,8 @@ class _Auditor:
         if claim.row.block.display and claim.verdict.outcome is Outcome.DEFINES and isinstance(left, Symbol):
             self.known.named.add(left)
         number = claim.number
+        for rate in rates(claim.values[1], self.meaning, self.known) if self.is_constant_length(claim) else ():
+            self.known.state(rate, number)
         first = claim
         while first.before is not None:
             first = first.before

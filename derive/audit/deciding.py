@@ -26,10 +26,13 @@ from derive.audit.systems import (
     equations_of,
     expanded,
     frequency_equations,
+    is_linear,
     lagrange_equations,
+    linearised,
     motion_of,
     root_equation,
     vanishes,
+    with_small_factors,
 )
 from derive.documents.layout import Cue
 from derive.documents.meaning import Meaning, Meaningless, Value
@@ -257,25 +260,37 @@ class Decision:
                 return values
         return None
 
-    def system(self, sure: bool, rates_only: bool = False) -> System | None:
+    def system(self, sure: bool, rates_only: bool = False, linear: bool = False) -> System | None:
         if not self.thorough or self.claim.relation not in ("=", ":=") or isinstance(self.difference, MatrixBase):
             return None
         letter = next((each for each in (self.left, self.right) if isinstance(each, Symbol)), None)
         equations = equations_of(self.known, self.meaning, letter, sure)
+        if linear:
+            equations = with_small_factors(linearised(equations, self.meaning), self.meaning)
         wanted, _ = expanded(self.known, self.difference, letter, sure)
         if not equations or wanted.has(Integral) or not wanted.free_symbols or sympy.count_ops(wanted) > 600:
             return None
         return System(wanted, equations, self.meaning, self.known, letter, rates_only)
 
     def together(self) -> Verdict | None:
-        for sure in (True, False):
-            system = self.system(sure)
+        kinds = [(True, False), (False, False)] + [(True, True)] * self.may_be_linearised()
+        for sure, linear in kinds:
+            system = self.system(sure, linear=linear)
             used = system.follows() if system is not None else None
             if used is not None:
                 names = list(dict.fromkeys(each.name for each in used))
                 given = tuple(dict.fromkeys(number for each in used for number in each.claims))
-                return Verdict(Outcome.HOLDS, f"it follows from {' and '.join(names)}", given)
+                because = f"it follows from {' and '.join(names)}"
+                if linear:
+                    return Verdict(Outcome.APPROXIMATES, f"{because}, to first order in the letters that change", given)
+                return Verdict(Outcome.HOLDS, because, given)
         return None
+
+    def may_be_linearised(self) -> bool:
+        """Whether the text speaks of an approximation, or an equation of motion has terms of the first order only."""
+        if isinstance(self.difference, MatrixBase) or Cue.APPROXIMATE in self.cues:
+            return Cue.APPROXIMATE in self.cues
+        return is_linear(self.difference, self.meaning)
 
     def follows_already(self, letter: Symbol, value: Expr) -> int | None:
         """Return the number of the claim from whose equation the value of a letter follows, or None."""

@@ -34,6 +34,7 @@ class Known:
     slips: dict[Symbol, Definition] = field(default_factory=dict)  # the values that wrong rows give
     seen: set[Symbol] = field(default_factory=set)  # the letters of earlier claims
     conditions: set[int] = field(default_factory=set)  # claims that may hold in one case or at one instant only
+    at_rest: set[int] = field(default_factory=set)  # conditions that hold at an equilibrium only
     sentence: frozenset[int] = frozenset()  # claims in the sentence before the current display
     here: frozenset[int] = frozenset()  # conditions in `sentence` for letters that the current row does not contain
     named: set[Symbol] = field(default_factory=set)  # letters to which a display gave a value
@@ -50,6 +51,8 @@ class Known:
             for each in self.definitions.get(other, [])
         ):
             return  # the inverse of an earlier definition: x' = p/m after p = m x'
+        for each in self.leading_to(symbol, value):
+            del self.definitions[each]  # after l = m r^2 w and r_0 = l^2/b, the row r = r_0 + x makes l a constant
         if (own := self.computed(symbol)) is not None and symbol in self.meaning.derivatives:
             variables = {each for each, _ in self.meaning.derivatives[symbol][1]}
             if variables & own.value.free_symbols and not variables & value.free_symbols:
@@ -61,6 +64,16 @@ class Known:
         if (earlier := where.get(symbol)) and earlier[-1].part != new.part and earlier[-1].value != value:
             self.forget_derivatives(symbol)
         where.setdefault(symbol, []).append(new)
+
+    def leading_to(self, symbol: Symbol, value: Expr) -> set[Symbol]:
+        """Return the letters behind a value whose own definition contains a symbol."""
+        behind: set[Symbol] = set()
+        waiting = set(value.free_symbols)
+        while waiting:
+            behind |= waiting
+            found = [self.definitions[each][-1].value.free_symbols for each in waiting if each in self.definitions]
+            waiting = set().union(*found) - behind
+        return {s for s in behind if s in self.definitions and symbol in self.definitions[s][-1].value.free_symbols}
 
     def forget(self, claim: int) -> None:
         """Forget the value that a claim gives to a letter."""

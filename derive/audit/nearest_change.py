@@ -8,19 +8,19 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import islice
 
 from sympy import Add as Add_
-from sympy import Expr, Integer, Integral, Symbol, diff, expand, nan, oo, zoo
+from sympy import Expr, Integral, Symbol, expand
 
 from derive.audit.fingerprint import is_zero
 from derive.audit.knowledge import Known
 from derive.audit.numeric import NoNumber, Numbers, at, close
 from derive.audit.points import Surface
 from derive.audit.slips import Edit, edits_of_side, with_term
-from derive.audit.systems import OF_RATES, changing_letters, equations_of, expanded, motion_of
+from derive.audit.systems import OF_RATES, equations_of, expanded, linearised, motion_of
 from derive.audit.time_limit import FAULTS
 from derive.documents.meaning import Meaning, Meaningless
 from derive.documents.syntax import Add, Der, Fun, Letter, Node, Num, Root
@@ -51,7 +51,7 @@ class Nearness:
         """Return points where the earlier equations hold; `letter` is a letter whose own value is not used."""
         equations = equations_of(self.known, self.meaning, letter, sure=True, written=self.written)
         if self.linear:
-            equations = [replace(each, value=linearised(each.value, self.meaning)) for each in equations]
+            equations = linearised(equations, self.meaning)
         state = ("points", tuple(each.value for each in equations))
         if state not in self.known.kept:
             surface = Surface(equations, self.meaning).find(POINTS)
@@ -136,8 +136,9 @@ class Nearness:
             return None
         wanted = expand(expanded(self.known, difference, sure=True)[0])
         count = len(Add_.make_args(wanted))
-        if count < 2 or not any(map(self.known.is_rate, difference.free_symbols)):
-            return None  # the row may be about rest, where the terms with rates vanish
+        if count < 2:
+            return None
+        rates = any(map(self.known.is_rate, difference.free_symbols))
         for each in equations_of(self.known, self.meaning, sure=True, written=self.written):
             terms = Add_.make_args(expand(each.value))
             if len(terms) != count + 1 or len(terms) > MOST_TERMS_OF_EQUATION:
@@ -147,6 +148,8 @@ class Nearness:
                 if any(map(self.is_rate, ratio.free_symbols)):
                     continue
                 lost = expand(wanted - ratio * each.value)
+                if not rates and not lost.free_symbols <= wanted.free_symbols:
+                    continue  # at rest, or in another special case, terms are missing
                 if not lost.is_Add and lost != 0 and -lost in map(expand, (ratio * other for other in terms)):
                     return -lost
         return None
@@ -209,15 +212,6 @@ class Nearness:
 
 def _at_root(point: Numbers, letter: Symbol, value: complex) -> Callable[[Symbol], complex]:
     return lambda symbol: value if symbol == letter else point.basic(symbol)
-
-
-def linearised(value: Expr, meaning: Meaning) -> Expr:
-    """Return an expression to the first order in the letters that change with time; unchanged if it has no value where
-    they vanish."""
-    small = changing_letters(value.free_symbols, meaning)
-    at_zero = {each: Integer(0) for each in small}
-    terms = [value.subs(at_zero), *(each * diff(value, each).subs(at_zero) for each in small)]
-    return value if any(each.has(zoo, nan, oo) for each in terms) else expand(Add_(*terms))
 
 
 def letters_in(*sides: Node | None) -> list[Letter]:

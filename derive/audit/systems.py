@@ -11,7 +11,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import sympy
-from sympy import Expr, Integral, MatrixBase, Poly, Symbol
+from sympy import Expr, Integer, Integral, MatrixBase, Poly, Symbol
 
 from derive.audit.claims import Definition
 from derive.audit.fingerprint import CLOSE, is_zero
@@ -143,11 +143,22 @@ def changing_letters(symbols: set[Symbol], meaning: Meaning) -> tuple[Symbol, ..
     )
 
 
+def moving_letters(symbols: set[Symbol], meaning: Meaning) -> tuple[Symbol, ...]:
+    """Return the coordinates and rates among symbols: letters that the document writes with dots or as functions of
+    time."""
+    named = {each: meaning.symbols[each] for each in sorted(symbols, key=str) if each in meaning.symbols}
+    return tuple(each for each, letter in named.items() if letter.dots or meaning.facts.changes(letter))
+
+
 def rates(value: Expr, meaning: Meaning, known: Known) -> Iterator[Expr]:
     """Yield time derivatives of an equation."""
     letters = [meaning.symbols[each] for each in value.free_symbols if each in meaning.symbols]
     if any(each.dots >= 2 for each in letters) or any(each in meaning.derivatives for each in value.free_symbols):
         return
+    still = value.free_symbols - set(moving_letters(value.free_symbols, meaning))
+    defined = [known.definitions[each][-1].value for each in still if each in known.definitions]
+    if any(moving_letters(each.free_symbols, meaning) for each in defined):
+        return  # this letter changes, too, although the document never writes it with a dot
     time = next((s for s, letter in meaning.symbols.items() if letter.base == "t" and not letter.sub), None)
     time = time if time is not None else Symbol("t", positive=True)
     order = 1 if any(each.dots for each in letters) else 2
@@ -158,34 +169,89 @@ def rates(value: Expr, meaning: Meaning, known: Known) -> Iterator[Expr]:
         yield value
 
 
+def linearised(equations: Sequence[Equation], meaning: Meaning) -> list[Equation]:
+    """Return equations to the first order in the letters that change with time, and then their parts of order zero,
+    which vanish at an equilibrium. An equation without a value where the letters vanish is unchanged.
+    """
+    found, at_rest = [], []
+    for each in equations:
+        small = moving_letters(each.value.free_symbols, meaning)
+        at_zero = {letter: Integer(0) for letter in small}
+        rest = each.value.subs(at_zero)
+        terms = [letter * sympy.diff(each.value, letter).subs(at_zero) for letter in small]
+        if any(part.has(sympy.zoo, sympy.nan, sympy.oo) for part in (rest, *terms)):
+            found.append(each)
+            continue
+        found.append(replace(each, value=sympy.expand(sympy.Add(rest, *terms))))
+        if small and len(sympy.Add.make_args(sympy.expand(rest))) > 1:
+            at_rest.append(replace(each, value=rest))
+    return found + at_rest
+
+
+def is_linear(value: Expr, meaning: Meaning) -> bool:
+    """Whether an equation of motion has terms of the first order only in the letters that change with time."""
+    small = moving_letters(value.free_symbols, meaning)
+    if not any(meaning.symbols[each].dots == 2 for each in small):
+        return False
+    slopes = [sympy.diff(value, each) for each in small]
+    rest = sympy.expand(value - sympy.Add(*(each * slope for each, slope in zip(small, slopes, strict=True))))
+    return rest == 0 and not any(slope.free_symbols & set(small) for slope in slopes)
+
+
+def with_small_factors(equations: Sequence[Equation], meaning: Meaning) -> list[Equation]:
+    """Return equations, and the product of each equation at rest with each coordinate that changes with time."""
+    everywhere = set().union(*(each.value.free_symbols for each in equations)) if equations else set()
+    places = [s for s in moving_letters(everywhere, meaning) if not meaning.symbols[s].dots]
+    still = [each for each in equations if not moving_letters(each.value.free_symbols, meaning)]
+    return [*equations, *(replace(each, value=place * each.value) for each in still for place in places)]
+
+
 def lagrange_equations(known: Known, last: int = 1) -> list[tuple[Symbol, Expr, int]]:
     """Return Lagrange's equations of the last values that rows give to each letter L. Each equation is a tuple of its
     coordinate, its left side and the number of the claim."""
     found = []
     for unexpanded, claim in _lagrangians(known, last):
-        value, _ = expanded(known, unexpanded, sure=True)
+        value, _ = expanded(_before(claim, known), unexpanded, sure=True)
         if ("L", value) not in known.kept:
             known.kept["L", value] = list(_lagrange_equations(value, known.meaning))
         found += [(place, equation, claim) for place, equation in known.kept["L", value]]
     return found
 
 
+def _before(claim: int, known: Known) -> Known:
+    """Return what is known without the values that claims after the given one give to coordinates."""
+    moving = moving_letters(set(known.definitions), known.meaning)
+    later = {each for each in moving if known.definitions[each][-1].claim > claim}
+    if not later:
+        return known
+    return replace(known, definitions={s: found for s, found in known.definitions.items() if s not in later}, kept={})
+
+
 def _lagrangians(known: Known, last: int) -> list[tuple[Expr, int]]:
-    """Return the last values of each letter L, or T - U if the document speaks of Lagrange and states no L."""
-    energies: dict[str, Definition] = {}
+    """Return the last values of each letter L, or T - U if the document states no L."""
     found = []
     for symbol, definitions in list(known.definitions.items()):
         letter = known.meaning.symbols.get(symbol)
-        if letter is None or letter.dots or letter.primes:
-            continue
-        if letter.base == "L":
+        if letter is not None and letter.base == "L" and not letter.dots and not letter.primes:
             found += [(each.value, each.claim) for each in reversed(definitions[-last:])]
-        elif letter.base in ("T", "K", "U", "V") and not letter.sub and definitions[-1].claim not in known.conditions:
+    difference = difference_of_energies(known)
+    return found or ([difference] if difference is not None else [])
+
+
+def difference_of_energies(known: Known) -> tuple[Expr, int] | None:
+    """Return T - U and the number of the later of the two claims; None unless the document speaks of Lagrange and gives
+    values to both energies."""
+    energies: dict[str, Definition] = {}
+    for symbol, definitions in list(known.definitions.items()):
+        letter = known.meaning.symbols.get(symbol)
+        if letter is None or letter.dots or letter.primes or letter.sub or definitions[-1].claim in known.conditions:
+            continue
+        if letter.base in ("T", "K", "U", "V"):
             energies["kinetic" if letter.base in "TK" else "potential"] = definitions[-1]
-    if found or len(energies) < 2 or not known.meaning.facts.has_lagrange:
-        return found
+    if len(energies) < 2 or not known.meaning.facts.has_lagrange:
+        return None
     kinetic, potential = energies["kinetic"], energies["potential"]
-    return [(kinetic.value - potential.value, max(kinetic.claim, potential.claim))]
+    return kinetic.value - potential.value, max(kinetic.claim, potential.claim)
 
 
 def _lagrange_equations(value: Expr, meaning: Meaning) -> Iterator[tuple[Symbol, Expr]]:
@@ -225,13 +291,14 @@ def motion(known: Known, meaning: Meaning) -> Iterator[tuple[Expr, tuple[int, ..
 
 
 def motion_of(place: Value, value: Value, meaning: Meaning) -> dict[Symbol, Expr]:
-    """Return a coordinate and its first two rates with their values for a motion x(t); nothing for other values."""
+    """Return a coordinate and its first two rates with their values for a motion x(t), or the rate and its own rate for
+    a speed x'(t); nothing for other values."""
     letter = meaning.symbols.get(place) if isinstance(place, Symbol) else None
     time = next((each for each in value.free_symbols if each.name == "t"), None)
-    if letter is None or letter.dots or time is None or isinstance(value, MatrixBase):
+    if letter is None or letter.dots > 1 or time is None or isinstance(value, MatrixBase):
         return {}
-    rates = [meaning.symbol(replace(letter, dots=dots)) for dots in range(3)]
-    return {rate: sympy.diff(value, time, dots) if dots else value for dots, rate in enumerate(rates)}
+    rates = [meaning.symbol(replace(letter, dots=dots)) for dots in range(letter.dots, 3)]
+    return {rate: sympy.diff(value, time, order) if order else value for order, rate in enumerate(rates)}
 
 
 def equations_of_motion(place: Value, value: Value, meaning: Meaning, known: Known) -> list[tuple[Expr, int]]:
@@ -242,7 +309,7 @@ def equations_of_motion(place: Value, value: Value, meaning: Meaning, known: Kno
         for each, number in known.equations[-LAST_EQUATIONS:]
         if number not in known.conditions
         and each.free_symbols & rates
-        and not any(map(known.is_rate, each.free_symbols - rates))
+        and not any(map(known.is_rate, each.free_symbols - rates - {place}))
     ]
 
 
@@ -259,7 +326,11 @@ def root_equation(letter: Symbol, meaning: Meaning, known: Known) -> tuple[Symbo
     plain = meaning.symbol(replace(named, sub=""))
     of_others = {each.claim for symbol, found in known.definitions.items() if symbol != plain for each in found}
     for value, number in reversed(known.equations[-MOST_EQUATIONS:]):
-        if plain not in value.free_symbols or number in known.conditions | of_others or value.has(Integral):
+        if (
+            plain not in value.free_symbols
+            or number in known.conditions - known.at_rest | of_others
+            or value.has(Integral)
+        ):
             continue
         found, _ = expanded(known, value, plain, sure=True)
         if any(map(known.is_rate, found.free_symbols)):

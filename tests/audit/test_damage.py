@@ -270,6 +270,61 @@ def test_other_cases_are_not_accused(text: str) -> None:
     assert wrong(text) == []
 
 
+def test_an_equation_of_motion_is_linearised_about_its_equilibrium() -> None:
+    text = (
+        "The equation of motion is\n$$ m \\ddot r + k r - \\frac{b}{r^2} = 0. $$\nThe bead is at rest at $r_0$, where\n"
+        "$$ k r_0 - \\frac{b}{r_0^2} = 0. $$\nLet $r = r_0 + \\eta$. To first order in $\\eta$\n"
+        "$$ m \\ddot\\eta + \\frac{3 b}{r_0^3} \\eta = 0 $$"
+    )
+    assert [str(each.verdict.outcome) for each in audit(text).claims if each.verdict][-1] == "approximates"
+    (claim,) = wrong(text.replace("3 b", "2 b"))
+    assert claim.row.line == 6
+
+
+def test_an_equilibrium_is_not_the_motion() -> None:
+    text = (
+        "The equation of motion is\n$$ \\ddot r - s^2 r + g = 0. $$\n(b) At equilibrium\n$$ g - s^2 r = 0. $$\n"
+        "(c) A bead that is released at $r = b$ moves as\n$$ r = \\frac{g}{s^2} + (b - \\frac{g}{s^2}) \\cosh(s t) $$"
+    )
+    assert wrong(text) == []
+
+
+CONSTRAINT = "(b) The length of the string is constant, $l = x + y$, so\n$$ \\ddot y = -\\ddot x. $$\n"
+ELIMINATED = "Subtraction eliminates the tension: $m_1 \\ddot x - m_2 \\ddot y = (m_1 - m_2) g$."
+
+
+def test_an_equation_of_a_sentence_is_judged_like_a_display() -> None:
+    text = ATWOOD[: ATWOOD.index("and the string")] + CONSTRAINT + ELIMINATED
+    outcomes = [str(each.verdict.outcome) for each in audit(text).claims if each.verdict]
+    assert outcomes[-2:] == ["holds", "holds"]
+    for right, slip, line in (("(m_1 - m_2) g$", "(m_1 - 2 m_2) g$", 7), ("m_1 g - S", "m_1 g + S", 3)):
+        (claim,) = wrong(text.replace(right, slip))
+        assert claim.row.line == line
+
+
+def test_an_energy_that_lost_a_term_is_blamed() -> None:
+    text = LAGRANGIAN.replace("\\frac{1}{2} k x^2 $$", "\\frac{1}{2} k x^2 + m g x $$").replace(
+        "x^2. $$", "x^2 - m g x. $$"
+    )
+    assert wrong(text) == []
+    (claim,) = wrong(text.replace("k x^2 + m g x $$", "k x^2 $$"))
+    assert claim.row.line == 3
+
+
+def test_a_lagrangian_without_energies_is_compared_with_them() -> None:
+    text = LAGRANGIAN.replace("T - U = ", "")
+    assert wrong(text) == []
+    (claim,) = wrong(text.replace("- \\frac{1}{2} k x^2. $$", "- \\frac{1}{3} k x^2. $$"))
+    assert claim.row.line == 5
+
+
+def test_a_speed_is_compared_with_the_equation_of_motion() -> None:
+    text = "$$ a \\ddot\\phi = - \\mu g $$\n$$ \\dot\\phi = - \\frac{\\mu g t}{a} $$"
+    assert wrong(text) == []
+    (claim,) = wrong(text.replace("\\mu g t", "3 \\mu g t"))
+    assert claim.row.line == 2
+
+
 def test_damages_are_of_all_kinds() -> None:
     from random import Random
 

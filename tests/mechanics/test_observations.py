@@ -332,7 +332,7 @@ def test_a_charge_that_may_move_along_the_field_does_not_describe_a_circle(tmp_p
     ]
     text = edited(HELIX, *plane) if flat else HELIX
     page = rendered(course_with(tmp_path, text), "trial/one", only={"text"}).texts["text"]
-    assert ("circle" in page) is flat, page
+    assert ("circular motion" in page) is flat, page
 
 
 LEANING = (ROOT / "problems" / "library" / "rotation" / "leaning_rod.yaml").read_text(encoding="utf-8")
