@@ -74,7 +74,7 @@ def test_a_choice_replaces_the_value_of_the_file(tmp_path: Path) -> None:
         ("{particles.ring.mass: [m, 2*m]}", "has `particles.ring.mass`", "particles.ring.mass"),
         ("{b: 30..10 cm in steps of 1}", "a range must increase", "30..10 cm in steps of 1"),
         ("{b: 10..30 cm in steps of 0}", "with a positive step", "10..30 cm in steps of 0"),
-        ("{b: 10..30 cm in steps of 0.0001}", "has 2 to 10000 values", "10..30 cm in steps of 0.0001"),
+        ("{b: 10..30 cm in steps of 0.0001}", "must have 2 to 10000 values", "10..30 cm in steps of 0.0001"),
         ("{b: 10..29 cm in steps of 10}", "lead from 10 to 20 cm, not to 29 cm", "10..29 cm in steps of 10"),
         ("{b: 10..30 kg in steps of 10}", "must be a length, but `10 kg` is a mass", "10..30 kg in steps of 10"),
         ("{b: [20 cm, 30 mm, 2 s]}", "must be a length, but `2 s` is a time", "2 s"),
