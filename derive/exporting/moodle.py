@@ -1,8 +1,8 @@
 """Moodle XML: a category with one question for each part of each problem.
 
-With `stack`, a part whose answers are formulas becomes a question of the plugin STACK, which compares formulas with
-Maxima. A part whose answers are numbers becomes a numerical question or, with several answers, a cloze question. Other
-parts become essays. The worked solution is the general feedback of the question.
+With `stack`, a part whose answers are all formulas that can be compared becomes a question of the plugin STACK, which
+compares formulas with Maxima. A part whose answers are numbers becomes a numerical question or, with several answers, a
+cloze question. Other parts become essay questions. The worked solution is the general feedback of the question.
 
 Source of the formats: Moodle documentation, "Moodle XML format"; STACK documentation, "Authoring".
 """
@@ -79,7 +79,7 @@ def _numerical(answer: Answer) -> str:
 
 
 def _marks(part: Part) -> list[int]:
-    """Return the marks of the numbers of a cloze question: whole numbers, whose sum is the mark of the question."""
+    """Return the mark of each field of a cloze question; the marks are whole numbers."""
     count, points = len(part.answers), part.points or 0
     whole = int(points) if points >= count and points == int(points) else count
     return [whole // count + (number < whole % count) for number in range(count)]

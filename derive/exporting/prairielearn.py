@@ -1,7 +1,7 @@
 """Questions of PrairieLearn: a folder for each part, with `info.json`, `question.html` and `server.py`, in a ZIP file.
 
-A number has a field that compares significant figures. A formula has a field for symbolic input if its letters are
-plain names: PrairieLearn then compares the formulas. A part with any other answer is graded by a person.
+A number has a field that compares significant figures. A formula of letters, numbers and common functions has a field
+for symbolic input, so that PrairieLearn can compare it. A part with any other answer is graded by a person.
 
 Source of the format: PrairieLearn documentation, "Question configuration" and "Elements".
 """

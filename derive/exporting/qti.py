@@ -1,8 +1,8 @@
 """A package of QTI 2.1: one assessment item for each part of each problem, a test, and a manifest, in a ZIP file.
 
-A part whose answers are numbers becomes an item with a field for each number. A number is right if it agrees with the
-result to half a unit of the last printed digit. In the items of other parts, the student writes a text. The worked
-solution is the modal feedback of the item.
+A part whose answers are numbers becomes an item with a field for each number. A number is right if it differs from
+the result by at most half a unit of the last printed digit. In the items of other parts, the student writes a text. The
+worked solution is the modal feedback of the item.
 
 Source of the format: IMS Global, *Question and Test Interoperability Assessment Test, Section and Item Information
 Model*, version 2.1.

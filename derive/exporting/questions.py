@@ -22,7 +22,7 @@ class Answer:
     """One answer of a part, or one component of an answer that is a vector.
 
     sympy    the formula in plain SymPy text, in the letters of the problem
-    names    the names, such as mu, that the page uses in the formula, each with the formula for which it stands
+    names    the defined quantities in the formula, such as mu, each with its own formula
     latex    the formula in TeX
     value    the number, or None; `unit` is its unit, and `figures` is the number of its significant figures
     """
@@ -61,8 +61,8 @@ class Answer:
 
 @dataclass(frozen=True)
 class Part:
-    """A question with its answers; the texts are HTML with formulas in TeX. `cited` has the equations of other parts
-    that the solution cites."""
+    """A question with its answers; the texts are HTML with formulas in TeX. `cited` contains those equations
+    of other parts that the solution cites."""
 
     label: str
     points: float | None

@@ -1,4 +1,4 @@
-"""Grades the answers that students typed: how each was read, whether it is right, and what is wrong with it.
+"""Grades the answers that students typed, and says how each was read, whether it is right, and what is wrong with it.
 
     names          the symbols of a problem, and which symbol a typed letter means
     typed_text     the text of an answer, tidied: ASCII and Unicode as LaTeX, split into statements

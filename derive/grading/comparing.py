@@ -59,7 +59,8 @@ def verdict_on_value(read: Read, target: Target, key: Key) -> Verdict:
 
 
 def aligned(value: Any, right: Any) -> Any:
-    """Replace symbols of a typed expression by symbols of the right answer that differ only in their assumptions."""
+    """Replace each symbol of a typed expression by the symbol of the right answer with the same name, if there is
+    one."""
     own = {each.name: each for each in right.free_symbols}
     put_in = {each: own[each.name] for each in value.free_symbols if own.get(each.name, each) != each}
     return value.xreplace(put_in) if put_in else value
@@ -154,7 +155,7 @@ class _Comparison:
         within = sum(Rational(1, 2) / Integer(10) ** digits / abs(each) for each, digits in inexact if each)
         if factor_is_near(answer, full, within):
             figures = min(_figures(each, digits) for each, digits in inexact)
-            return Verdict(Outcome.EQUAL, f"its decimals are rounded numbers of at least {figures} figures")
+            return Verdict(Outcome.EQUAL, f"its decimals are rounded to at least {figures} figures")
         return None
 
     def other_letters(self, value: Expr, right: Expr) -> Verdict | None:
@@ -181,7 +182,7 @@ class _Comparison:
         return None
 
     def turned(self, value: Expr, right: Expr) -> Verdict | None:
-        """Judge a formula that is equal if one or two coordinates are positive in the opposite sense.
+        """Judge a formula that would be equal if one or two coordinates were positive in the opposite sense.
 
         This is a convention for an angle if only its sense relative to another coordinate matters. Otherwise the
         problem fixes the sense, and the answer has wrong signs.
@@ -420,8 +421,8 @@ class _Comparison:
         return verdict_of_entries(entries, right.shape)
 
     def one_for_all(self, value: Expr, right: MatrixBase) -> Verdict:
-        """Judge a single number that is given for a matrix. It may be right for a multiple of the unit matrix, and for
-        a vector with only one nonzero component."""
+        """Judge a single value that is typed in place of a matrix. The value may be right for a multiple of the unit
+        matrix, and for a vector with only one nonzero component."""
         rows, columns = right.shape
         if rows == columns and are_surely_equal(value, right[0, 0]) and right == right[0, 0] * sympy.eye(rows):
             return Verdict(Outcome.CONVENTION, "as the moment about every axis")

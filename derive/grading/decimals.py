@@ -107,7 +107,8 @@ def verdict_on_number(
 
     is_decimal   whether it is a single decimal number, which may be rounded; any other number is compared exactly
     figures      the number of its significant figures
-    places       the number of its digits after the point: its last digit counts 10^-places; negative for 1.5e3
+    places       the number of its digits after the point; the unit of its last digit is 10^-places (places = -2 for
+                 1.5e3)
     """
     dimension = target.dimension or NUMBER
     if unit is not None and unit.dimension != dimension:

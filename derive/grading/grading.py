@@ -238,7 +238,7 @@ class _Grading:
         return found
 
     def put_in_right(self, statement: _Statement, name: Symbol, value: Read) -> _Statement:
-        """Return a statement in which a letter is replaced by its value on the right side only."""
+        """Replace a letter by its value; in an equation, only in the right side."""
         new = self.put_in(statement, name, value)
         if statement.read is None or new.read is None or statement.is_single or new.read == statement.read:
             return new
@@ -260,8 +260,9 @@ class _Grading:
         return replace(statement, read=replace(statement.read, sides=sides))
 
     def without_left_side(self, written: TypedStatement, texts: tuple[str, ...]) -> _Statement | None:
-        """Return the right side alone, because a name such as `d²U/dy²|(y = y_0)` before the equals sign is not read;
-        None if the right side is not read either."""
+        """Return the right side of an equation whose left side cannot be read, such as `d²U/dy²|(y = y_0)`. Return None
+        if the right side cannot be read either, if the statement is not a single equation, or if a relation is asked
+        for."""
         if written.relations != ("=",) or any(target.is_relation for target in self.part.targets):
             return None
         try:
@@ -272,7 +273,8 @@ class _Grading:
         return _Statement(ReadStatement((right,), (), written), texts[1:], ())
 
     def head_of(self, written: TypedStatement) -> tuple[Read, ...]:
-        """Return the readings of the left side of a statement such as `v = 3 m/s`; () if it cannot be read."""
+        """Return the readings of the left side of a statement such as `v = 3 m/s`; () if this side is missing or
+        unreadable."""
         if len(written.sides) < 2:
             return ()
         try:
@@ -282,7 +284,7 @@ class _Grading:
 
     @staticmethod
     def of_each_sign(statement: _Statement) -> list[_Statement]:
-        """Return a statement with plus or minus as two statements."""
+        """Return a statement with ± as two statements, and any other statement alone."""
         if statement.read is None or not any(
             _has_two_signs(read.value) for side in statement.read.sides for read in side
         ):
@@ -613,8 +615,8 @@ class _Grading:
         return statement.name
 
     def as_components(self, statement: _Statement, target: Target) -> Verdict | None:
-        """Judge a vector of decimals, with or without a unit; None if none is typed, or if all components are zero
-        without a unit.
+        """Judge a vector of decimals, with or without a unit. Return None if no such vector is typed, or if all its
+        components are zero and no unit is typed.
         """
         text = statement.texts[-1]
         number, unit = next(with_units(text), (text, None))

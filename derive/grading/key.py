@@ -103,7 +103,7 @@ class Key:
 
     steps         each step of the derivation with its value, to recognise an answer to another question
     definitions   the value of each symbol that a step introduces
-    allowed       defined symbols that an answer may contain, such as beta = b/2m
+    allowed       defined symbols that an answer may contain, such as beta = b/(2 m)
     points        whether the problem has points; without points each part counts 1
     momenta       the values of momenta that are also variables of the Hamiltonian
     """
@@ -196,8 +196,8 @@ def key_of(
 
 
 def _with_points(targets: list[Target], points: Mapping[str, Fraction] | None) -> Iterator[Target]:
-    """Divide the points of a part among its answers: in proportion to the points that the rubric gives to the answers,
-    or equally if the rubric gives no points to one of the answers."""
+    """Divide the points of a part among its answers in proportion to the points of the answers in the rubric. If there
+    is no rubric, or if an answer has no points there, divide them equally."""
     if points is None:
         yield from (replace(each, own=Fraction(1, len(targets)), whole=Fraction(1, len(targets))) for each in targets)
         return

@@ -63,8 +63,8 @@ class Names:
         return {base for base, *_ in self.symbols if len(base) > 1}
 
     def meant(self, letter: Letter) -> tuple[Symbol | None, str]:
-        """Return the symbol that a letter means, or None; and the name of this symbol if the problem writes it with
-        another letter, or else ""."""
+        """Return the symbol that a letter means, or None. Also return the name of this symbol if the problem writes it
+        with another letter; otherwise ""."""
         sub, dots = bare(letter.sub), letter.dots + letter.primes
         if (found := self._at(letter.base, sub, dots)) is not None:
             return found, ""

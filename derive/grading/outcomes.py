@@ -70,8 +70,8 @@ def share_of(outcome: Outcome, own: Fraction, whole: Fraction) -> Fraction:
     whole   the points of the answer and of the steps before it
 
     A right answer earns all points. An answer with one slip (a sign, a factor, a term) earns the points of the steps
-    before it, or half of the points if the rubric has no such steps. An answer that holds only for special values earns
-    a quarter of the points. Every other answer earns nothing.
+    before it, or half of the points if the rubric has no such steps. An answer that is right only for special values
+    earns a quarter of the points. Every other answer earns nothing.
     """
     if outcome in RIGHT:
         return whole

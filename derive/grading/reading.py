@@ -1,7 +1,7 @@
 """The statements of an answer as expressions in the symbols of the problem.
 
-A formula may have several readings, such as `g/2l`; each is kept, the likeliest first. A letter that the problem does
-not have stays in the expression and is reported.
+A formula such as `g/2l` may have several readings; the likeliest are kept, the best one first. A letter that the
+problem does not have stays in the expression and is reported.
 """
 
 from __future__ import annotations
@@ -182,8 +182,8 @@ class _InProblem(Meaning):
         return super().of_lone_letter(letter, by, partial)
 
     def rate_of(self, symbol: Symbol, by: Symbol, partial: bool) -> Expr:
-        """Return the derivative of a symbol. A total derivative by time is a rate if the symbol changes with time, else
-        0. Any other derivative is 1 if the two symbols are equal, else 0."""
+        """Return the derivative of a symbol. A total derivative with respect to time is a rate if the symbol changes
+        with time, else 0. Any other derivative is 1 if the two symbols are equal, else 0."""
         if by != TIME or partial:
             return Integer(1) if symbol == by else Integer(0)
         letter = self.symbols.get(symbol)

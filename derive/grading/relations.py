@@ -110,8 +110,8 @@ def give_the_same(typed: list[Relation], goals: list[Relation]) -> bool:
 
 
 def _renamed(typed: Relation, goal: Relation, comparison: _Comparison) -> Verdict | None:
-    """Accept another name for one letter of the problem in an inequality; None if no letter of the problem makes it
-    right.
+    """Accept an inequality that has another name for one letter of the problem. Return None if no letter of the problem
+    makes the inequality right.
     """
     unknown = [each for each in comparison.read.unknown if each in typed.free_symbols]
     if goal.operator == "=" or len(unknown) != 1 or len(goal.free_symbols) < 2:  # equations are compared term by term
@@ -230,8 +230,8 @@ def _inhomogeneous(comparison: _Comparison, typed: Relation) -> Verdict | None:
 
 
 def _scalings(given: Expr, wanted: Expr) -> list[Expr]:
-    """Return at most four multiples of an equation in which at least one term equals a term of the right equation,
-    first the multiples with the most equal terms.
+    """Return at most four multiples of an equation, the one with the most terms of the right equation first. Each
+    multiple has at least one such term.
     """
     terms = [sympy.Add.make_args(each) for each in (given, wanted)]
     found: dict[Expr, Expr] = {}

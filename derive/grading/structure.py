@@ -1,7 +1,7 @@
 """The slip in a wrong formula (a factor, a sign or a term), and special values for which the formula is right.
 
-Each possible slip is tested by `equal`. The values at a few points serve only to exclude slips that the answer cannot
-have.
+A slip is found by exact division, or confirmed by `equal`. The values at a few points only exclude slips that the
+answer cannot have, or suggest a factor.
 """
 
 from __future__ import annotations
@@ -115,7 +115,7 @@ def _of_terms(answer: Expr, right: Expr, shown: Shown) -> Iterator[Found]:
 
 
 def swaps(ratio: Expr) -> bool:
-    """Whether numerator and denominator contain functions, as if one function was written for another."""
+    """Whether numerator and denominator of a ratio contain functions, as if one function was written for another."""
     above, below = ratio.as_numer_denom()
     return bool(above.atoms(Function) and below.atoms(Function))
 

@@ -22,7 +22,7 @@ _RUNS = ("=", "+", "-", "@", "\t", "\r", "|", "%")
 class Row:
     """One answer, with all cells of its row and its line number in the file.
 
-    is_split   whether the row has more cells than the first line, so that its answer may be cut
+    is_split   whether the row has text beyond the last column of the first line; its answer may then be cut
     """
 
     line: int
@@ -60,7 +60,7 @@ class Cells:
 
 
 def read_cells(content: bytes, path: str) -> Cells:
-    """Return the cells of a CSV file in UTF-8 with `,`, `;` or tabs, without its empty rows."""
+    """Return the cells of a CSV file in UTF-8, without its empty rows. The separator is `,`, `;` or a tab."""
     if len(content) > LARGEST:
         raise Rejected(Complaint("too-large", f"`{path}` has more than {LARGEST // 1_000_000} million bytes"))
     try:
@@ -84,7 +84,7 @@ def read_cells(content: bytes, path: str) -> Cells:
                 raise Rejected(Complaint("too-large", f"`{path}` has more than {MOST_ROWS} rows"))
     except csv.Error:
         shown = "".join(text.splitlines(keepends=True)[line - 1 : line]).rstrip()
-        help_line = "put a cell with a quotation mark in quotes, and write each quotation mark in it twice"
+        help_line = "put quotes around each cell that contains a quotation mark, and write this mark twice"
         message = "the quotation marks of this row do not match"
         raise Rejected(Complaint("csv", message, Place(path, line, 1, shown, 1), help=help_line)) from None
     return Cells(heading, first, delimiter, rows)

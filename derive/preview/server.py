@@ -1,7 +1,7 @@
 """A server for this machine alone: the pages of one set, and their changes while the set is edited.
 
     /, /index.html    the page that the preview was started for
-    /NAME.html        the page of another problem of the set
+    /NAME.html        the page of the problem NAME of the set
     /NAME/events      messages to the page NAME.html: its new content, or its errors
 
 Nothing else is served, and no file can be requested by its name. A request that does not use a local name of this

@@ -105,7 +105,7 @@ def test_a_motion_that_was_followed_is_told_with_its_grade(block: Block) -> None
     found = explanation_of(step, problem, solved.derivation, solved.values, WORDS)
     assert found.facts()["witnesses"] == [{"detail": "12 states", "grade": "sampled"}]
     (checked,) = (lines for heading, lines in told_of(found, WORDS) if heading == "checked")
-    assert "numerically calculated motion" in "".join(node.text for node in checked[-1] if isinstance(node, Text))
+    assert "followed numerically" in "".join(node.text for node in checked[-1] if isinstance(node, Text))
     assert explained(block, "torque").facts()["witnesses"] == []
 
 
