@@ -18,7 +18,7 @@ from derive.course.yaml_tree import Scalar, Tree
 from derive.errors import Faults, Place, rejected
 
 ANY = Range(-oo, oo)
-EXAMPLE = "such as `l < r_0`, or `a < b < c`"
+EXAMPLE = "write a relation such as `l < r_0` or `a < b < c`"
 _MARK = re.compile(r"<=|>=|[<>=≤≥!]+")
 
 
@@ -67,7 +67,9 @@ def _side(piece: Scalar, constant: Mapping[str, Declared], moving: set[str]) -> 
         rejected("relation", "one side of this relation is missing", piece.place, EXAMPLE)
     if varies := next((name for name in re.findall(r"[A-Za-z_][A-Za-z0-9_]*", text) if name in moving), None):
         message = f"`assume` is about constant letters, but `{varies}` varies"
-        help_line = "write the range of a coordinate where you declare it, such as `theta: angle in (0, pi/2)`"
+        help_line = (
+            "to restrict a coordinate, write its range where you declare it, such as `theta: angle in (0, pi/2)`"
+        )
         rejected("changes", message, piece.place, help_line)
     return read_expression(piece, constant)
 

@@ -111,7 +111,7 @@ class Placement:
 
     @property
     def adds(self) -> tuple[MarkKeys, ...]:
-        """Return the other marks, such as points and lines, whose places the problem states."""
+        """Return the marks that do not belong to a body, such as points and lines. The problem states their places."""
         return tuple(mark for mark in self.marks if mark.mark not in MARKS_OF_BODY)
 
     @property

@@ -335,7 +335,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
 
     @answer
     def energy_function(self) -> Quantity:
-        """Return the energy function h of the Lagrangian or, by another method, the energy T + U."""
+        """Return the energy function h of the Lagrangian or, if the method is not `lagrange`, the energy T + U."""
         return energy_function(self.lagrangian) if self.method == LAGRANGE else total_energy(self.system)
 
     @answer

@@ -492,7 +492,7 @@ def test_curves_without_a_common_unit_share_no_axis(tmp_path: Path) -> None:
     product = ("    top: {", "    double: {value: path_x*t, symbol: w}\n    top: {")
     text = edited(THROW, product, ("plot: [path_x, path_z]", "curves: [path_x, double]"))
     (found,) = complaints(tmp_path, text)
-    assert found.message == "`double` is in m s and `path_x` in m, so they share no axis"
+    assert found.message == "`double` is in m s and `path_x` in m, so they need different axes"
 
 
 @pytest.mark.long

@@ -422,7 +422,7 @@ class _EntryReader:
         return stated or printed
 
     def slip(self, written: EntryKeys, formula: Formula | None) -> Entry | None:
-        """Read an erratum that is only quoted and corrected; None if its correction cannot be read."""
+        """Return an entry for an erratum that is only quoted and corrected; None if its correction cannot be quoted."""
         assert written.erratum is not None
         right, place = written.erratum.right, written.places.get("quote") or written.places[""]
         instead = right.text if isinstance(right, Scalar) else ""

@@ -38,7 +38,7 @@ def rest_with_forces(
     if len(unknown) > len(still):
         names = ", ".join(s.name for s in unknown)
         message = f"{len(still)} static equations do not determine the {len(unknown)} forces {names}"
-        help_line = "leave out a force: describe one of the contacts without friction"
+        help_line = "describe fewer constraint forces: for example, a contact without friction, or fewer joints"
         raise Rejected(Complaint("constrained", message, help=help_line))
     if len(unknown) != len(still):
         unknown = [q.symbol for q in coordinates.values() if q.symbol in present] + unknown

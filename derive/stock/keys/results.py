@@ -93,7 +93,7 @@ class Surroundings:
     surfaces: Mapping[str, Any] = field(default_factory=dict)
 
     def one(self, name: Word) -> Quantity:
-        """Return the answer with a name; reject a name that denotes several answers or none."""
+        """Return the answer that a name denotes; reject a name that denotes several answers or none."""
         found = self.answers(name)
         found = tuple(quantity for quantity in found if quantity.key == name) or found
         if len(found) != 1:
@@ -224,7 +224,8 @@ def _surface(result: Result, key: ResultKey, name: Word, around: Surroundings) -
 
 
 def _plain_values(result: Result, key: ResultKey, found: Mapping[Word, Expr], around: Surroundings) -> dict[str, Expr]:
-    """Return the values with plain texts as names, because a call with positions in the file cannot be stored."""
+    """Return the values under plain strings. A `Word` also has its position in the file, and a call of a verb with
+    such names cannot be stored."""
     return {str(name): value for name, value in found.items()}
 
 
