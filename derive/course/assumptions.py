@@ -35,7 +35,7 @@ def read_assumed(node: Tree, constant: Mapping[str, Declared], moving: Iterable[
     """Return the relations of one entry; a chain gives several.
 
     constant   the letters that a relation may contain
-    moving     coordinates and rates, which a relation may not contain
+    moving     the names of coordinates, functions of the time and their rates, which a relation may not contain
     """
     if not isinstance(node, Scalar) or node.empty:
         rejected("wrong-type", "`assume` needs a list of relations between letters", node.place, EXAMPLE)

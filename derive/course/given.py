@@ -354,7 +354,7 @@ def _asked_of_kind(kind: str, count: int) -> Asked:
 
 
 class _LettersForNumbers:
-    """Finds letters for numbers: a declared letter of the kind that is not yet used, or else a new letter."""
+    """Finds letters for numbers: an unused declared letter of the right kind, or else a new letter."""
 
     def __init__(self, symbols: Mapping[str, Declared], used: set[str]):
         self.symbols = dict(symbols)

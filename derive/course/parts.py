@@ -182,7 +182,7 @@ class Question(Record):
         DETAIL,
     )
     forms: Table[str | None, AnswerForm] = key(
-        "unit and significant figures of the answers, one form for all answers or one for each answer's key",
+        "unit and significant figures of the answers, as one form for all answers, or as one form under the key of each answer",
         Reader({"anyOf": [_FORM.schema, _FORM_BY_ANSWER.schema]}, _forms, dict),
         called="form",
     )
@@ -236,8 +236,8 @@ _LISTED = list_of(Reader(_PART.schema, _part), "a list of parts")
 
 
 def _parts(node: Tree, name: str, faults: Faults) -> tuple[Question, ...] | None:
-    """Return the parts that can be read; None if the value is not a list of parts. Report a part that needs more detail than the
-    next part."""
+    """Return the parts that can be read; None if the value is not a list of parts. Report a part that needs more
+    detail than the next part."""
     parts = _LISTED.read(node, name, faults)
     for part, following in pairwise(parts or ()):
         if not following.detail.shows(part.detail):

@@ -55,7 +55,9 @@ def _grade_one(arguments: argparse.Namespace) -> int:
         if of_class is None:
             message = f"no class of `{problem_id.partition('/')[0]}` has been made here, so its codes are unknown"
             raise Misused(
-                Complaint("no-class", message, help="give the roster of the class with `--roster`, and the seed")
+                Complaint(
+                    "no-class", message, help="give the roster of the class with `--roster`, and its seed with `--seed`"
+                )
             )
         if of_class.code_of(arguments.student) is None:
             raise Misused(of_class.unknown(arguments.student))
