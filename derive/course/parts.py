@@ -182,7 +182,7 @@ class Question(Record):
         DETAIL,
     )
     forms: Table[str | None, AnswerForm] = key(
-        "unit and significant figures of the answers, as one form for all answers, or as one form under the key of each answer",
+        "unit and significant figures of the answers: one form for all answers, or one form under the key of each answer",
         Reader({"anyOf": [_FORM.schema, _FORM_BY_ANSWER.schema]}, _forms, dict),
         called="form",
     )
@@ -224,7 +224,7 @@ def _part(node: Tree, name: str, faults: Faults) -> Question | None:
             "points",
             message,
             part.places["rubric"],
-            help="give the part at least these points, or lower the points of its steps",
+            help="give the part more points, or lower the points of these steps",
         )
     if part and part.detail is not Level.BRIEF and not part.extra:
         message = "a part that is not `extra` is shown at every detail"

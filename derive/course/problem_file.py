@@ -384,9 +384,7 @@ class LimitKeys(Record):
         "letters and their values in a special case, such as `{b: a, c: a}`",
         mapping_of(FORMULA, "a mapping such as `{b: a, c: a}`"),
     )
-    step: Word | None = key(
-        "in place of `of`: the key of a step of the script that is itself the limiting or special case", TEXT
-    )
+    step: Word | None = key("in place of `of`: the key of a step that is itself the limiting or special case", TEXT)
     stated: Formula | None = key("the result in that case; a wrong result is an error", FORMULA, called="is")
     known: Word | None = key("the key of a step that has the same result by another derivation", TEXT)
     why: Prose | None = key("words added to the sentence, in prose: `as for a disc`", PROSE)

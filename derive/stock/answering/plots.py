@@ -107,7 +107,7 @@ class Plotted:
                 "wrong-argument",
                 message,
                 written[0].place,
-                "write one quantity for each axis; write `1` for an axis that keeps its unit",
+                "`1` leaves an axis in its unit; only a phase portrait has a third quantity, for its levels",
             )
         per, keys = [], list(found.keys)
         for divisor, unit in zip(written, units, strict=True):

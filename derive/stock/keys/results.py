@@ -324,7 +324,7 @@ def verb_of(written: Record) -> ResultVerb:
 
 
 def _check_verb(written: Record, name: str, faults: Faults) -> None:
-    """Check that a result has one verb, and the keys that this verb needs but no others."""
+    """Check that a result has one verb, the keys that this verb needs, and no key that it does not use."""
     there = [*written_in(written)]
     found = [each for each in there if each in RESULT_VERBS]
     if len(found) != 1:
