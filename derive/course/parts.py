@@ -182,7 +182,7 @@ class Question(Record):
         DETAIL,
     )
     forms: Table[str | None, AnswerForm] = key(
-        "unit and significant figures of the answers: one form for all answers, or one form under the key of each answer",
+        "unit and significant figures of the answers: one form for all answers, or one form under each answer's key",
         Reader({"anyOf": [_FORM.schema, _FORM_BY_ANSWER.schema]}, _forms, dict),
         called="form",
     )
