@@ -86,8 +86,8 @@ def narrowed(ranges: Mapping[Symbol, Range], assumed: Sequence[Assumed]) -> dict
 
 
 def _bound(relation: Relation) -> tuple[Symbol, Expr, bool, bool] | None:
-    """Return a letter, its numerical bound, whether this is an upper bound, and whether the letter may equal the bound;
-    None if the relation does not compare a letter with a number."""
+    """Return a letter, its numerical bound, whether the bound is an upper bound, and whether the letter may equal it.
+    Return None if the relation does not compare a letter with a number."""
     (left, right), less = relation.sides, relation.operator[0] == "<"
     closed = relation.operator.endswith("=")
     if isinstance(left, Symbol) and right.is_number:

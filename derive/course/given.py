@@ -284,8 +284,8 @@ def _direction(node: Tree, wanted: Wanted, symbols: Mapping[str, Declared]) -> D
 def value_in_prose(
     name: str, node: Tree, symbols: Mapping[str, Declared], measured: Iterable[Measured]
 ) -> Given | None:
-    """Return a value of a description for prose that mentions it, as in `<<body.sides>>`; None if the value is neither
-    a word nor a formula nor a list of formulas.
+    """Return a value of a description for prose that mentions it, as in `<<body.sides>>`. Return None if the value is
+    neither a word, nor a formula, nor a list of formulas.
 
     measured   the numbers of the description; each is identified by its place in the file
     """

@@ -25,7 +25,7 @@ EXAMPLE = "such as `derive grade hw9/block --part b '7/24 M a^2 omega^2'`"
 
 
 def grade(arguments: argparse.Namespace) -> int:
-    """Grade one answer, or the answers of a table; the exit code is 1 if the answer is not right, or if a row of the
+    """Grade one answer, or the answers of a table. The exit code is 1 if the answer is not right, or if a row of the
     table got no verdict."""
     if arguments.answers is not None and arguments.answer is not None:
         message = "`derive grade` takes one answer, or `--answers` with a file, but not both"

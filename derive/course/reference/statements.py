@@ -463,8 +463,8 @@ class _EntryReader:
         return read
 
     def statement(self, entry: EntryKeys, put_in: tuple[str, ...], formula: Formula | None) -> Statement | None:
-        """Read the value of an entry from `states:` or `latex:`, or from the formula that the entry cites; None if
-        there is no value that can be read.
+        """Read the value of an entry from `states:` or `latex:`, or from the formula that the entry cites. Return
+        None if no value can be read.
         """
         plain, printed, keys = entry.states, entry.latex, keys_of(EntryKeys)
         homogeneous = "erratum" not in entry.values_at and not put_in

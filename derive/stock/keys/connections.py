@@ -80,8 +80,8 @@ class SurfaceKeys(Record):
     """The keys of one entry of `surfaces:`."""
 
     through: WrittenPlace | None = key(
-        "for a plane, a place on it; for a curve, the place where x = y = 0, by default the centre of the body "
-        "that `of` names or, without `of`, the origin",
+        "for a plane, a place on it; for a curve, the place where x = y = 0. The default place for a curve is "
+        "the centre of the body that `of` names or, without `of`, the origin",
         PLACE,
     )
     along: tuple[Tree, ...] = key(
@@ -334,8 +334,9 @@ class StringKeys(Record):
     start: WrittenPlace | None = key("one end: a particle, a point of a body, or a place", PLACE, called="from")
     end: WrittenPlace | None = key("the other end", PLACE, called="to")
     wound_on: tuple[Word, ...] = key(
-        "in place of `to` and `length`: the round body on which the string is wound, or over which it runs without "
-        "slipping; in place of `from`, `to` and `length`: two round bodies on which it is wound, `[upper, lower]`",
+        "the round body on which the string is wound, or over which it runs without slipping; it replaces `to` and "
+        "`length`. Or the two round bodies on which it is wound, `[upper, lower]`; they replace `from`, `to` and "
+        "`length`",
         one_or_list_of(TEXT, "a body, or a list of two bodies"),
     )
     over: tuple[WrittenPlace, ...] = key(
