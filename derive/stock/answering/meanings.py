@@ -59,7 +59,7 @@ MEANINGS: Mapping[str, str] = {
     "turned_tensor": "the inertia tensor along rotated axes",
     "principal_moments": "the principal moments of inertia",
     "principal_axes": "the principal axes",
-    "principal_angle": "the angle of the principal axes in a plane",
+    "principal_angle": "the angle from the x axis to a principal axis in the x-y plane",
     "perpendicular_axes": "the moment about the normal of a flat body, by the perpendicular-axis theorem",
     # rotations
     "spin": "the angular velocity",

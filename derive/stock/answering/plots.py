@@ -254,7 +254,7 @@ class Plotted:
         else:
             shown = self._shown(against.scalar)
             if shown.unit:
-                message = f"`{against}` is in {shown.unit}, so it is not a ratio"
+                message = f"`{against}` is in {shown.unit}, so it is not dimensionless"
                 help_line = "the parameter of a diagram is a letter or a dimensionless ratio, such as `omega/omega_c`"
                 rejected("wrong-argument", message, against.place, help_line)
             names = [self._letters[name].symbol for name in names_in(against.scalar) if name in self._letters]
