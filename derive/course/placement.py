@@ -202,7 +202,7 @@ def _values(
     """Read the values of letters in a drawing: numbers, or expressions in other letters such as `h: 2*R`."""
     found: list[tuple[Symbol, Expr]] = []
     for name, value in written.items():
-        # A letter that is not declared is a coordinate of the script, which counts as an angle.
+        # A letter that is not declared must be a coordinate of the script. It counts as an angle.
         declared = symbols.get(name) or Declared(str(name), scalar(str(name)), "angle")
         with faults:
             expr = read_value(name, value, declared.kind, symbols)

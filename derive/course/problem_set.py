@@ -160,7 +160,7 @@ def problem_ids(root: Path) -> list[str]:
 
 
 def ids_in_order(root: Path) -> list[str]:
-    """Return the ids of all problems, set by set, each set in the order of its list. Unlisted problems are the last of
+    """Return the ids of all problems, set by set, each set in the order of its list. Unlisted problems come last in
     their set."""
     listed: list[str] = []
     for set_id in set_ids(root):
