@@ -335,8 +335,8 @@ class StringKeys(Record):
     end: WrittenPlace | None = key("the other end", PLACE, called="to")
     wound_on: tuple[Word, ...] = key(
         "the round body on which the string is wound, or over which it runs without slipping; it replaces `to` and "
-        "`length`. For a string that is wound on two round bodies: these bodies, `[upper, lower]`; they replace `from`, "
-        "`to` and `length`",
+        "`length`. For a string that is wound on two round bodies: these bodies, `[upper, lower]`; they replace "
+        "`from`, `to` and `length`",
         one_or_list_of(TEXT, "a body, or a list of two bodies"),
     )
     over: tuple[WrittenPlace, ...] = key(
