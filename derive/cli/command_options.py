@@ -85,7 +85,7 @@ def _class(of_class: argparse.ArgumentParser) -> None:
         "--roster", required=True, metavar="FILE", help="CSV with a column `name` and, if you like, `code`"
     )
     of_class.add_argument("--seed", metavar="TEXT", help="text that determines the variants; kept for later runs")
-    of_class.add_argument("--reseed", action="store_true", help="replace a class that was made with another seed")
+    of_class.add_argument("--reseed", action="store_true", help="replace a class that was made with a different seed")
     of_class.add_argument("--scheduler", default="", metavar="ADDRESS", help="of a Dask cluster: tcp://10.0.0.1:8786")
     _engine(of_class)
     _time_limit(of_class)

@@ -1,7 +1,7 @@
 """The names that a shell completes: sets, problems, topics and pages from file names, and steps from the last build.
 
-The shell runs this code each time that you press Tab. So this module loads no module that derives, and reads a page
-only if its steps are needed.
+The shell runs this code each time that you press Tab. So this module loads no module for derivations. It reads a
+page only to complete the keys of steps.
 """
 
 from __future__ import annotations

@@ -169,7 +169,10 @@ class Arithmetic:
     def number(self, text: str, start: int, end: int) -> Term:
         digits, _, power = text.lower().partition("e")
         if len(digits) > MAX_DIGITS or len(power) > 4 or abs(int(power or 0)) > MAX_TEN_POWER:
-            message = f"a number may have at most {MAX_DIGITS} digits, and a power of ten up to {MAX_TEN_POWER}"
+            message = (
+                f"a number may have at most {MAX_DIGITS} digits, and a power of ten from -{MAX_TEN_POWER} "
+                f"to {MAX_TEN_POWER}"
+            )
             self.refuse("too-large", message, start, end)
         value = rational(text)
         return Term(value, NUMBER, start, end, max(value.p.bit_length(), value.q.bit_length(), 1))

@@ -18,7 +18,7 @@ from derive.course.yaml_tree import Scalar, Tree
 from derive.errors import Faults, Place, rejected
 
 ANY = Range(-oo, oo)
-EXAMPLE = "such as `l < r_0`, or `a < b < c`"
+EXAMPLE = "write a relation such as `l < r_0` or `a < b < c`"
 _MARK = re.compile(r"<=|>=|[<>=≤≥!]+")
 
 
@@ -35,7 +35,7 @@ def read_assumed(node: Tree, constant: Mapping[str, Declared], moving: Iterable[
     """Return the relations of one entry; a chain gives several.
 
     constant   the letters that a relation may contain
-    moving     coordinates and rates, which a relation may not contain
+    moving     the names of coordinates, functions of the time and their rates, which a relation may not contain
     """
     if not isinstance(node, Scalar) or node.empty:
         rejected("wrong-type", "`assume` needs a list of relations between letters", node.place, EXAMPLE)
@@ -67,7 +67,9 @@ def _side(piece: Scalar, constant: Mapping[str, Declared], moving: set[str]) -> 
         rejected("relation", "one side of this relation is missing", piece.place, EXAMPLE)
     if varies := next((name for name in re.findall(r"[A-Za-z_][A-Za-z0-9_]*", text) if name in moving), None):
         message = f"`assume` is about constant letters, but `{varies}` varies"
-        help_line = "write the range of a coordinate where you declare it, such as `theta: angle in (0, pi/2)`"
+        help_line = (
+            "to restrict a coordinate, write its range where you declare it, such as `theta: angle in (0, pi/2)`"
+        )
         rejected("changes", message, piece.place, help_line)
     return read_expression(piece, constant)
 
@@ -84,8 +86,8 @@ def narrowed(ranges: Mapping[Symbol, Range], assumed: Sequence[Assumed]) -> dict
 
 
 def _bound(relation: Relation) -> tuple[Symbol, Expr, bool, bool] | None:
-    """Return a letter, its numerical bound, whether this is an upper bound, and whether the letter may equal the bound;
-    None if the relation does not compare a letter with a number."""
+    """Return a letter, its numerical bound, whether the bound is an upper bound, and whether the letter may equal it.
+    Return None if the relation does not compare a letter with a number."""
     (left, right), less = relation.sides, relation.operator[0] == "<"
     closed = relation.operator.endswith("=")
     if isinstance(left, Symbol) and right.is_number:

@@ -34,7 +34,7 @@ def read_defined(
     """Return the defined quantities in the order of the file.
 
     letters  the declared letters
-    moving   the names of letters that change in time, which a formula must not contain
+    moving   the names that the description introduces, such as coordinates; a formula must not contain them
     """
     found: dict[str, Defined] = {}
     ranges = {letter.symbol: letter.lies for letter in letters.values() if letter.lies}

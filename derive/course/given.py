@@ -284,8 +284,8 @@ def _direction(node: Tree, wanted: Wanted, symbols: Mapping[str, Declared]) -> D
 def value_in_prose(
     name: str, node: Tree, symbols: Mapping[str, Declared], measured: Iterable[Measured]
 ) -> Given | None:
-    """Return a value of a description for prose that mentions it, as in `<<body.sides>>`; None if the value is neither
-    a word nor a formula nor a list of formulas.
+    """Return a value of a description for prose that mentions it, as in `<<body.sides>>`. Return None if the value is
+    neither a word, nor a formula, nor a list of formulas.
 
     measured   the numbers of the description; each is identified by its place in the file
     """
@@ -354,7 +354,7 @@ def _asked_of_kind(kind: str, count: int) -> Asked:
 
 
 class _LettersForNumbers:
-    """Finds letters for numbers: a declared letter of the kind that is not yet used, or else a new letter."""
+    """Finds letters for numbers: an unused declared letter of the right kind, or else a new letter."""
 
     def __init__(self, symbols: Mapping[str, Declared], used: set[str]):
         self.symbols = dict(symbols)

@@ -182,7 +182,7 @@ class Question(Record):
         DETAIL,
     )
     forms: Table[str | None, AnswerForm] = key(
-        "unit and significant figures of the answers, one form for all answers or one for each answer's key",
+        "unit and significant figures of the answers: one form for all answers, or one form under each answer's key",
         Reader({"anyOf": [_FORM.schema, _FORM_BY_ANSWER.schema]}, _forms, dict),
         called="form",
     )
@@ -224,7 +224,7 @@ def _part(node: Tree, name: str, faults: Faults) -> Question | None:
             "points",
             message,
             part.places["rubric"],
-            help="lower these points until their sum is at most the points of the part",
+            help="give the part more points, or lower the points of these steps",
         )
     if part and part.detail is not Level.BRIEF and not part.extra:
         message = "a part that is not `extra` is shown at every detail"
@@ -236,7 +236,8 @@ _LISTED = list_of(Reader(_PART.schema, _part), "a list of parts")
 
 
 def _parts(node: Tree, name: str, faults: Faults) -> tuple[Question, ...] | None:
-    """Return the parts, or None after an error in them; report a part that needs more detail than the next part."""
+    """Return the parts that can be read; None if the value is not a list of parts. Report a part that needs more
+    detail than the next part."""
     parts = _LISTED.read(node, name, faults)
     for part, following in pairwise(parts or ()):
         if not following.detail.shows(part.detail):

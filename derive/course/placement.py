@@ -111,7 +111,7 @@ class Placement:
 
     @property
     def adds(self) -> tuple[MarkKeys, ...]:
-        """Return the other marks, such as points and lines, whose places the problem states."""
+        """Return the marks that do not belong to a body, such as points and lines. The problem states their places."""
         return tuple(mark for mark in self.marks if mark.mark not in MARKS_OF_BODY)
 
     @property
@@ -202,7 +202,7 @@ def _values(
     """Read the values of letters in a drawing: numbers, or expressions in other letters such as `h: 2*R`."""
     found: list[tuple[Symbol, Expr]] = []
     for name, value in written.items():
-        # A coordinate of the script is not declared.
+        # A letter that is not declared must be a coordinate of the script. It counts as an angle.
         declared = symbols.get(name) or Declared(str(name), scalar(str(name)), "angle")
         with faults:
             expr = read_value(name, value, declared.kind, symbols)

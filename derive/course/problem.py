@@ -361,9 +361,9 @@ def _check_marks_of_body(drawing: Placement, script: Script | StockScript | None
 
 
 def _check_panels(drawing: Placement, faults: Faults) -> None:
-    """Report keys of a drawing that have no effect on a drawing of its sort."""
+    """Report keys that have no effect on this sort of drawing."""
     if drawing.panels and max(len(drawing.cases), len(drawing.curves)) < 2:
-        message = f"`panels` has no effect on `{drawing.key}`, which has only one curve"
+        message = f"`panels` has no effect on `{drawing.key}`, which does not have several curves"
         faults.error("unused-key", message, drawing.place, help="leave it out, or add `cases`")
     if drawing.up and (len(drawing.plot) == 2 or drawing.is_diagram or drawing.levels):
         message = f"`up` has no effect on `{drawing.key}`, which is not a plot of curves"
@@ -422,7 +422,7 @@ def solving(problem: Problem, record: Run) -> Iterator[None]:
     defined = {each.name: problem.places.get(f"define.{each.name}") for each in problem.defined}
     record.defined_at = {name: place for name, place in defined.items() if place}
     record.letters = _letters_of(problem)
-    seed(1)  # SymPy chooses random points when it factors; with the same points, page and running time are the same
+    seed(1)  # SymPy chooses random points when it factors; with the same points, the result and the time do not vary
     with deriving(problem, record):
         for declared in problem.letters:
             _assume_range(declared)

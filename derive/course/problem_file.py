@@ -288,8 +288,8 @@ class DrawingKeys(Record):
         MARKS_OF_DRAWING,
     )
     without: tuple[Word, ...] = key(
-        "if `solve` is `system`, `body` or `rotation`: letters such as `[x, y]`; the drawing leaves out the marks that "
-        "have them as labels, such as dimension lines in a force diagram",
+        "if `solve` is `system`, `body` or `rotation`: labels such as `[x, y]`; the drawing leaves out the marks with "
+        "these labels, such as dimension lines in a force diagram",
         list_of(TEXT, "a list of letters such as `[x, y]`", each="a letter"),
     )
     view: tuple[float, float] | None = key(
@@ -341,8 +341,8 @@ class DrawingKeys(Record):
         called="range",
     )
     then: Formula | None = key(
-        "for curves against `t`: the answer or the formula whose value the curves keep after the range, such as `v_1`; "
-        "the curves must have this value at the end of the range",
+        "for curves against `t`: the answer or the formula whose value the curves keep after the range, such as `v_1`. "
+        "The curves must have this value at the end of the range",
         FORMULA,
     )
     up: tuple[Formula, ...] | None = key(
@@ -384,7 +384,7 @@ class LimitKeys(Record):
         "letters and their values in a special case, such as `{b: a, c: a}`",
         mapping_of(FORMULA, "a mapping such as `{b: a, c: a}`"),
     )
-    step: Word | None = key("a step of the script that states the case, in place of `of`", TEXT)
+    step: Word | None = key("in place of `of`: the key of a step that is itself the limiting or special case", TEXT)
     stated: Formula | None = key("the result in that case; a wrong result is an error", FORMULA, called="is")
     known: Word | None = key("the key of a step that has the same result by another derivation", TEXT)
     why: Prose | None = key("words added to the sentence, in prose: `as for a disc`", PROSE)
@@ -467,8 +467,8 @@ class ProblemKeys(Record):
     )
     values: dict[Word, Tree] = key("numbers for declared letters, substituted at the end: `a: 2 cm`", VALUES)
     variants: tuple[Variation, ...] = key(
-        "what differs from student to student: a letter of `values`, or a given value, with a range such as "
-        "`10..30 cm in steps of 2` or a list of values",
+        "what differs from student to student: letters of `values` or given values, each with a range, such as "
+        "`10..30 cm in steps of 2`, or with a list of values",
         VARIANTS,
     )
     statement: Prose | None = key(

@@ -160,7 +160,8 @@ def problem_ids(root: Path) -> list[str]:
 
 
 def ids_in_order(root: Path) -> list[str]:
-    """Return the ids of all problems, in each set in the order of its list; unlisted problems come last."""
+    """Return the ids of all problems, set by set, each set in the order of its list. Unlisted problems come last in
+    their set."""
     listed: list[str] = []
     for set_id in set_ids(root):
         with suppress(DeriveError):
@@ -252,8 +253,8 @@ def problem_set(root: Path, set_id: str) -> ProblemSet:
     faults.stop()
 
     def own(name: str) -> str | None:
-        """Return the value of a key of the set or, if the set does not have it, the value of the course; None if both
-        lack the key."""
+        """Return the value of a key of the set or, if the set does not have this key, of the course. Return None if
+        both lack the key."""
         found: str | None = getattr(written, name) or getattr(of_course, name)
         return found
 

@@ -169,7 +169,7 @@ def _check_formula(formula: TexFormula, style: str, faults: Faults) -> None:
         message = (
             f"this formula has {len(inner.text)} characters; a formula in prose may have at most {LONGEST_IN_PROSE}"
         )
-        faults.error("too-large", message, inner.place_within(0), help="give the formula under a name in `given:`")
+        faults.error("too-large", message, inner.place_within(0), help="split it into shorter formulas")
     elif (at := inner.text.find("<<")) >= 0:
         help_line = "write the letter itself, or end the formula before the mention"
         faults.error(

@@ -193,7 +193,7 @@ def as_written(schema: dict[str, Any], wanted: str) -> Reader[Tree]:
 
 
 def _misfit(node: Tree, schema: dict[str, Any]) -> Tree | None:
-    """Return the first node that is empty or does not have the shape that the schema allows (list, mapping or text);
+    """Return the first node that is empty or does not have the shape (list, mapping or text) that the schema allows;
     None if there is no such node."""
     odd = [_misfit_in_one(node, each) for each in schema.get("anyOf", [schema])]
     return None if None in odd else next((within for within in odd if within is not node), node)

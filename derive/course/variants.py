@@ -121,8 +121,8 @@ def _choices(node: Tree, name: str, faults: Faults) -> tuple[Tree, ...]:
 
 
 def _cut_at_comma(first: Tree, second: Tree) -> Scalar | None:
-    """Return the complete value, such as `0,8 m`, if a decimal comma has split it into two items of a list, as in
-    `[0,8 m, 0,9 m]`; otherwise None."""
+    """Return the complete value, such as `0,8 m`, if a decimal comma has split it into two items of a list such as
+    `[0,8 m, 0,9 m]`. Return None if the two items are separate values."""
     if not (isinstance(first, Scalar) and isinstance(second, Scalar)):
         return None
     if not (first.text.isdigit() and second.start == first.end + 1 and re.match(r"\d+\s", second.text)):

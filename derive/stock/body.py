@@ -216,7 +216,7 @@ class BodyAnswers(Answers[Asked]):
             self._has_no(name)
         found = self.body.extent
         if not isinstance(found, Quantity):
-            message = f"the {name} of {self.told} is known, so it is not a step"
+            message = f"the {name} of {self.told} is known, so no step derives it"
             rejected("no-such-answer", message, None, f"ask for `density`, whose step shows the {name}")
         return found
 
@@ -325,7 +325,7 @@ class BodyAnswers(Answers[Asked]):
         if own == "moment_about":
             return self.about_direction(inertia_tensor(self.body, self.about, **tensor), key=key, **letter)
         known = "a tensor, a moment of inertia, a radius of gyration, or a centre of mass"
-        rejected("wrong-argument", f"`answer` yields {known}, not `{name}`", name.place)
+        rejected("wrong-argument", f"`answer` must be {known}, not `{name}`", name.place)
 
 
 class BodiesAnswers(StockAnswers[DescribedBodies]):

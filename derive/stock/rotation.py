@@ -151,7 +151,7 @@ def _check_together(written: RotationKeys, faults: Faults) -> None:
     there = written.values_at.keys()
     for first, second in EXCLUDE_EACH_OTHER:
         if {first, second} <= there:
-            message = f"`{second}` and `{first}` are both given"
+            message = f"`{second}` and `{first}` cannot be combined"
             faults.error("unknown-key", message, written.places[first], help="leave one of them out")
     for steady in ("rates", "along"):
         if written.torque and steady in there:
@@ -175,7 +175,7 @@ def _components(written: RotationKeys, name: str, kind: str, known: InLetters) -
 
 
 def _without(written: RotationKeys) -> tuple[tuple[Word, set[str]], ...]:
-    """Return the keys `rate` and `torque`, if the author wrote them, each with the answers that do not depend on it."""
+    """Return the keys `rate` and `torque`, if the author wrote them, each with answers that do not depend on it."""
     asks = {*RotationAnswers(DescribedRotation()).asks()}
     of_rate = {name for name in asks if name.startswith(("stability", "wobble"))}
     without_torque = ("inertia_tensor", "spin", "angular_momentum", "kinetic_energy", "angle_between", "torque")
@@ -396,7 +396,7 @@ class RotationAnswers(StockAnswers[DescribedRotation]):
         return tangent_between(*self._sides(name), angle=CONES[name], key=f"{name}_tangent")
 
     def _sides(self, name: str) -> tuple[Quantity, Quantity]:
-        """Return the two vectors that enclose the angle of this name."""
+        """Return the two vectors whose angle has this name."""
         axis, omega, L = self.axis_of_symmetry, self.spin, self.angular_momentum
         return {"body_cone": (axis, omega), "space_cone": (L, omega), "tilt": (axis, L)}[name]
 

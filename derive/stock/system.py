@@ -335,7 +335,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
 
     @answer
     def energy_function(self) -> Quantity:
-        """Return the energy function h of the Lagrangian or, by another method, the energy T + U."""
+        """Return the energy function h of the Lagrangian or, if the method is not `lagrange`, the energy T + U."""
         return energy_function(self.lagrangian) if self.method == LAGRANGE else total_energy(self.system)
 
     @answer
@@ -648,8 +648,8 @@ STOCK = Stock(SystemKeys, read, SystemAnswers)
 
 
 def _forces_found(steps: Sequence[Any], system: System) -> tuple[dict[Any, Quantity], dict[Any, Quantity]]:
-    """Return two mappings from the symbol of a constraint force: to the step that derives the force, and to a later
-    step that expresses the force in coordinates without rates."""
+    """Return two mappings, both with the symbols of constraint forces as keys. The first contains the step that derives
+    a force, the second a later step that expresses it in coordinates without rates."""
     found: dict[Any, Quantity] = {}
     along: dict[Any, Quantity] = {}
     rates, coordinates = {rate(q) for q in system.coordinates}, {*system.coordinates}

@@ -145,7 +145,7 @@ def test_equilibria_outside_the_range_of_the_coordinate_are_not_missed(tmp_path:
         ([("omega/omega_c", "phi")], 19, "`phi`", ""),
         ([("omega/omega_c", "m")], 19, "neither the equilibria nor their stability depends on `m`", ""),
         ([("omega/omega_c", "(omega + omega_c)/omega")], 19, "is not proportional", "such as `omega` or "),
-        ([("omega/omega_c", "omega/R")], 19, "`omega/R` is in ", "a letter or a pure number"),
+        ([("omega/omega_c", "omega/R")], 19, "`omega/R` is in ", "a letter or a dimensionless ratio"),
         ([("    against: omega/omega_c\n", "")], 17, "needs `against` with a letter, and `range`", ""),
         ([("[0, 3]", "[1.2, 3]")], 17, "changes its stability for values of the parameter from 1.2 to 3",
          "choose another `range`"),

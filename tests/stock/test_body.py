@@ -171,7 +171,7 @@ DISC = "{shape: disc, radius: R, mass: M}"
         (
             "{shape: disc, radius: R, mass: M}",
             "area",
-            "the area of a disc is known, so it is not a step",
+            "the area of a disc is known, so no step derives it",
             "ask for `density`",
         ),
         ("{shape: particle, mass: M}", "length", "`length` is not an answer about a particle", "its mass is given"),
@@ -238,7 +238,7 @@ def test_a_second_tensor_has_its_own_name_and_is_used_in_results(tmp_path: Path)
         ("{answer: moment_of_inertia_x, about: tip}", "has no point `tip`"),
         ("{answer: moment_of_inertia_x, direction: x}", "`moment_of_inertia_x` does not depend on `direction`"),
         ("{answer: centre_of_mass, about: base}", "`centre_of_mass` does not depend on `about`"),
-        ("{answer: principal_axes, about: base}", "`answer` yields a tensor"),
+        ("{answer: principal_axes, about: base}", "`answer` must be a tensor"),
         ("{answer: moment_of_inertia_x}", "`answer` needs `about`, `origin` or `direction`"),
     ],
 )

@@ -186,7 +186,7 @@ MISTAKES = [
         "  along: diagonal\n  torque: [0, 0, 0]\n",
         "`torque` has no effect with `along`",
     ),
-    (ROTATION, "  along: diagonal\n", "  along: diagonal\n  rates: [omega, 0, 0]\n", "`rates` are both given"),
+    (ROTATION, "  along: diagonal\n", "  along: diagonal\n  rates: [omega, 0, 0]\n", "`rates` cannot be combined"),
     (ROTATION, "along: diagonal", "along: digonal", "did you mean `diagonal`?"),
     (ROTATION, "answer: torque", "answer: torqe", "did you mean `torque`?"),
 ]

@@ -492,7 +492,7 @@ def test_curves_without_a_common_unit_share_no_axis(tmp_path: Path) -> None:
     product = ("    top: {", "    double: {value: path_x*t, symbol: w}\n    top: {")
     text = edited(THROW, product, ("plot: [path_x, path_z]", "curves: [path_x, double]"))
     (found,) = complaints(tmp_path, text)
-    assert found.message == "`double` is in m s and `path_x` in m, so they share no axis"
+    assert found.message == "`double` is in m s and `path_x` in m, so they need different axes"
 
 
 @pytest.mark.long
@@ -543,7 +543,7 @@ def test_the_axes_of_a_path_may_have_names_in_place_of_formulas(tmp_path: Path) 
 
 def test_panels_has_no_effect_on_a_single_curve_or_a_portrait(tmp_path: Path) -> None:
     (found,) = complaints(tmp_path, edited(THROW, ("    cases:\n", "    panels: apart\n    cases:\n")))
-    assert found.message == "`panels` has no effect on `path`, which has only one curve"
+    assert found.message == "`panels` has no effect on `path`, which does not have several curves"
     two = "      - {m: 1 kg, l: 1 m, g: 9.8 m/s^2}\n"
     several = edited(SWING, (two, two + "      - {l: 2 m}\n"), ("    cases:\n", "    panels: together\n    cases:\n"))
     assert any("`panels` has no effect on the phase portrait" in each for each in messages(tmp_path, several))

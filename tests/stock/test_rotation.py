@@ -123,7 +123,7 @@ def test_free_precession_is_that_of_a_free_body(tmp_path: Path) -> None:
         "5: free precession needs a body on which no torque acts"
     ]
     text = edited(COIN, ("  results:\n", "  torque: [0, 0, A*omega**2]\n  results:\n"))
-    assert messages(tmp_path, text) == ["6: `torque` and `start` are both given"]
+    assert messages(tmp_path, text) == ["6: `torque` and `start` cannot be combined"]
 
 
 def test_components_of_vectors(tmp_path: Path) -> None:
@@ -149,10 +149,10 @@ def test_the_body_is_drawn_with_its_axis(tmp_path: Path) -> None:
             "7: the components of `along` have different dimensions: one is a length, another a number",
         ),
         (("along: diagonal", "along: [1, 0]"), "7: `along` must be a direction or three components"),
-        (("along: diagonal", "rates: [omega, 0, 0]"), "7: `rate` and `rates` are both given"),
+        (("along: diagonal", "rates: [omega, 0, 0]"), "7: `rate` and `rates` cannot be combined"),
         (("rate: omega", "rate: a"), "6: `rate` must be an angular speed, but `a` is a length"),
         (("  rate: omega\n", ""), "6: a rotation about an axis needs its `rate`"),
-        ((BLOCK_IS, f"{BLOCK_IS}\n  moments: [A, B, C]"), "5: `moments` and `body` are both given"),
+        ((BLOCK_IS, f"{BLOCK_IS}\n  moments: [A, B, C]"), "5: `moments` and `body` cannot be combined"),
         ((BLOCK_IS, "moments: [A, B]"), "5: `moments` must be three moments of inertia, `[A, B, C]`, but it is a list"),
         (
             (BLOCK_IS, "moments: [A, A, 3*A]"),

@@ -61,7 +61,7 @@ def build(arguments: argparse.Namespace) -> int:
     asked = _sets_asked(arguments.sets or set_names(root))
     if not asked:
         raise Misused(
-            Complaint("no-such-set", "no set was found", help="a set is a folder of `problems` with a set.yaml")
+            Complaint("no-such-set", "no set was found", help="a set is a folder in `problems` with a file `set.yaml`")
         )
     for name, only in asked.items():
         check_asked(root, name, only)

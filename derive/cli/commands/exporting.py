@@ -75,7 +75,7 @@ def export(arguments: argparse.Namespace) -> int:
     list_again(root, set_id, None if arguments.output else record)
     if output != "-":
         parts = [part for each in questions for part in each.parts]
-        separate = arguments.format == "canvas"  # in Canvas each number is a question
+        separate = arguments.format == "canvas"  # in Canvas, each numerical answer is a question of its own
         count = sum(len(part.answers) if separate and part.is_numerical else 1 for part in parts)
         print(f"wrote {shown_path(root / output)}: {count} question{'s' if count != 1 else ''}")
         if arguments.format == "stack" and not any(is_for_stack(part) for part in parts):

@@ -25,7 +25,7 @@ EXAMPLE = "such as `derive grade hw9/block --part b '7/24 M a^2 omega^2'`"
 
 
 def grade(arguments: argparse.Namespace) -> int:
-    """Grade one answer, or the answers of a table; the exit code is 1 if the answer is not right, or if a row of the
+    """Grade one answer, or the answers of a table. The exit code is 1 if the answer is not right, or if a row of the
     table got no verdict."""
     if arguments.answers is not None and arguments.answer is not None:
         message = "`derive grade` takes one answer, or `--answers` with a file, but not both"
@@ -55,7 +55,9 @@ def _grade_one(arguments: argparse.Namespace) -> int:
         if of_class is None:
             message = f"no class of `{problem_id.partition('/')[0]}` has been made here, so its codes are unknown"
             raise Misused(
-                Complaint("no-class", message, help="give the roster of the class with `--roster`, and the seed")
+                Complaint(
+                    "no-class", message, help="give the roster of the class with `--roster`, and its seed with `--seed`"
+                )
             )
         if of_class.code_of(arguments.student) is None:
             raise Misused(of_class.unknown(arguments.student))

@@ -1,6 +1,7 @@
 """Integrals as a document writes them: signs with limits, differentials in any customary place, brackets with limits.
 
-Only integrals that are quick to evaluate are read, such as integrals of powers, of sines and cosines, and of roots.
+Two sorts of integrals are read: integrals that contain a root, and integrals that are quick to evaluate, such as those
+of powers, sines and cosines.
 """
 
 from __future__ import annotations

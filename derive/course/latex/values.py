@@ -206,6 +206,10 @@ class Values(Grids):
         self.dimensions[symbol] = dimension
         return Term(symbol, dimension, start, end)
 
+    @property
+    def help_for_unit(self) -> str | None:
+        return None if self.in_prose else "write the unit of a value under `in:`"
+
     def not_declared(self, node: Letter) -> Complaint:
         written, start, end = self.written(node), node.span.start, node.span.end
         if not _SUBSCRIPT.fullmatch(node.sub or "x"):
@@ -213,8 +217,8 @@ class Values(Grids):
             message = f"the subscript of `{self.text[start : at - 1].strip()}` is not a name"
             return self.complaint("latex", message, at, end, None)
         if len(node.base) > 1 and written.startswith(tuple(f"\\{font}" for font in FONTS)):
-            message, help_line = f"`{node.base}` is not declared", "write the unit of a value under `in:`"
-            return self.complaint("undeclared-symbol", message, start, end, help_line)
+            message = f"`{node.base}` is not declared"
+            return self.complaint("undeclared-symbol", message, start, end, self.help_for_unit)
         name = (f"{node.base}_{node.sub}" if node.sub else node.base).replace(",", "_")
         if self.in_prose and name == "d" and _DIFFERENTIAL.match(self.text, end):
             message = "a differential is read only with its integral sign"
@@ -237,7 +241,7 @@ class Values(Grids):
             self.at(node, "latex", "a derivative cannot be read", help_line)
         if node.text.startswith("unit "):
             message = f"`{node.text.removeprefix('unit ')}` is not declared"
-            self.at(node, "undeclared-symbol", message, "write the unit of a value under `in:`")
+            self.at(node, "undeclared-symbol", message, self.help_for_unit)
         if _UPRIGHT.match(self.text, node.span.start):
             self.at(node, "latex", "words are not part of a formula")
         self.at(node, "latex", f"`{self.written(node)}` is not expected here")
@@ -299,7 +303,7 @@ class Values(Grids):
         return parts.product()
 
     def check_side_by_side(self, before: Node, mark: str, factor: Node) -> None:
-        """Reject adjacent factors whose meaning is unclear, such as two numbers, or a factor after a `/`."""
+        """Reject adjacent factors whose meaning is unclear, such as two numbers, or `a/b` followed by a factor."""
         span = before.span.to(factor.span)
         if _is_slashed(before, self.text):
             self.unclear_slash(before)
@@ -411,7 +415,8 @@ class Values(Grids):
             self.unclear_power(node.argument, node.power)
         power = self.scalar_of(node.power, "an exponent")
         if power.expr.is_negative:
-            help_line = f"write `\\arc{node.name}`, or `1/\\{node.name}`"
+            inverse = f"`\\arc{node.name}` or " if f"arc{node.name}" in LATEX_FUNCTIONS else ""
+            help_line = f"write {inverse}`1/\\{node.name}`"
             start, end = self.braces(node.power)
             self.refuse("ambiguous", "this could be the inverse function", start, end, help_line)
         return power
@@ -622,7 +627,7 @@ class Values(Grids):
 
     def differential(self, node: Diff, signs: list[integrals.Sign], inside: _Parts) -> None:
         if not isinstance(node.of, Letter) or node.order != 1:
-            self.at(node, "integral", "this differential does not have a single variable")
+            self.at(node, "integral", "a differential must be `d` and one letter, such as `dx`")
         d_end = node.span.start + 1
         plain = self.text[node.span.start : d_end] == "d"
         if plain and (self.d_is_a_letter or all(sign.variable for sign in signs)):

@@ -127,7 +127,9 @@ def _of_relation(
     stated = explicit(Relation(left[0], mark, right[0]).xreplace(numbers))
     ours = explicit(derived.xreplace(numbers))
     if ours != derived and vanishes(ours.residual) and not vanishes(derived.residual):
-        return Verdict(Grade.REFUTED, "with these numbers both sides are equal, so any statement would agree")
+        return Verdict(
+            Grade.REFUTED, "with these numbers the derived equation is always true, so any statement would agree"
+        )
     if entry.figures:
         return _bound_to_figures(stated, ours, entry)
     if entry.times is None:

@@ -81,8 +81,8 @@ class Cited:
         return self.joined(sides, others, named)
 
     def section(self, number: str, place: Place) -> list[tuple[Letter | None, Formula]]:
-        """Return the displayed chains of a section, each with the letter that it begins with (None if it begins with
-        another value)."""
+        """Return the displayed chains of a section, each with the letter that is its first side. The letter is None if
+        the first side is not a single letter, or if the chain has only one side."""
         headings = _numbers(self.document)
         if number not in headings:
             known = [each for each in headings if each]

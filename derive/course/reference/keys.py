@@ -47,10 +47,10 @@ class EntryKeys(Record):
 
     part: Word | None = key("the part of the document that has the value, such as `1`", SCALAR_TEXT)
     line: int | None = key("the line of the document", LINE)
-    lines: Lines | None = key("the lines of the document from which the formula is read, or its section", LINES)
-    side: tuple[int, ...] = key(
-        "the numbers of the sides of this formula that are compared; the first side is 1", SIDES
+    lines: Lines | None = key(
+        "the lines of the document from which the formula is read, or the number of a section", LINES
     )
+    side: tuple[int, ...] = key("the numbers of the compared sides of the cited formula; the first side is 1", SIDES)
     document: Word | None = key("the document of this entry, if it is not the first document in the file", TEXT)
     answer: Word | None = key("the key of the step that has this value", TEXT)
     states: Tree | None = key("the value: an expression, a list of 3, or 3 rows of 3", _ANY_VALUE)

@@ -422,7 +422,7 @@ class _EntryReader:
         return stated or printed
 
     def slip(self, written: EntryKeys, formula: Formula | None) -> Entry | None:
-        """Read an erratum that is only quoted and corrected; None if its correction cannot be read."""
+        """Return an entry for an erratum that is only quoted and corrected; None if its correction cannot be quoted."""
         assert written.erratum is not None
         right, place = written.erratum.right, written.places.get("quote") or written.places[""]
         instead = right.text if isinstance(right, Scalar) else ""
@@ -463,8 +463,8 @@ class _EntryReader:
         return read
 
     def statement(self, entry: EntryKeys, put_in: tuple[str, ...], formula: Formula | None) -> Statement | None:
-        """Read the value of an entry from `states:` or `latex:`, or from the formula that the entry cites; None if
-        there is no value that can be read.
+        """Read the value of an entry from `states:` or `latex:`, or from the formula that the entry cites. Return
+        None if no value can be read.
         """
         plain, printed, keys = entry.states, entry.latex, keys_of(EntryKeys)
         homogeneous = "erratum" not in entry.values_at and not put_in

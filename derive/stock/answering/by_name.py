@@ -110,7 +110,7 @@ class ByName:
         return found
 
     def _derived_alone(self, name: str) -> tuple[Quantity, ...]:
-        """Derive the answer of a name; after an error, try again with an empty record."""
+        """Derive the answer that a name denotes; after an error, try again with an empty record."""
         try:
             return self._derived(name, None)
         except DeriveError:

@@ -51,8 +51,8 @@ class Equilibria:
         return tuple(_branch(rest, self.coordinate, judged) for rest, judged in pairs)
 
     def keys(self, shown: Collection[str]) -> tuple[str, ...]:
-        """Return the keys of the equilibria, and of the steps about their stability, that parts ask for; if parts ask
-        for none, the keys of all equilibria."""
+        """Return the keys that parts ask for, among the equilibria and the steps about their stability. If parts ask
+        for none of these, return the keys of all equilibria."""
         every = [q.key for q in (*self.rests, *self.judged)]
         return tuple(key for key in every if key in shown) or tuple(q.key for q in self.rests)
 

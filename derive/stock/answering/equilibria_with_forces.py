@@ -23,8 +23,8 @@ def rest_with_forces(
     coordinates   the coordinates by name, in the order of `motions`
     forces        the symbols of the constraint forces
 
-    With static friction, the result may be the forces as functions of the position. Coordinates that the constraints
-    together keep constant have their constant values.
+    If there are as many forces as equations, as with static friction, only the forces are unknown, and they may depend
+    on the positions. Coordinates that the constraints together keep constant have their constant values.
     Errors: the static equations do not determine the unknowns.
     """
     kept = positions_kept(motions[0])
@@ -38,7 +38,7 @@ def rest_with_forces(
     if len(unknown) > len(still):
         names = ", ".join(s.name for s in unknown)
         message = f"{len(still)} static equations do not determine the {len(unknown)} forces {names}"
-        help_line = "leave out a force: describe one of the contacts without friction"
+        help_line = "describe fewer constraint forces: for example, a contact without friction, or fewer joints"
         raise Rejected(Complaint("constrained", message, help=help_line))
     if len(unknown) != len(still):
         unknown = [q.symbol for q in coordinates.values() if q.symbol in present] + unknown

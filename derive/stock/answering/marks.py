@@ -96,8 +96,8 @@ class Marked:
             drawings[drawings.index(shown[name])] = own
 
     def _kept(self, marks: Sequence[Mark]) -> Iterator[Mark]:
-        """Yield the marks of a drawing, except marks whose labels the problem leaves out. Of these, surfaces that are
-        not dashed lines stay, without their labels."""
+        """Yield the marks of a drawing, except marks whose labels the problem leaves out. A surface with such a label
+        stays without its label, unless the surface is a dashed line."""
         labels = {str(mark.label) for mark in marks if mark.label is not None}
         for word in self.drawing.without:
             if word not in labels:
@@ -183,7 +183,12 @@ class Marked:
         letter, _ = read_expression(keys.against.scalar, self._letters.letters)
         if not letter.is_Symbol or not at.has(letter):
             message = f"`against` must be a letter on which `at` depends, but it is `{keys.against}`"
-            rejected("wrong-argument", message, keys.against.place, "write a place that contains the letter")
+            rejected(
+                "wrong-argument",
+                message,
+                keys.against.place,
+                "write a letter in `against`, and a place with this letter in `at`",
+            )
         lower, upper = (read_expression(end.scalar, self._letters.letters)[0] for end in keys.between)
         return WayMark(at, letter, lower, upper, "edge", label=label, keys=used)
 

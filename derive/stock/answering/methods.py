@@ -78,7 +78,7 @@ def check_effect(method: Word | None, answers: Mapping[str, object]) -> None:
 
 
 def check_one_law_for_each_key(found: Mapping[str, object], methods: Sequence[Word]) -> None:
-    """Reject parts whose methods derive one step in two ways."""
+    """Reject parts that derive the same step by different methods."""
     steps: dict[str, Quantity] = {}
     for answer in found.values():
         for each in with_ancestors(returned_quantities(answer)).values():

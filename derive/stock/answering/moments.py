@@ -21,7 +21,7 @@ SOLUTION, SPEED, FLIGHT = "solution", "speed", "flight"
 
 def started(results: Sequence[Result], system: System) -> Moment | None:
     """Return the positions and velocities at which the requested motions begin, and the coordinates of a requested
-    flight in a plane; None if there are neither."""
+    flight in a plane; None if no such motion or flight is requested."""
     at: dict[Symbol, Expr] = {}
     rates: dict[Symbol, Expr] = {}
     for result in results:

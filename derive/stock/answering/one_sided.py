@@ -20,8 +20,8 @@ EXAMINED = ("answers.where", "motion.leaves_contact")  # the rules of steps that
 
 
 def state_one_sided(constraints: Iterable[Constraint]) -> None:
-    """Assume N > 0 for each constant force of a surface or a string whose sign depends on the symbols, if no step of
-    the page examines the sign of this force."""
+    """Assume that each constant force of a surface or a string is positive, unless its sign is known or a step of the
+    page examines this sign."""
     steps = established()
     for each in (each for each in constraints if each.enforcer in ONE_SIDED):
         found = [step for step in steps if step.symbol == each.force]

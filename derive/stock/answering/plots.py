@@ -103,7 +103,12 @@ class Plotted:
         units += [found.levels.unit] if found.levels else []
         if len(written) != len(units):
             message = f"`per` of this plot must have {len(units)} quantities, but has {len(written)}"
-            rejected("wrong-argument", message, written[0].place, "write `1` for an axis that keeps its unit")
+            rejected(
+                "wrong-argument",
+                message,
+                written[0].place,
+                "`1` leaves an axis in its unit; only a phase portrait has a third quantity, for its levels",
+            )
         per, keys = [], list(found.keys)
         for divisor, unit in zip(written, units, strict=True):
             shown = self._shown(divisor.scalar)
@@ -173,7 +178,9 @@ class Plotted:
     def _check_unit(self, answer: Word, quantity: Quantity, other: Word, first: Quantity) -> None:
         one, two = (self._unit(each) for each in (quantity, first))
         if one != two:
-            message = f"`{answer}` is in {one or 'no unit'} and `{other}` in {two or 'no unit'}, so they share no axis"
+            message = (
+                f"`{answer}` is in {one or 'no unit'} and `{other}` in {two or 'no unit'}, so they need different axes"
+            )
             rejected("wrong-argument", message, answer.place, "draw two plots")
 
     def _path(self, shown: list[Shown], against: Word, ends: Range) -> None:
@@ -247,8 +254,8 @@ class Plotted:
         else:
             shown = self._shown(against.scalar)
             if shown.unit:
-                message = f"`{against}` is in {shown.unit}, so it is not a ratio"
-                help_line = "the parameter of a diagram is a letter or a pure number, such as `omega/omega_c`"
+                message = f"`{against}` is in {shown.unit}, so it is not dimensionless"
+                help_line = "the parameter of a diagram is a letter or a dimensionless ratio, such as `omega/omega_c`"
                 rejected("wrong-argument", message, against.place, help_line)
             names = [self._letters[name].symbol for name in names_in(against.scalar) if name in self._letters]
             letters = [letter for letter in names if letter in shown.expr.free_symbols]

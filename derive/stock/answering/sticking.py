@@ -69,8 +69,8 @@ def _assume_solved(frictions: Sequence[Quantity], normal: Quantity, limit: Stati
 
 
 def _assume_if_unknown(frictions: Sequence[Quantity], normal: Quantity, limit: StaticLimit) -> None:
-    """Assume that the magnitude of the friction is at most mu_s |N|, unless this is known to be true; reject the motion
-    if it is known to be false."""
+    """Assume that the magnitude of the friction is at most mu_s |N|, unless this is known to be true. Reject the motion
+    if this is known to be false."""
     square = tidied(Add(*(explicit(friction.value) ** 2 for friction in frictions)))
     most = limit.coefficient**2 * explicit(normal.value) ** 2
     excess = sign_known(tidied(square - most))

@@ -87,7 +87,7 @@ class ShapeKeys(Record):
     height: Tree | None = key("its height", SCALAR)
     length: Tree | None = key("its length", SCALAR)
     half_angle: Tree | None = key("half the angle that an arc spans", SCALAR)
-    sides: tuple[Tree, ...] = key("its edges along x, y and, for a block, z", list_of(SCALAR, SEVERAL))
+    sides: tuple[Tree, ...] = key("its edges along x, y and, for a cuboid, z", list_of(SCALAR, SEVERAL))
     semi_axes: tuple[Tree, ...] = key("the semi-axes of an ellipsoid along x, y and z", list_of(SCALAR, SEVERAL))
     corners: tuple[tuple[Tree, ...], ...] = key(
         "the positions of the corners of a triangle, a tetrahedron or the triangular face of a wedge", CORNERS
@@ -174,7 +174,7 @@ class DescribedBody:
     def body(self) -> Body:
         """Return the body; errors are reported where the body is described."""
         with told_at(self.place):
-            for part in self.parts:  # checked again, because the numbers of the symbols are known now
+            for part in self.parts:  # checked again, because the values of the symbols are known now
                 body: Body = part.body if isinstance(part, PlacedPart) else part
                 if is_dataclass(type(body)):
                     body.check_sizes()
@@ -366,7 +366,7 @@ class Bodies:
             kind, (lower, upper) = known.ends(name, ends)
             if (upper - lower).is_nonpositive:
                 message = f"nothing lies between the limits of `{name}`, {lower} and {upper}"
-                rejected("limits", message, name.place, "write the lower limit first")
+                rejected("limits", message, name.place, "write two different limits, the lower one first")
             letter = scalar(str(name))
             limits[letter] = (lower, upper)
             known = WithVariables(self.letters, {**known.variables, str(name): Declared(str(name), letter, kind)})

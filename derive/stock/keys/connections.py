@@ -80,8 +80,8 @@ class SurfaceKeys(Record):
     """The keys of one entry of `surfaces:`."""
 
     through: WrittenPlace | None = key(
-        "for a plane, a place on it; for a curve, the place where x = y = 0, by default the centre of the body "
-        "that `of` names or, without `of`, the origin",
+        "for a plane, a place on it; for a curve, the place where x = y = 0. The default place for a curve is "
+        "the centre of the body that `of` names or, without `of`, the origin",
         PLACE,
     )
     along: tuple[Tree, ...] = key(
@@ -112,9 +112,9 @@ class SurfaceKeys(Record):
         if self.of and named["moves"] is not None:
             rejected(
                 "twice",
-                "the body that `of` names determines the motion of the surface",
+                f"`of` and `{'in' if self.axes is not None else 'velocity'}` both specify the motion of the surface",
                 self.of.place,
-                "leave `of` out",
+                "leave one of them out",
             )
         if self.y is not None:
             return Deferred(curve, self._curve(self.y, places, letters), named, carried, self.places[""])
@@ -182,9 +182,9 @@ class FrictionKeys(Record):
     )
     sliding: Tree | None = key("the coefficient of sliding friction", SCALAR)
     direction: Any = key(
-        "`[1, 0]`, `right` or `left`: with `sliding` the direction in which the body slips; in space, leave it out, "
-        "and the friction is opposite to the velocity of slip. Without `sliding`, the direction in which the friction "
-        "on the body is positive",
+        "`[1, 0]`, `right` or `left`: with `sliding`, the direction in which the body slips; without `sliding`, the "
+        "direction in which the friction on the body is positive. For sliding in space, leave `direction` out: the "
+        "friction is opposite to the velocity of slip",
         DIRECTION,
     )
     static: Tree | None = key("the coefficient of static friction, if the body does not slip", SCALAR)
@@ -228,7 +228,7 @@ class ContactKeys(Record):
     )
     on: Word = key("the surface, or another round body", TEXT, required=True)
     normal: Word | None = key(
-        "the symbol of the normal force, if a coordinate allows the body to leave the surface", TEXT
+        "the symbol of the normal force; needed if the coordinates alone do not keep the body on the surface", TEXT
     )
     friction: Any = key(
         "`none`, `rolling`, `{rolling: F}` with the symbol of the friction, `{sliding: mu, direction: [1, 0]}`, or "
@@ -334,8 +334,9 @@ class StringKeys(Record):
     start: WrittenPlace | None = key("one end: a particle, a point of a body, or a place", PLACE, called="from")
     end: WrittenPlace | None = key("the other end", PLACE, called="to")
     wound_on: tuple[Word, ...] = key(
-        "in place of `to` and `length`: the round body on which the string is wound, or over which it runs without "
-        "slipping; in place of `from`, `to` and `length`: two round bodies on which it is wound, `[upper, lower]`",
+        "the round body on which the string is wound, or over which it runs without slipping; it replaces `to` and "
+        "`length`. For a string that is wound on two round bodies: these bodies, `[upper, lower]`; they replace "
+        "`from`, `to` and `length`",
         one_or_list_of(TEXT, "a body, or a list of two bodies"),
     )
     over: tuple[WrittenPlace, ...] = key(
@@ -347,7 +348,8 @@ class StringKeys(Record):
         SCALAR,
     )
     tension: Word | None = key(
-        "the symbol of the tension, if a coordinate allows the length of the string to change", TEXT
+        "the symbol of the tension; needed if the coordinates alone do not keep the length of the string constant",
+        TEXT,
     )
     drawn_tension: Word | None = key(
         "the symbol of the tension in force diagrams, if the coordinates keep the length of the string constant, so "

@@ -57,7 +57,7 @@ class Material:
     """A body or particle, or a point of a body, by its name.
 
     point   the point, by its name or by components along the body axes; None for the body or particle itself
-    by      a displacement from this point
+    by      a displacement from this point or particle; None without a displacement
     """
 
     body: str

@@ -30,7 +30,8 @@ RATE = "_dot"
 
 @dataclass(frozen=True)
 class ImpulseKeys(Record):
-    """The keys of one entry of `impulses:`, an impulse at a place or an angular impulse on an angle."""
+    """The keys of one entry of `impulses:`, an impulse at a place, or an angular impulse that changes the rate of an
+    angle."""
 
     components: tuple[Tree, ...] = key("its components in space", COMPONENTS)
     at: WrittenPlace | None = key("the place where it acts", PLACE)

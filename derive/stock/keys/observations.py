@@ -35,9 +35,9 @@ def _known(words: Sequence[Word] | None, faults: Faults) -> tuple[Word, ...] | N
 def observations_of(
     problem: Problem, known: Mapping[str, Quantity], asked: Sequence[Sequence[str]], run: Run, faults: Faults
 ) -> list[list[Quantity]]:
-    """Return the observations of each part; report each chosen kind of which there is no observation.
+    """Return the observations of each part; report each chosen kind without an observation.
 
-    An author may choose kinds of observations for the problem or for a part, or `none`.
+    For the problem or for a part, an author may choose kinds of observations, or `none`.
     """
     problem = with_known_observations(problem, faults)
     chosen, everywhere = [_names(part.observations) for part in problem.parts], _names(problem.observations)

@@ -154,7 +154,7 @@ class DampingKeys(Record):
         if self.at is not None or self.on is None:
             rejected("missing-key", "damping needs either `at` or `on`", self.places[""])
         if self.of is not None:
-            message = "`of` belongs to drag at a place, but this drag acts on a coordinate"
+            message = "`of` belongs to drag at a place, but this drag opposes the rate of a coordinate"
             rejected("unused-key", message, self.of.place, "leave it out")
         of = (letters.read(self.constant, "constant")[0], letters.read(self.on, "on")[0])
         return Deferred(damping, of, place=self.places[""])

@@ -256,7 +256,7 @@ class Places:
             count = "several contacts" if found else "no contact"
             message = f"{count} of this system name `{body}` under `of`, so `{written.name}` is not one point"
             message = message if found else message.replace(" name ", " names ")
-            help_line = "give the components of the place under `at`, and the body under `of` of the force"
+            help_line = "give the components of the place under `at`, and the body under `of`"
             rejected("no-such-point", message, written.place, help_line)
         return found[0]
 

@@ -93,7 +93,7 @@ class Surroundings:
     surfaces: Mapping[str, Any] = field(default_factory=dict)
 
     def one(self, name: Word) -> Quantity:
-        """Return the answer with a name; reject a name that denotes several answers or none."""
+        """Return the answer that a name denotes; reject a name that denotes several answers or none."""
         found = self.answers(name)
         found = tuple(quantity for quantity in found if quantity.key == name) or found
         if len(found) != 1:
@@ -224,7 +224,8 @@ def _surface(result: Result, key: ResultKey, name: Word, around: Surroundings) -
 
 
 def _plain_values(result: Result, key: ResultKey, found: Mapping[Word, Expr], around: Surroundings) -> dict[str, Expr]:
-    """Return the values with plain texts as names, because a call with positions in the file cannot be stored."""
+    """Return the values under plain strings. A `Word` also has its position in the file, and a call of a verb with
+    such names cannot be stored."""
     return {str(name): value for name, value in found.items()}
 
 
@@ -323,7 +324,7 @@ def verb_of(written: Record) -> ResultVerb:
 
 
 def _check_verb(written: Record, name: str, faults: Faults) -> None:
-    """Check that a result has one verb and fitting keys."""
+    """Check that a result has one verb, the keys that this verb needs, and no key that it does not use."""
     there = [*written_in(written)]
     found = [each for each in there if each in RESULT_VERBS]
     if len(found) != 1:

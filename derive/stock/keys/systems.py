@@ -125,10 +125,10 @@ class SystemKeys(Record):
     central: Sequence[CentralKeys] = key("potential energies that depend on the distance between two places", CENTRAL)
     lagrangian: Tree | None = key(
         "the Lagrangian itself, given as a formula of coordinates, their rates and `t`, in place of all bodies: "
-        "`-m*c**2*sqrt(1 - x_dot**2/c**2)`; only couples, and drag with `on`, may be added",
+        "`-m*c**2*sqrt(1 - x_dot**2/c**2)`; only torques and drag with `on` may be added",
         SCALAR,
     )
-    potential: Tree | None = key("a further potential energy, in the coordinates", SCALAR)
+    potential: Tree | None = key("a further potential energy, as a function of the coordinates", SCALAR)
     forces: Sequence[ForceKeys] = key("given forces and torques", FORCES)
     damping: Sequence[DampingKeys] = key("drag that is proportional to a velocity and opposite to it", DAMPING)
     charges: Sequence[ChargeKeys] = key("charges in uniform fields", CHARGES)
@@ -343,7 +343,12 @@ def _lagrangian(written: SystemKeys, letters: InLetters) -> tuple[Expr, str | No
     beside = next((name for name in REPLACED_BY_LAGRANGIAN if name in written.places), None)
     if beside is not None:
         message = f"`{beside}` cannot be combined with `lagrangian`, which replaces bodies and forces"
-        rejected("given-lagrangian", message, written.places[beside], "include it in the formula")
+        rejected(
+            "given-lagrangian",
+            message,
+            written.places[beside],
+            f"leave `{beside}` out: the formula alone describes the system",
+        )
     value, dimension = letters.read(written.lagrangian, "lagrangian", "a formula of coordinates and rates")
     return value, kind_of_dimension(dimension)
 

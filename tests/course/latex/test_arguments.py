@@ -51,7 +51,7 @@ def test_what_is_not_clear_is_refused(text: str, code: str, message: str) -> Non
 @pytest.mark.parametrize(
     ("text", "help_line"),
     [
-        (r"\sin^{-1} n", "write `\\arcsin`, or `1/\\sin`"),
+        (r"\sin^{-1} n", "write `\\arcsin` or `1/\\sin`"),
         (r"28\,\mathrm{rad}", "write the unit of a value under `in:`"),
         ("q", "declare it under `symbols:`"),
         (r"\omega_{00}", "did you mean `omega_0`?"),

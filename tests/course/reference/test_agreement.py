@@ -195,7 +195,7 @@ def test_numbers_that_leave_nothing_of_an_equation_leave_nothing_to_compare(
     found = one(compared(whole=f"{head}{entry}\n"))
     assert (found.outcome, found.detail) == (
         "differs",
-        "with these numbers both sides are equal, so any statement would agree",
+        "with these numbers the derived equation is always true, so any statement would agree",
     )
 
 

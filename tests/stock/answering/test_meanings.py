@@ -23,7 +23,7 @@ from tests.stock.described import PENDULUM, loaded
         ("theta_dot_after", "the rate of theta just after the impact"),
         ("angular_momentum_z", "the z component of the angular momentum"),
         ("angular_momentum_size", "the magnitude of the angular momentum"),
-        ("wobble_period_x", "the period of a disturbed rotation about the x axis"),
+        ("wobble_period_x", "the period of a small disturbance of the rotation about the x axis"),
         ("N", FORCE),
     ],
 )
