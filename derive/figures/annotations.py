@@ -143,8 +143,8 @@ def _along_sight(label: Any, spot: Spot, comes: bool, towards: Spot = (-0.7, 0.7
 
 @dataclass(frozen=True)
 class AxisOfRotation(Mark):
-    """The axis through a point along a direction. It extends beyond the body at both ends, but the part
-    before the body is left out if the body would hide it.
+    """The axis through a point along a direction. It extends beyond the body at both ends, but its first part, up to
+    the body, is left out if the body would hide it.
 
     With a rate, a rotation arrow surrounds the axis near its far end, and the label is next to this arrow. The arrow is
     right-handed if the rate is positive.
@@ -172,8 +172,8 @@ class AxisOfRotation(Mark):
         return [line, *_circling(ring, plus(NOUGHT, along, sense), RING * paper.reach, self.label, paper)]
 
     def _start(self, paper: Paper, near: Vector, along: Vector) -> Vector:
-        """Return the start of the line. The part before the body is left out if the body would hide it, because the
-        line would then seem to leave the body through a front edge."""
+        """Return the start of the line. The line begins at the body if the body would hide its first part, because
+        the line would then seem to leave the body through a front edge."""
         start = plus(near, along, -PAST * paper.reach)
         (x, y), (u, v) = paper.spots(near, start)
         is_behind = dot(along, paper.stance.eye) > 0 and is_within(
@@ -423,9 +423,9 @@ class Projection(Arrow):
 
 @dataclass(frozen=True)
 class Cone(Arrow):
-    """The cone that a vector describes when it turns about an axis: the circle of its tip, and the line from its
-    start to the opposite point of this circle, both dashed. The arrow of the vector is another mark with the same
-    `size`."""
+    """The cone that a vector describes when it turns about an axis, dashed: the circle of its tip, and the line from
+    its start to the point of this circle opposite to the tip. The arrow of the vector is a separate mark with the
+    same `size`."""
 
     axis: Position = field(kw_only=True)
 

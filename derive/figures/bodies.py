@@ -369,7 +369,7 @@ def _height(point: Point, own: Expr) -> Expr:
 
 
 def centre_mark(body: Body, about: str | None = None, label: Any = "C") -> Mark:
-    """Mark the centre of mass of a body with its name, but without its coordinates, which the problem asks for."""
+    """Mark the centre of mass of a body with a label, but without its coordinates, which the problem asks for."""
     return CentreMark(body.point(about or body.reference).seen(body.middle.position), label=scalar(label))
 
 

@@ -66,7 +66,7 @@ STANDING, SHORT, SHORTEST = 47.0, Rational(12, 25), Rational(7, 20)
 ROPE = 110.0  # the drawn length of a whole rope, in points; each piece of the rope is drawn alone
 FOOT = 30.0  # half the length of the piece of a surface under a body, in points
 SLIGHT = 1e-6  # a number below this counts as zero
-NEAR = 0.3  # opposite arrows count as overlapping if the gap between their tips is below this part of an arrow
+NEAR = 0.3  # opposite arrows overlap if the gap between their tips is less than this fraction of an arrow's length
 ANGLE = Rational(63, 100)  # the value of an angle that has no given value, in radians
 NORMALS = ("N", "F_n", "n")  # possible symbols of a normal force that does not appear in the equations
 
@@ -94,8 +94,8 @@ def forces_in_state(key: str, system: System, of: Any, found: Mapping[Symbol, Qu
     found   symbol of a constraint force -> the step that derives the force
 
     The lengths of the arrows are to scale for the system at rest, but small forces are drawn larger. If the value of a
-    force is negative, its arrow is reversed. The result is None in space, if the diagram would be incomplete, or if the
-    sign of a force is unknown.
+    force is negative, its arrow is reversed. The result is None for a system in space, for an incomplete diagram, and
+    if a force or its sign is unknown.
     """
     acting = _acting(system, of)
     letters = {letter for force in acting for letter in _multipliers(system, force)}
@@ -457,7 +457,7 @@ def _overlap(start: Vector, end: Vector, other_start: Vector, other_end: Vector)
 
 
 def _angles(system: System, of: Any, drawn: Sequence[tuple[_Drawn, float]]) -> Iterator[Mark]:
-    """Yield the angle of a rod, and the angles by which forces are inclined, in a plane.
+    """Yield the angle of a rod, and the angles by which forces are inclined; nothing for a system in space.
 
     drawn   pairs of a force and the length of its arrow
     """

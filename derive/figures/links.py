@@ -73,7 +73,7 @@ def link_to(system: System, index: int, named: Sequence[Location] = ()) -> Link 
     index   the index of the particle
     named   points that count as known, in addition to earlier particles and the ends of central forces
 
-    Known and fixed points are preferred as start. Return None if there is no such link.
+    Known and fixed points are preferred as the start. Return None if there is no such link.
     """
     end = system.particles[index].at
     known = [p.at for p in system.particles[:index]] + [each for s in system.between for each in (s.start, s.end)]

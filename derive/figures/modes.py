@@ -1,9 +1,9 @@
 """Pictures of small displacements, in normal modes and just after an impact: the displaced system, with an arrow at
 each mass in the direction of its displacement.
 
-The displacement of a mass is a sum over the coordinates: the derivative of the place of the mass by the coordinate, at
-equilibrium, times the amplitude of the coordinate. If the ratio of the displacements is known, the lengths of the
-arrows are in this ratio, except that a very small displacement has no arrow.
+The displacement of a mass is a sum over the coordinates: the derivative of the position of the mass with respect to the
+coordinate, at equilibrium, times the amplitude of the coordinate. If the ratio of the displacements is known, the
+lengths of the arrows are in this ratio, except that a very small displacement has no arrow.
 """
 
 from __future__ import annotations
@@ -212,8 +212,8 @@ def draw_after(
     moment   the state at the impact
     after    the rates just after the impact
 
-    The result is None in space, or if a sketch cannot show the system. With other numbers than those of the drawing,
-    the arrows may have other directions.
+    Return None for a system in space, and for a system that a sketch cannot show. For numbers that differ from those
+    of the drawing, the directions of the arrows may also differ.
     """
     things = things_of(system, named)
     if things is None or len(system.places[0].components) != 2:

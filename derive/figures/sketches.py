@@ -519,8 +519,8 @@ class _Scene:
         return 1 if not ways or max(ways) < 0 or min(ways) > -1e-9 and max(ways) < 1e-9 else -1
 
     def _is_on_carrier(self, at: Location) -> bool:
-        """Whether a mass carries a surface, or touches a surface that a particle carries. Successive dimension lines of
-        such masses are at different distances."""
+        """Whether the mass at a place carries a surface, or touches a surface that a particle carries. Successive
+        dimension lines of such masses are at different distances."""
         carriers = [each for each in self.connections.contacts if isinstance(each.surface.of, Particle)]
         return any(same(at, each.at) or same(at, each.surface.of.at) for each in carriers)
 

@@ -83,7 +83,7 @@ from derive.steps.step import NUMBERS, Level, Step
 
 HIDDEN_STEP = "hidden"  # under `show:`, the value for a step whose lines the author hides
 CASES = "cases"  # `<<cases>>` in a question prints the numbers of the cases of the plots in this part
-HOMOGENEITY = "look in the script for a law that has a wrong input"
+HOMOGENEITY = "look for a law that has a wrong input"
 
 
 def document_of(

@@ -173,7 +173,7 @@ class Formulas:
         return read
 
     def _check_number(self, left: Side, right: Side, mark: str) -> None:
-        """Reject `$m = 2\\,\\mathrm{kg}$` if the file gives another number for m."""
+        """Reject `$m = 2\\,\\mathrm{kg}$` if the file gives a different number for m."""
         one, other = left.branches[0][0][0], right.branches[0][0][0]
         if mark == "=" and one in self.numbers and other.is_number and other != self.numbers[one].si:
             known = self.numbers[one]

@@ -169,8 +169,8 @@ def _check_forms(terms: Mapping[str, Any], known: Mapping[str, None]) -> None:
 
 
 class _Checked:
-    """Checks the structure of a file and records the place of each phrase; a file with another structure is
-    rejected."""
+    """Checks the structure of a file and records the place of each phrase; a file with a different structure
+    is rejected."""
 
     def __init__(self, source: Source):
         self.source, self.count = source, 0

@@ -235,7 +235,7 @@ def _divided(
     sizes = [float(expr.xreplace(each)) for each in numbers]
     if max(sizes) - min(sizes) > NEAR * abs(sizes[0]) or sizes[0] <= 0:
         message = f"`{name}`, the divisor of an axis of `{plot.key}`, must be the same positive number for all curves"
-        raise Rejected(Complaint("drawing", message, _place(problem, placement), help="divide by another quantity"))
+        raise Rejected(Complaint("drawing", message, _place(problem, placement), help="divide by a different quantity"))
     return Axis("", 1 / sizes[0], name)
 
 
@@ -520,7 +520,7 @@ def told_value(up: Axis, extremum: Extremum) -> str:
 
 
 def with_unit(value: float, unit: str) -> str:
-    """Return a number to four figures with its unit; a degree sign has no space before it."""
+    """Return a number to at most four figures with its unit; a degree sign has no space before it."""
     return _signed(f"{value:.4g}{_gap(unit)}{unit}")
 
 

@@ -3,7 +3,7 @@
 For each label, several positions around its point are tried. A position has a cost for each line point and each label
 that it covers. A second, smaller cost grows with the distance from the position that the mark prefers. The position
 with the lowest total cost is used. The labels are placed one after another, in several rounds. If the total cost is
-still high, they are placed again in another order.
+still high, they are placed again in a different order.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ LINE, HEAVY = 3.0, 60.0  # cost of covering a point of a line, and of covering a
 OUTSIDE = 6.0  # cost of a position outside the thing that the label names
 BESIDE, TOGETHER = 9.0, 5.0  # gap in points below which two labels in a row look like a product; cost of such a pair
 STACKED = 4.0  # the gap in a column, in points, below which two labels look like a fraction
-HEAVY_ENOUGH = 20.0  # if the total cost is at least this number, the labels are placed again in another order
+HEAVY_ENOUGH = 20.0  # if the total cost is at least this number, the labels are placed again in a different order
 # A drawn point that is closer to a label than NEAR, in points, costs DOUBT. All such points together cost at most
 # MOST_DOUBT.
 NEAR, DOUBT, MOST_DOUBT = 3.0, 0.6, 12.0

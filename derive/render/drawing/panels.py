@@ -41,7 +41,7 @@ FLATTEST, STEEPEST = 0.25, 1.4  # limits of height divided by width, for a path 
 # The axis of a positive curve begins at zero if the least value is below this part of the curve's height.
 NEAR_ZERO = 0.25
 FEWEST = 3  # least number of ticks, if smaller steps can give it
-AT_TICK = 1e-5  # a tick marks a place if their distance is at most this part of the distance of the outermost ticks
+AT_TICK = 1e-5  # a tick marks a place if it is closer than this fraction of the distance between the outermost ticks
 USUAL = (-2, 4)  # numbers at an axis have no factor 10^n if the power of ten of the greatest number is in this range
 
 _ROOT = re.compile(r"\\sqrt\{(?:[^{}]|\{[^{}]*\})*\}")

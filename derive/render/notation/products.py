@@ -99,8 +99,8 @@ def times_ten_to(power: int) -> Layout:
 
 
 def present(value: Any) -> Any:
-    """Return a vector or tensor with its common factor in front, and a scalar with tangents for quotients of sine and
-    cosine."""
+    """Return a vector or tensor with its common factor in front, and a scalar with tangents in place of quotients of
+    sine and cosine."""
     if not isinstance(value, MatrixBase):
         return with_tangents(value) if isinstance(value, Expr) else value
     if all(entry == 0 for entry in value):
@@ -311,7 +311,7 @@ class Place(IntEnum):
     RATE = auto()
     SWINGING = auto()  # sums with functions: m l^2 omega^2 (1 - cos a)
     FORCE = auto()  # after a coefficient of friction, and after a sum with functions: mu N, (a - b cos a) F
-    EXPONENTIAL = auto()  # also a sum with functions of the time
+    EXPONENTIAL = auto()  # also a sum with functions of time
     ROOT = auto()
     CHANGING = auto()  # rates of coordinates, and the time: r r_dot, not r_dot r
 

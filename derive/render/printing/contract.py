@@ -6,8 +6,8 @@ each line equals the line before it, with these exceptions:
 
     a number        (`because: rounded`) differs from the last line before the numbers by at most `within`
     a relation      has a residual, left minus right: the residual of the line before is `factor` times the residual of
-                    this line; the factor is not zero if no entry of `nonzero` is zero (for an inequality: if each entry
-                    is positive)
+                    this line; the factor is not zero if no entry of `nonzero` is zero (for an inequality, the factor is
+                    positive if each entry is positive)
     a series        (`because: series`) equals the line before up to an `order` in its `variable`
     the motion      (`because: motion`): the line equals the one before after `motion` is substituted
 
