@@ -44,7 +44,8 @@ HOLLOW = 2.3  # radius of the circle for a point on a body, in points
 NEAR_TIP = 0.72  # distance of a label from the start of its arrow, relative to the length of the arrow
 EYE = 3.4  # radius of the circle that shows an axis or a vector along the line of sight, in points
 POSITIVE = 26.0, 11.0  # distance from a particle to the arrow of a positive direction, and half the arrow's length
-AROUND_BODY = 115, 169  # the arrow of a positive rotation lies between these polar angles, in degrees
+# The arrow of a positive rotation is between these polar angles, in degrees. An arrow on the right side is mirrored.
+AROUND_BODY = 115, 169
 ROUND = 10.0  # least radius of the arrow of a `Turn`, in points
 BROKEN = 30.0  # least height of a support that is drawn with a gap, in points
 STAND = 16.0  # least height of a support, in points
@@ -337,7 +338,7 @@ class ForceArrow(Arrow):
 
 @dataclass(frozen=True)
 class PositiveDirection(_Single):
-    """A thin arrow beside a particle in the direction in which a coordinate grows."""
+    """A thin arrow beside a particle; it points in the direction in which a coordinate grows."""
 
     along: Position
 
@@ -406,7 +407,7 @@ class AppliedForce(Arrow):
 @dataclass(frozen=True)
 class Projection(Arrow):
     """The projection of a vector on the horizontal plane through its start, and the line from its tip to this plane,
-    both dashed. The arrow of the vector is another mark with the same `size`."""
+    both dashed. The arrow of the vector is a separate mark with the same `size`."""
 
     def pieces(self, paper: Paper) -> list[Piece]:
         start, tip = paper.numbers.vector(self.start), self.tip(paper.numbers, paper.reach)

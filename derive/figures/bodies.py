@@ -275,7 +275,7 @@ def _hollow(body: Body, point: Point, aside: Position, named: bool, in_plane: bo
 
 
 def _sizes(body: Body, boundary: Boundary | None, point: Point, aside: Position) -> list[Mark]:
-    """Return lines labelled with the radius and the lengths of a body, which may have any orientation."""
+    """Return lines labelled with the radius and the lengths of a body; the body may have any orientation."""
     match boundary:
         case Round():
             return _round_sizes(body, boundary, point, aside)

@@ -1,8 +1,8 @@
 """The branches of a bifurcation diagram: where each equilibrium exists, where it is stable, and where this changes.
 
 The conditions of the solution decide where an equilibrium exists and where it is stable. A second route then uses the
-potential energy alone: for a few values of the parameter between two changes, the slope of this energy must vanish at
-the branches and nowhere else, and the energy must have minima at the stable branches and nowhere else.
+potential energy alone, for a few values of the parameter between two changes. The slope of this energy must vanish at
+the branches and nowhere else. The energy must have minima at the stable branches and nowhere else.
 """
 
 from __future__ import annotations
@@ -178,7 +178,6 @@ def _apart(borders: Sequence[float], width: float) -> list[float]:
 
 
 def _lines(i: int, place: Function, spans: Sequence[tuple[float, float, tuple[State, ...]]]) -> Iterator[BranchLine]:
-    """Yield the lines of one equilibrium."""
     begun: tuple[float, bool] | None = None
     for k, (start, end, states) in enumerate(spans):
         state = states[i]

@@ -127,7 +127,7 @@ def _varies(value: Expr, turning: set[Symbol]) -> bool:
     """Return whether the value differs in two numerical samples."""
     others = sorted(value.free_symbols - turning, key=str)
     fixed = {letter: Float(1.31 + 0.17 * i) for i, letter in enumerate(others)}
-    # The differences of the angles also differ between the samples, because a distance may depend only on them.
+    # The samples also differ in the differences of the angles, because a distance may depend only on these differences.
     angles = [{q: Float(x * (1 + 0.29 * i)) for i, q in enumerate(sorted(turning, key=str))} for x in SAMPLES]
     one, other = (float(value.xreplace({**fixed, **at}).evalf()) for at in angles)
     return abs(one - other) > 1e-9 * (1 + abs(one))

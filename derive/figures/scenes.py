@@ -88,7 +88,7 @@ def drawing(
 
 
 def drawn_at(moving: Mapping[Symbol, str]) -> dict[Symbol, Expr]:
-    """Return a value for each coordinate that is an angle; the values of up to six angles differ."""
+    """Return a value for each coordinate that is an angle; the values of the first six angles are distinct."""
     angles = [q for q, kind in moving.items() if kind == "angle"]
     return {q: size * pi / 180 for q, size in zip(angles, cycle(DEGREES), strict=False)}
 

@@ -143,7 +143,7 @@ class _Writer:
         self.converted, self.stated = set[Any](), Stated()
         self.before: Step | None = None  # the last step shown; the words of the next step may depend on it
         self.rest: list[Step] = []  # the steps that the part shows after the current step
-        # the steps to whose lines the last sentence of a step without lines refers
+        # the last sentence of a step without lines refers to the lines of these steps
         self.pointed_to: tuple[Step, ...] = ()
         self.told_before = ""  # the key of a step that shares the sentence of the step before
         self.framed: set[str] = set()  # steps whose result is framed as an answer
@@ -168,7 +168,7 @@ class _Writer:
         return {**table, **{a: self.problem.dimensions.get(letter) for letter, a in self.problem.every_amount}}
 
     def _away(self) -> dict[str, Inline]:
-        """Return, by key, the equations of the steps that are only in parts that this level hides."""
+        """Return the equations of the steps that are only in parts that this level hides, by key."""
         here = [self.level.shows(part.detail) for part in self.problem.parts]
         shown = {key for keys, is_here in zip(self.derivation.parts, here, strict=True) if is_here for key in keys}
         steps = [self.derivation.step(key) for keys in self.derivation.parts for key in keys if key not in shown]

@@ -34,7 +34,7 @@ ROUNDS = 3
 INSIDE = 0.62  # the distance of a letter inside an arc from the vertex, divided by the radius
 LETTER = 5.5  # in points: half the room for the letter of an angle
 ALONG_ARC = (0.5, 0.36, 0.64, 0.25, 0.75, 0.12, 0.88)  # places of a letter along its arc, the best first
-AT_END = 8.0  # cost of a letter at an end of its arc, in place of its middle
+AT_END = 8.0  # additional cost of a letter at an end of its arc, compared with the middle of the arc
 NARROW = 12.0  # cost of a letter inside an arc that has little room
 
 
@@ -221,7 +221,7 @@ def _reads_as_fraction(one: Extent, other: Extent) -> bool:
 
 
 def _seen(pieces: Sequence[Piece], width: Callable[[Stroke], float]) -> list[Spot]:
-    """Return points of the lines and bullets that are visible."""
+    """Return the visible points of the lines and bullets."""
     found: list[Spot] = []
     for piece in pieces:
         if isinstance(piece, Patch):

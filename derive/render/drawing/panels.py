@@ -41,7 +41,7 @@ FLATTEST, STEEPEST = 0.25, 1.4  # limits of height divided by width, for a path 
 # The axis of a positive curve begins at zero if the least value is below this part of the curve's height.
 NEAR_ZERO = 0.25
 FEWEST = 3  # least number of ticks, if smaller steps can give it
-AT_TICK = 1e-5  # a tick marks a place if it is closer than this fraction of the distance between the outermost ticks
+AT_TICK = 1e-5  # a tick marks a place within this fraction of the distance between the outermost ticks
 USUAL = (-2, 4)  # numbers at an axis have no factor 10^n if the power of ten of the greatest number is in this range
 
 _ROOT = re.compile(r"\\sqrt\{(?:[^{}]|\{[^{}]*\})*\}")
@@ -370,7 +370,6 @@ def portrait_panel(
 
 
 def _level(value: Any, number: float, axis: Axis, notation: Notation) -> str:
-    """Return the name of a level."""
     if value.free_symbols and axis.per is None:
         return _mathtext(notation.layout(value))
     return _with_unit(number * axis.per_unit, axis.unit)

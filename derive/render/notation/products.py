@@ -191,7 +191,8 @@ def root_cancelled(above: list[Expr], below: list[Expr]) -> tuple[list[Expr], li
 
 
 def under_one_root(number: Expr) -> list[Expr]:
-    """Write 7 sqrt(2779)/397 as the factors 7 and sqrt(7/397). Return no factors if a number has no shorter form."""
+    """Write 7 sqrt(2779)/397 as the factors 7 and sqrt(7/397). Return no factors if this form is neither shorter nor
+    simpler."""
     square = number**2
     if number.is_Rational or not square.is_Rational or square.q == 1 or square < 0:
         return []
@@ -255,8 +256,8 @@ def _with_plain_root(factor: Expr) -> tuple[Expr, ...]:
 
 
 def _below_under_root(number: Rational, inside: Rational) -> tuple[Rational, Rational]:
-    """Return the factor that is taken from the front under the root, and the new number under the root: 1/3 and 2/3
-    for sqrt(6)/3 = sqrt(2/3), 1/2 and 1/2 for sqrt(2)/2 = sqrt(1/2)."""
+    """Return the factor that moves from the front of a root under the root, and the new number under the root. They
+    are 1/3 and 2/3 for sqrt(6)/3 = sqrt(2/3), and 1/2 and 1/2 for sqrt(2)/2 = sqrt(1/2)."""
     shared = gcd(number.q, inside.p) if inside.q == 1 else Rational(1)
     return Rational(1, shared), inside / shared**2
 
