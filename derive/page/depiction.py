@@ -49,9 +49,8 @@ from derive.steps.signs import truth_known
 LARGEST = 99
 CURVE = "way"  # the key of the phrase for a dashed curve
 _VALUE = re.compile(r"value_\d+")  # the role of a value that a step substitutes for a letter: b = 2 sqrt(k m)
-ROUNDED = (
-    0.01  # an equation holds for the rounded numbers of a plot if the relative difference of its sides is at most this
-)
+# An equation holds for the rounded numbers of a plot if the relative difference of its sides is at most ROUNDED.
+ROUNDED = 0.01
 CONDITIONS = ("condition", "excluded", "existing", "exists")  # roles of the conditions under which a result holds
 FOUND = -1  # the index of the statement; part (a) has the index 0
 
