@@ -377,7 +377,6 @@ class _Writer:
         return {mention.name for mention in mentions if mention.of == FIGURE}
 
     def _observed(self, index: int) -> tuple[Inline, ...]:
-        """Return the observations about the answers of a part."""
         keys = self.derivation.observed[index] if self.derivation.observed and self.level is not Level.BRIEF else ()
         said = [self._without_lines(self._phrase(self.derivation.step(key))) for key in keys]
         return tuple(node for i, nodes in enumerate(said) for node in ((Text(" "),) if i else ()) + nodes)
@@ -400,7 +399,6 @@ class _Writer:
         return PartPage("", (Text(title),), None, _punctuated(blocks)) if blocks else None
 
     def _framed(self, keys: Sequence[str], asked: Collection[str], boxed: Collection[str]) -> set[str]:
-        """Return the keys of the steps of a part that are framed."""
         derived = max((i for i, key in enumerate(keys) if key not in asked), default=-1)
         measured = {key for key in keys[derived + 1 :] if (v := self.values.get(key)) and v.outcome == "measured"}
         verdicts = {key for key in asked if self.derivation.step(key).display.verdict}

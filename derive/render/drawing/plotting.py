@@ -383,7 +383,6 @@ def _guide(change: Mark, frame: Frame) -> tuple[Spot, Spot]:
 
 
 def _around(spot: Spot, size: tuple[float, float]) -> Iterator[Extent]:
-    """Yield boxes of a name around a point."""
     (x, y), (wide, high) = spot, size
     gap = PAD + DOT
     for left, below in (
