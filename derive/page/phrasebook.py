@@ -141,7 +141,7 @@ def _add(page: PhraseTable, topic: PhraseTable) -> None:
 
 
 def _replace(known: PhraseTable, own: PhraseTable, keys: tuple[str, ...]) -> None:
-    """Replace phrases of derive by phrases of a course; a phrase that replaces nothing is rejected."""
+    """Replace phrases of derive by phrases of a course. A new phrase is rejected, except under `terms`."""
     for name, phrases in own.items():
         if name not in known and keys != ("terms",):  # a course may have words for the names of its own bodies
             message = f"derive has no phrase `{'.'.join((*keys, name))}` that this one could replace"
