@@ -206,7 +206,7 @@ def _together(shapes: Sequence[Quantity]) -> list[tuple[Linear, list[Quantity]]]
 def draw_after(
     key: str, system: System, moment: Moment, after: Sequence[Quantity], named: Sequence[Location] = ()
 ) -> Drawing | None:
-    """Draw a system in a plane a short time after an impact: the displacements are in the ratio of the rates just after
+    """Draw a system in a plane a short time after an impact. The displacements are in the ratio of the rates just after
     the impact, and arrows show the velocities of the masses.
 
     moment   the state at the impact

@@ -346,8 +346,8 @@ def _with_values(problem: Problem, placement: Placement) -> dict[str, Place | No
 
 
 def keys_without_effect(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Complaint]:
-    """Return a warning for each key of a plot in a drawing that is not a plot, for `view` in a drawing that is not in
-    space, and for `width` in the force diagram of a particle."""
+    """Return a warning for each key that has no effect. These are the keys for plots in a drawing that is not a plot,
+    `view` in a drawing that is not in space, and `width` in the force diagram of a particle."""
     found = []
     for placement in problem.drawings:
         no_plot = any(d.key == placement.key and not isinstance(d, m.Plot) for d in drawings)

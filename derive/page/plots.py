@@ -44,8 +44,8 @@ MOST_MARKED, MOST_IN_TIME = 6, 3  # greatest number of extrema with marks; the s
 NEAR = 1e-6
 MOST_TOGETHER = 4  # greatest number of curves in one panel; they differ in the style of their lines
 KEPT = 1 / 3  # length of the constant part after the range of a curve, divided by the length of this range
-# To test whether a curve depends on a number, the number is multiplied by a factor, and values of the curve are
-# compared at places given as fractions of the range.
+# To test whether a curve depends on the number of a symbol, this number is multiplied by CHANGED. The values of the
+# curve before and after are compared at the fractions SHARES of the range.
 CHANGED, SHARES = 1.31, (0.23, 0.59, 0.87)
 FLATTEST = 1 / 6  # least size of a readable curve, divided by the size of all curves in the panel
 

@@ -64,8 +64,8 @@ def _is_of_positive_letters(step: Step) -> bool:
 
 def _in_letters(named: StepNames, letters: set[Symbol]) -> dict[str, Any]:
     """Return an answer in the letters of the problem, and the quantities, such as mu, that its formula on the page
-    contains; an empty mapping if there are no such quantities. A platform that compares formulas does not know these
-    quantities."""
+    contains. The mapping is empty if there are no such quantities. A platform that compares formulas does not know
+    these quantities."""
     from sympy import Expr, Symbol
 
     from derive.algebra.node import explicit
