@@ -33,7 +33,7 @@ OWN = 1.5  # in points; drawn points closer than this to the line that a label n
 ROUNDS = 3
 INSIDE = 0.62  # the distance of a letter inside an arc from the vertex, divided by the radius
 LETTER = 5.5  # in points: half the room for the letter of an angle
-ALONG_ARC = (0.5, 0.36, 0.64, 0.25, 0.75, 0.12, 0.88)  # places of a letter along its arc, the best first
+ALONG_ARC = (0.5, 0.36, 0.64, 0.25, 0.75, 0.12, 0.88)  # places of a letter, as fractions of its arc, the best first
 AT_END = 8.0  # additional cost of a letter at an end of its arc, compared with the middle of the arc
 NARROW = 12.0  # cost of a letter inside an arc that has little room
 
