@@ -68,7 +68,7 @@ def test_what_is_no_vector_is_refused() -> None:
 
 
 def test_a_plot_needs_a_quantity_that_depends_on_its_letter() -> None:
-    with pytest.raises(Rejected, match="does not depend on theta"):
+    with pytest.raises(Rejected, match="needs a scalar that depends on theta, but"):
         plot("energy", known_block()["magnitude"], theta, (0, 1))
 
 
