@@ -178,7 +178,7 @@ class Formulas:
         if mark == "=" and one in self.numbers and other.is_number and other != self.numbers[one].si:
             known = self.numbers[one]
             message = f"`{left.text}` is {known.number} {known.unit}".rstrip() + f", so it is not `{right.text}`"
-            help_line = f"write `<<{one.name}>>`, which is printed with its number"
+            help_line = "correct the number, or leave it out: the page adds the numbers that the statement lacks"
             raise Rejected(Complaint("wrong-number", message, right.place, (), help_line))
 
     def _check_result(self, left: Side, right: Side) -> None:
