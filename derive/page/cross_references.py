@@ -76,7 +76,10 @@ class References:
             number = self.figures[mention.name]
             return FigureRef(f"{self.words.labels['figure']}\u00a0{number}", mention.name, number)
         message = f"no drawing with a caption is called `{mention.name}`"
-        help_line = did_you_mean(mention.name, self.figures) or "name a drawing that has a `caption:` under `drawings:`"
+        help_line = (
+            did_you_mean(mention.name, self.figures)
+            or "use the name of a drawing, and write its `caption:` under `drawings:`"
+        )
         self.faults.append(Complaint("undefined-name", message, mention.place, help=help_line))
         return None
 
