@@ -65,7 +65,7 @@ def test_a_length_that_is_called_as_the_angle_is_refused(tmp_path: Path) -> None
         text_of(tmp_path, {"thickness: a\n": "thickness: theta\n", "a: length": "theta: length"})
     (complaint,) = refusal.value.complaints
     assert complaint.code == "letter-clash"
-    assert complaint.message == "`theta` is a symbol of this problem, but the script has a coordinate of that name"
+    assert complaint.message == "`theta` is a symbol of this problem, but a coordinate has the same name"
 
 
 def test_a_part_alone_shows_the_steps_that_it_rests_on(tmp_path: Path) -> None:

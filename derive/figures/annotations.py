@@ -44,7 +44,8 @@ HOLLOW = 2.3  # radius of the circle for a point on a body, in points
 NEAR_TIP = 0.72  # distance of a label from the start of its arrow, relative to the length of the arrow
 EYE = 3.4  # radius of the circle that shows an axis or a vector along the line of sight, in points
 POSITIVE = 26.0, 11.0  # distance from a particle to the arrow of a positive direction, and half the arrow's length
-AROUND_BODY = 115, 169  # the arrow of a positive rotation lies between these polar angles, in degrees
+# The arrow of a positive rotation is between these polar angles, in degrees. An arrow on the right side is mirrored.
+AROUND_BODY = 115, 169
 ROUND = 10.0  # least radius of the arrow of a `Turn`, in points
 BROKEN = 30.0  # least height of a support that is drawn with a gap, in points
 STAND = 16.0  # least height of a support, in points
@@ -143,8 +144,8 @@ def _along_sight(label: Any, spot: Spot, comes: bool, towards: Spot = (-0.7, 0.7
 
 @dataclass(frozen=True)
 class AxisOfRotation(Mark):
-    """The axis through a point along a direction. It extends beyond the body at both ends, but the part
-    before the body is left out if the body would hide it.
+    """The axis through a point along a direction. It extends beyond the body at both ends, but its first part, up to
+    the body, is left out if the body would hide it.
 
     With a rate, a rotation arrow surrounds the axis near its far end, and the label is next to this arrow. The arrow is
     right-handed if the rate is positive.
@@ -172,8 +173,8 @@ class AxisOfRotation(Mark):
         return [line, *_circling(ring, plus(NOUGHT, along, sense), RING * paper.reach, self.label, paper)]
 
     def _start(self, paper: Paper, near: Vector, along: Vector) -> Vector:
-        """Return the start of the line. The part before the body is left out if the body would hide it, because the
-        line would then seem to leave the body through a front edge."""
+        """Return the start of the line. The line begins at the body if the body would hide its first part, because
+        the line would then seem to leave the body through a front edge."""
         start = plus(near, along, -PAST * paper.reach)
         (x, y), (u, v) = paper.spots(near, start)
         is_behind = dot(along, paper.stance.eye) > 0 and is_within(
@@ -337,7 +338,7 @@ class ForceArrow(Arrow):
 
 @dataclass(frozen=True)
 class PositiveDirection(_Single):
-    """A thin arrow beside a particle in the direction in which a coordinate grows."""
+    """A thin arrow beside a particle; it points in the direction in which a coordinate grows."""
 
     along: Position
 
@@ -406,7 +407,7 @@ class AppliedForce(Arrow):
 @dataclass(frozen=True)
 class Projection(Arrow):
     """The projection of a vector on the horizontal plane through its start, and the line from its tip to this plane,
-    both dashed. The arrow of the vector is another mark with the same `size`."""
+    both dashed. The arrow of the vector is a separate mark with the same `size`."""
 
     def pieces(self, paper: Paper) -> list[Piece]:
         start, tip = paper.numbers.vector(self.start), self.tip(paper.numbers, paper.reach)
@@ -423,9 +424,9 @@ class Projection(Arrow):
 
 @dataclass(frozen=True)
 class Cone(Arrow):
-    """The cone that a vector describes when it turns about an axis: the circle of its tip, and the line from its
-    start to the opposite point of this circle, both dashed. The arrow of the vector is another mark with the same
-    `size`."""
+    """The cone that a vector describes when it turns about an axis, dashed: the circle of its tip, and the line from
+    its start to the point of this circle opposite to the tip. The arrow of the vector is a separate mark with the
+    same `size`."""
 
     axis: Position = field(kw_only=True)
 

@@ -275,7 +275,7 @@ def _hollow(body: Body, point: Point, aside: Position, named: bool, in_plane: bo
 
 
 def _sizes(body: Body, boundary: Boundary | None, point: Point, aside: Position) -> list[Mark]:
-    """Return lines labelled with the radius and the lengths of a body, which may have any orientation."""
+    """Return lines labelled with the radius and the lengths of a body; the body may have any orientation."""
     match boundary:
         case Round():
             return _round_sizes(body, boundary, point, aside)
@@ -369,7 +369,7 @@ def _height(point: Point, own: Expr) -> Expr:
 
 
 def centre_mark(body: Body, about: str | None = None, label: Any = "C") -> Mark:
-    """Mark the centre of mass of a body with its name, but without its coordinates, which the problem asks for."""
+    """Mark the centre of mass of a body with a label, but without its coordinates, which the problem asks for."""
     return CentreMark(body.point(about or body.reference).seen(body.middle.position), label=scalar(label))
 
 

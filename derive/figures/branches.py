@@ -1,8 +1,8 @@
 """The branches of a bifurcation diagram: where each equilibrium exists, where it is stable, and where this changes.
 
 The conditions of the solution decide where an equilibrium exists and where it is stable. A second route then uses the
-potential energy alone: for a few values of the parameter between two changes, the slope of this energy must vanish at
-the branches and nowhere else, and the energy must have minima at the stable branches and nowhere else.
+potential energy alone, for a few values of the parameter between two changes. The slope of this energy must vanish at
+the branches and nowhere else. The energy must have minima at the stable branches and nowhere else.
 """
 
 from __future__ import annotations
@@ -33,8 +33,9 @@ CLOSE = 1e-5  # two values count as equal if their difference is smaller than th
 # sides, with DIGITS digits.
 NEAR, DIGITS = 5, 40
 SHRUNK = 1e-6  # at a zero, the slope is smaller than this fraction of the slope beside the zero; at a pole it is larger
-# The second route also counts zeros beyond the lower and the upper end of the vertical axis, by at most these fractions
-# of the length of this axis. If the problem does not state the ends of this axis, each fraction is increased by 1.
+# The second route also counts zeros below and above the vertical axis. Their distances from the lower and the upper end
+# of the axis are at most these fractions of its length. If the problem does not state the ends of the axis, each
+# fraction is increased by 1.
 WIDENED = 0.0731, 0.0917
 EDGE = 1e-5  # zeros closer to an end of the coordinate's range than this fraction of the vertical axis are not counted
 FULL_TURN = 2 * exact_pi
@@ -105,7 +106,9 @@ def bifurcations_of(
     if not changes:
         span = f"for values of the parameter from {ends[0]:.4g} to {ends[1]:.4g}"
         message = f"no equilibrium begins, ends or changes its stability {span}"
-        raise Rejected(Complaint("drawing", message, help="a diagram must show such a change: choose another `range`"))
+        raise Rejected(
+            Complaint("drawing", message, help="a diagram must show such a change: choose a different `range`")
+        )
     _confirm(diagram, parameter, spans, places, numbers, _searched(diagram, low, high, axis is None), is_angle)
     return Bifurcations(low, high, lines, changes)
 
@@ -175,7 +178,6 @@ def _apart(borders: Sequence[float], width: float) -> list[float]:
 
 
 def _lines(i: int, place: Function, spans: Sequence[tuple[float, float, tuple[State, ...]]]) -> Iterator[BranchLine]:
-    """Yield the lines of one equilibrium."""
     begun: tuple[float, bool] | None = None
     for k, (start, end, states) in enumerate(spans):
         state = states[i]

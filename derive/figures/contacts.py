@@ -51,8 +51,8 @@ def contact_marks(system: System) -> Iterable[Mark]:
 def _on_a_plane(system: System, rolling: Rolling, contact: Location) -> Iterable[Mark]:
     """Yield the marks of a body in space that rolls on a horizontal plane through its fixed point.
 
-    The marks are the circle of the points of contact, the line from the fixed point to the contact, the angle between
-    this line and the axis of the body, and the spin about this axis.
+    The marks are the circle of the points of contact, and the line from the fixed point to the contact. The angle
+    between this line and the axis of the body, and the spin about this axis, are also marked.
     """
     body = rolling.body
     way = contact - body.at

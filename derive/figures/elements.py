@@ -85,7 +85,7 @@ def spring_mark(start: Any, end: Any, label: Any = None) -> Mark:
 def rope(*along: Any, label: Any = None) -> Mark:
     """A taut string through points and around wheels: `rope(first, pulley, second)`.
 
-    The string passes each wheel on the outer side of its bend.
+    Each wheel is on the inner side of the bend of the string.
     """
     if len(along) < 2:
         raise Rejected(Complaint("wrong-argument", "a rope needs two places or more"))

@@ -66,7 +66,7 @@ STANDING, SHORT, SHORTEST = 47.0, Rational(12, 25), Rational(7, 20)
 ROPE = 110.0  # the drawn length of a whole rope, in points; each piece of the rope is drawn alone
 FOOT = 30.0  # half the length of the piece of a surface under a body, in points
 SLIGHT = 1e-6  # a number below this counts as zero
-NEAR = 0.3  # opposite arrows count as overlapping if the gap between their tips is below this part of an arrow
+NEAR = 0.3  # opposite arrows count as overlapping if their tips are closer than this fraction of an arrow's length
 ANGLE = Rational(63, 100)  # the value of an angle that has no given value, in radians
 NORMALS = ("N", "F_n", "n")  # possible symbols of a normal force that does not appear in the equations
 
@@ -94,8 +94,8 @@ def forces_in_state(key: str, system: System, of: Any, found: Mapping[Symbol, Qu
     found   symbol of a constraint force -> the step that derives the force
 
     The lengths of the arrows are to scale for the system at rest, but small forces are drawn larger. If the value of a
-    force is negative, its arrow is reversed. The result is None in space, if the diagram would be incomplete, or if the
-    sign of a force is unknown.
+    force is negative, its arrow is reversed. The result is None for a system in space, for an incomplete diagram, and
+    if a force or its sign is unknown.
     """
     acting = _acting(system, of)
     letters = {letter for force in acting for letter in _multipliers(system, force)}
@@ -327,8 +327,8 @@ def _offset(drawn: _Drawn, of: PlacedBody, scene: Connections) -> tuple[float, f
 
 
 def _acting(system: System, of: Any) -> list[PointForce]:
-    """Return the forces of connections on a body. If there are any, and the only contact that the coordinates keep is
-    with a fixed plane, the normal force of this plane is added, which no equation contains."""
+    """Return the forces of connections on a body. If there is such a force, and the coordinates keep exactly one
+    contact, with a fixed plane, add the normal force of this plane. No equation contains this normal force."""
     named = [force for each in connections_of(system, Connection) for force in each.on(of)]
     named += _drawn_pulls(system, of)
     return [*named, *_unnamed_normals(system, of)] if named else []
@@ -457,7 +457,7 @@ def _overlap(start: Vector, end: Vector, other_start: Vector, other_end: Vector)
 
 
 def _angles(system: System, of: Any, drawn: Sequence[tuple[_Drawn, float]]) -> Iterator[Mark]:
-    """Yield the angle of a rod, and the angles by which forces are inclined, in a plane.
+    """Yield the angle of a rod, and the angles by which forces are inclined; nothing for a system in space.
 
     drawn   pairs of a force and the length of its arrow
     """
@@ -570,7 +570,7 @@ def _over_pulley(system: System, of: Any) -> tuple[PointForce, PointForce] | Non
 
 def _asides(pulls: tuple[PointForce, PointForce]) -> tuple[float, float]:
     """Return the distances, in points, by which the arrows of the two pulls at a small pulley are shifted to the left
-    of their directions, so that each arrow starts at the rim."""
+    of their directions. Each arrow then starts at the rim."""
     (x, y), (u, v) = (force.direction for force in pulls)
     side = -1.0 if numeric(x * v - y * u) > SLIGHT else 1.0
     return side * WHEEL, -side * WHEEL

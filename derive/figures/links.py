@@ -73,7 +73,7 @@ def link_to(system: System, index: int, named: Sequence[Location] = ()) -> Link 
     index   the index of the particle
     named   points that count as known, in addition to earlier particles and the ends of central forces
 
-    Known and fixed points are preferred as start. Return None if there is no such link.
+    Known and fixed points are preferred as the start. Return None if there is no such link.
     """
     end = system.particles[index].at
     known = [p.at for p in system.particles[:index]] + [each for s in system.between for each in (s.start, s.end)]
@@ -127,7 +127,7 @@ def _varies(value: Expr, turning: set[Symbol]) -> bool:
     """Return whether the value differs in two numerical samples."""
     others = sorted(value.free_symbols - turning, key=str)
     fixed = {letter: Float(1.31 + 0.17 * i) for i, letter in enumerate(others)}
-    # The differences of the angles also differ between the samples, because a distance may depend only on them.
+    # The samples also differ in the differences of the angles, because a distance may depend only on these differences.
     angles = [{q: Float(x * (1 + 0.29 * i)) for i, q in enumerate(sorted(turning, key=str))} for x in SAMPLES]
     one, other = (float(value.xreplace({**fixed, **at}).evalf()) for at in angles)
     return abs(one - other) > 1e-9 * (1 + abs(one))

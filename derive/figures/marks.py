@@ -125,7 +125,7 @@ class ShownMode:
     order       the order of the masses: "across" from left to right, "down" from top to bottom; empty for a single mass
     siblings    the keys of the steps of all modes that are found together; the drawings of these modes are placed after
                 the last of these steps
-    like        the key of the sketch of the system; the numbers that a problem gives for the sketch also hold here
+    like        the key of the sketch of the system; the numbers that a problem gives for the sketch are also used here
     """
 
     frequency: Any

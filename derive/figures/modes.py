@@ -1,9 +1,9 @@
 """Pictures of small displacements, in normal modes and just after an impact: the displaced system, with an arrow at
 each mass in the direction of its displacement.
 
-The displacement of a mass is a sum over the coordinates: the derivative of the place of the mass by the coordinate, at
-equilibrium, times the amplitude of the coordinate. If the ratio of the displacements is known, the lengths of the
-arrows are in this ratio, except that a very small displacement has no arrow.
+The displacement of a mass is a sum over the coordinates: the derivative of the position of the mass with respect to the
+coordinate, at equilibrium, times the amplitude of the coordinate. If the ratio of the displacements is known, the
+lengths of the arrows are in this ratio, except that a very small displacement has no arrow.
 """
 
 from __future__ import annotations
@@ -206,14 +206,14 @@ def _together(shapes: Sequence[Quantity]) -> list[tuple[Linear, list[Quantity]]]
 def draw_after(
     key: str, system: System, moment: Moment, after: Sequence[Quantity], named: Sequence[Location] = ()
 ) -> Drawing | None:
-    """Draw a system in a plane a short time after an impact: the displacements are in the ratio of the rates just after
+    """Draw a system in a plane a short time after an impact. The displacements are in the ratio of the rates just after
     the impact, and arrows show the velocities of the masses.
 
     moment   the state at the impact
     after    the rates just after the impact
 
-    The result is None in space, or if a sketch cannot show the system. With other numbers than those of the drawing,
-    the arrows may have other directions.
+    Return None for a system in space, and for a system that a sketch cannot show. For numbers that differ from those
+    of the drawing, the directions of the arrows may also differ.
     """
     things = things_of(system, named)
     if things is None or len(system.places[0].components) != 2:
@@ -287,9 +287,12 @@ class _Displaced:
             return False
 
     def _along(self, displacement: MatrixBase, at: Location) -> Expr | None:
-        """Return a component of a displacement, up to a positive factor: along an axis if the displacement is parallel
-        to an axis or the ratio y/x is a number, and otherwise along the path of a coordinate. Return None if the
-        displacement is not along such a path."""
+        """Return a component of a displacement, up to a positive factor.
+
+        If the displacement is parallel to an axis or the ratio y/x is a number, this is the component along an axis.
+        Otherwise it is the component along the path of a coordinate. Return None if the displacement is not along such
+        a path.
+        """
         x, y = displacement
         if x == 0 or y == 0 or tidied(y / x).is_number:
             return y if x == 0 else x

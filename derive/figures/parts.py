@@ -348,7 +348,7 @@ def _normal(along: Spot, side: Spot) -> Spot:
 
 @dataclass(frozen=True)
 class ParticleMark(_Piecewise):
-    """A particle, a bob or a bead: a small disc with its mass and, if it has one, its charge."""
+    """A particle, a bob or a bead: a small disc, labelled with its mass and, if there is one, its charge."""
 
     at: Position
     charge: Any = field(default=None, metadata=BESIDE)

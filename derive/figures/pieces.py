@@ -55,8 +55,8 @@ class Tag:
 
     towards   the direction from the spot to the label
     gap       the distance between the spot and the label, in points
-    way       for the label of a line, the greatest shift of the label along the line, in both directions; the label may
-              also be on the other side of the line
+    way       for the label of a line, a vector along the line. The label may be shifted by at most 0.6 of this vector,
+              in both directions, and it may be on the other side of the line
     on        whether the label is on the spot; then it may be shifted by `towards` or in the opposite direction, if
               the spot is occupied
     round     for the letter of an angle: the vertex and the arc; the letter is next to the arc

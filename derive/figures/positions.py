@@ -26,7 +26,8 @@ def vector_of(thing: Any) -> tuple[Any, tuple[str, ...]]:
     value is rejected."""
     value, keys = value_and_keys(thing)
     if not isinstance(value, MatrixBase) or value.shape not in {(2, 1), (3, 1)}:
-        got = f"`{thing.key}` is not one" if isinstance(thing, Quantity) else f"this is of type {type(thing).__name__}"
+        sort = f"the value is of type {type(thing).__name__}"
+        got = f"`{thing.key}` is not one" if isinstance(thing, Quantity) else sort
         raise Rejected(Complaint("wrong-argument", f"a drawing needs a vector or a place here, but {got}"))
     return value, keys
 

@@ -88,7 +88,7 @@ def drawing(
 
 
 def drawn_at(moving: Mapping[Symbol, str]) -> dict[Symbol, Expr]:
-    """Return a value for each coordinate that is an angle; the values of up to six angles differ."""
+    """Return a value for each coordinate that is an angle; the values of the first six angles are distinct."""
     angles = [q for q, kind in moving.items() if kind == "angle"]
     return {q: size * pi / 180 for q, size in zip(angles, cycle(DEGREES), strict=False)}
 
@@ -114,7 +114,7 @@ def plot(
     between    the two ends of the range, in radians or SI units
     of         the kind of the symbol
     shown      an expression that is drawn instead of the value of the quantity
-    also       the keys of further steps that the plot shows, such as an end of the range
+    also       the keys of further steps that the plot shows, such as the step that derives an end of the range
     unit       the SI unit of a quantity without a kind
     above      the value of the symbol at which `shown` is zero; the label is then the difference between the quantity
                and its value there
@@ -123,7 +123,7 @@ def plot(
     """
     expr = explicit(quantity.value if shown is None else shown)
     if isinstance(expr, MatrixBase) or against not in expr.free_symbols:
-        message = f"`{quantity.key}` does not depend on {against}, so there is no curve"
+        message = f"a curve needs a scalar that depends on {against}, but `{quantity.key}` is not one"
         raise Rejected(Complaint("wrong-argument", message))
     lower, upper = (as_expr(end) for end in between)
     kind = quantity.step.kind or "number"
@@ -181,7 +181,7 @@ def axis_of_rotation(along: Any, through: Any = ORIGIN, rate: Any = None) -> Mar
 
     along     vector (3) in the direction of the axis
     through   a point on the axis
-    rate      angular speed, 1/s, positive for a right-handed rotation about `along`
+    rate      rate of rotation, 1/s, positive if the rotation is right-handed about `along`
     """
     (direction, first), (place, second) = vector_of(along), vector_of(through)
     label = -rate if rate is not None and rate.could_extract_minus_sign() else rate

@@ -48,7 +48,7 @@ WEIGHT = Rational(2, 5)  # length of the arrow of a weight, relative to the size
 BROADSIDE = 23 * pi / 36  # rotation angle at which a rotating vertical plane faces the viewer
 ON_A_TABLE = 17 * pi / 36  # rotation angle of two horizontal axes at which all axes are well apart in the drawing
 ALONE = (ParticleMark, PointMark, ConnectionMark, LengthMark, DistanceMark, FieldMark, GravityMark)
-UNDER_FLOOR = 16.0  # the distance from the middle of a block on a floor to the lower side of the floor, in points
+UNDER_FLOOR = 16.0  # additional shift, in points, that puts a dimension line below the floor under a block
 OVER_LABEL = 9.0  # the height of the label of a spring, in points
 APART = 5.0  # half the distance between the arrows of two forces at one place, in points
 BENEATH = 18.0  # the distance between two dimension lines, in points
@@ -442,9 +442,9 @@ class _Scene:
         """Return the two ends of the dimension line of a length q; None if q cannot be shown in this way.
 
         The ends are the two ends of a piece of a rope, or the positions of one point at q = 0 and at the drawn value of
-        q. The point is a mass, the point at which a body is placed, or the end of a string or a rod. Measured
-        along the dimension line, the position at q = 0 has a constant distance from the origin or from another drawn
-        place; otherwise the dimension line would seem to measure another length.
+        q. The point is a mass, the point at which a body is placed, or the end of a string or a rod. Along the
+        dimension line, the position at q = 0 must have a constant distance from the origin or from another drawn
+        place. Otherwise the line would seem to measure a different length.
         """
         found = []
         if (piece := self.connections.rope_piece(q)) is not None:
@@ -519,8 +519,8 @@ class _Scene:
         return 1 if not ways or max(ways) < 0 or min(ways) > -1e-9 and max(ways) < 1e-9 else -1
 
     def _is_on_carrier(self, at: Location) -> bool:
-        """Whether a mass carries a surface, or touches a surface that a particle carries. Successive dimension lines of
-        such masses are at different distances."""
+        """Whether the mass at a place carries a surface, or touches a surface that a particle carries. Successive
+        dimension lines of such masses are at different distances."""
         carriers = [each for each in self.connections.contacts if isinstance(each.surface.of, Particle)]
         return any(same(at, each.at) or same(at, each.surface.of.at) for each in carriers)
 

@@ -16,7 +16,7 @@ from derive.figures.space import NOUGHT, Spot, Vector, angle_of, direction, dot,
 # Lengths in points.
 HATCH = 4.0  # distance between two hatches, and depth of a hatch
 STAND = 9.0  # half the length of the piece of wall at a fixed end
-PEG = 2.2  # radius of the dot that replaces a fixed end with its wall
+PEG = 2.2  # radius of the dot that is drawn instead of a fixed end and its wall
 ABOVE = 0.1  # a held part is on the side of the wall if it extends there by more than this fraction of its length
 UNDER = 20.0  # half the length of the piece of a surface under a particle
 SLIDER, RAIL = (16.0, 9.0), 22.0  # width and height of a slider, and half the length of its rail
@@ -390,7 +390,7 @@ class DistanceMark(Mark):
 
     aside      the side to which the line is shifted; by default away from the centre of the drawing
     off        the length of this shift, in points
-    back       a direction in which both ends are also moved, such as from the centre of a block to its spring
+    back       a direction in which both ends are also moved: for a block, the direction from its centre to its spring
     moved      the two lengths by which the ends are moved in this direction, in points
     on_paper   the side as a direction on the paper, in place of `aside`
     """

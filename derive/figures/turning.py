@@ -108,7 +108,7 @@ def moving_end(system: System, support: Location, joint: bool) -> Iterator[Mark]
 
 
 def _sense(value: Expr) -> int:
-    """Return 1 if a function of the time increases, -1 if it decreases, and 0 if neither is known."""
+    """Return 1 if a function of time increases, -1 if it decreases, and 0 if neither is known."""
     rate = tidied(diff(value, TIME)).xreplace({TIME: Symbol("t", positive=True)})
     return 1 if rate.is_positive else -1 if rate.is_negative else 0
 

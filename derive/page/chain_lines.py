@@ -174,7 +174,7 @@ class ChainWriter:
         return list({self.numbers[key]: key for key in reversed(keys)}.values())[::-1]
 
     def _having(self, key: str, of: Step) -> list[str]:
-        """Return the key itself; for a vector or tensor that the page does not show, return the keys of its inputs
+        """Return the key itself. But for a vector or tensor that the page does not show, return the keys of its inputs
         whose symbols are in the lines of the step `of`."""
         step = self.steps.get(key)
         if key in self.numbers or step is None or not isinstance(step.result, MatrixBase):

@@ -66,7 +66,7 @@ class References:
         if mention.name in self.others:
             text = f"{self.words.labels['problem']} {self.others[mention.name]}"
             return ProblemRef(f"{self.set_id}/{mention.name}", text)
-        help_line = did_you_mean(mention.name, self.others) or "a set has the problems that its set.yaml lists"
+        help_line = did_you_mean(mention.name, self.others) or "use the name of a problem that `set.yaml` lists"
         message = f"`{mention.name}` is not a problem of this set"
         self.faults.append(Complaint("no-such-problem", message, mention.place, help=help_line))
         return None
@@ -76,7 +76,10 @@ class References:
             number = self.figures[mention.name]
             return FigureRef(f"{self.words.labels['figure']}\u00a0{number}", mention.name, number)
         message = f"no drawing with a caption is called `{mention.name}`"
-        help_line = did_you_mean(mention.name, self.figures) or "give the drawing a `caption:` under `drawings:`"
+        help_line = (
+            did_you_mean(mention.name, self.figures)
+            or "use the name of a drawing, and write its `caption:` under `drawings:`"
+        )
         self.faults.append(Complaint("undefined-name", message, mention.place, help=help_line))
         return None
 

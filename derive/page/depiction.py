@@ -49,7 +49,8 @@ from derive.steps.signs import truth_known
 LARGEST = 99
 CURVE = "way"  # the key of the phrase for a dashed curve
 _VALUE = re.compile(r"value_\d+")  # the role of a value that a step substitutes for a letter: b = 2 sqrt(k m)
-ROUNDED = 0.01  # greatest relative difference between an exact value and the rounded number of a plot
+# An equation holds for the rounded numbers of a plot if the relative difference of its sides is at most ROUNDED.
+ROUNDED = 0.01
 CONDITIONS = ("condition", "excluded", "existing", "exists")  # roles of the conditions under which a result holds
 FOUND = -1  # the index of the statement; part (a) has the index 0
 
@@ -239,8 +240,8 @@ def _without_letter(problem: Problem, drawing: m.Recorded) -> list[Complaint]:
 
 
 def _cases(problem: Problem, drawing: m.Recorded) -> list[Complaint]:
-    """Return an error for each case of a plot that repeats an earlier case or gives a number for the symbol that
-    varies."""
+    """Return an error for each case of a plot, if the case repeats an earlier case or gives a number for the symbol
+    that varies."""
     placement = placement_of(problem, drawing.key)
     found: list[Complaint] = []
     if placement is None or not isinstance(drawing, m.Plot):
@@ -345,8 +346,8 @@ def _with_values(problem: Problem, placement: Placement) -> dict[str, Place | No
 
 
 def keys_without_effect(problem: Problem, drawings: Sequence[m.Recorded]) -> list[Complaint]:
-    """Return a warning for each key of a plot in a drawing that is not a plot, for `view` in a drawing that is not in
-    space, and for `width` in the force diagram of a particle."""
+    """Return a warning for each key that has no effect. These are the keys for plots in a drawing that is not a plot,
+    `view` in a drawing that is not in space, and `width` in the force diagram of a particle."""
     found = []
     for placement in problem.drawings:
         no_plot = any(d.key == placement.key and not isinstance(d, m.Plot) for d in drawings)
@@ -472,8 +473,8 @@ def _part_of(key: str, problem: Problem, derivation: Derivation) -> int | None:
 def _given_away(
     problem: Problem, drawing: m.Recorded, placement: Placement | None, derivation: Derivation
 ) -> Complaint | None:
-    """Return an error if a drawing shows a step that is derived later, or a step on which no answer depends, or if the
-    `at` of the drawing names an unknown step; otherwise None."""
+    """Return an error if the `at` of a drawing names an unknown step, or if the drawing shows a step that is derived
+    later or on which no answer depends. Otherwise return None."""
     index, earliest = _index(problem, drawing, derivation), _earliest(drawing, derivation)
     place = (placement.at_place or placement.place) if placement else problem.place_of("solve")
     at = placement.at if placement is not None else None
@@ -789,7 +790,6 @@ def _measured(name: str, value: Any, last: str) -> tuple[Inline, ...]:
 
 
 def _named(value: Any) -> Any:
-    """Return a value for use in a phrase."""
     if value is None or isinstance(value, str):
         return (Text(value),) if value else ()
     return value if isinstance(value, int) else (Math(value),)

@@ -83,7 +83,7 @@ from derive.steps.step import NUMBERS, Level, Step
 
 HIDDEN_STEP = "hidden"  # under `show:`, the value for a step whose lines the author hides
 CASES = "cases"  # `<<cases>>` in a question prints the numbers of the cases of the plots in this part
-HOMOGENEITY = "look in the script for a law that has a wrong input"
+HOMOGENEITY = "look for a law that has a wrong input"
 
 
 def document_of(
@@ -143,11 +143,11 @@ class _Writer:
         self.converted, self.stated = set[Any](), Stated()
         self.before: Step | None = None  # the last step shown; the words of the next step may depend on it
         self.rest: list[Step] = []  # the steps that the part shows after the current step
-        # the steps to whose lines the last sentence of a step without lines refers
+        # the last sentence of a step without lines refers to the lines of these steps
         self.pointed_to: tuple[Step, ...] = ()
         self.told_before = ""  # the key of a step that shares the sentence of the step before
         self.framed: set[str] = set()  # steps whose result is framed as an answer
-        # Whether the current part frames results again that an earlier part has framed. It does if it has `box:` or
+        # Whether the current part frames a result even if an earlier part has framed it. It does if it has `box:` or
         # only one framed answer.
         self.frames_again = False
         self.unplaced: set[str] = set()  # steps that the page has not yet described
@@ -168,7 +168,7 @@ class _Writer:
         return {**table, **{a: self.problem.dimensions.get(letter) for letter, a in self.problem.every_amount}}
 
     def _away(self) -> dict[str, Inline]:
-        """Return, by key, the equations of the steps that are only in parts that this level hides."""
+        """Return the equations of the steps that are only in parts that this level hides, by key."""
         here = [self.level.shows(part.detail) for part in self.problem.parts]
         shown = {key for keys, is_here in zip(self.derivation.parts, here, strict=True) if is_here for key in keys}
         steps = [self.derivation.step(key) for keys in self.derivation.parts for key in keys if key not in shown]
@@ -377,7 +377,6 @@ class _Writer:
         return {mention.name for mention in mentions if mention.of == FIGURE}
 
     def _observed(self, index: int) -> tuple[Inline, ...]:
-        """Return the observations about the answers of a part."""
         keys = self.derivation.observed[index] if self.derivation.observed and self.level is not Level.BRIEF else ()
         said = [self._without_lines(self._phrase(self.derivation.step(key))) for key in keys]
         return tuple(node for i, nodes in enumerate(said) for node in ((Text(" "),) if i else ()) + nodes)
@@ -400,7 +399,6 @@ class _Writer:
         return PartPage("", (Text(title),), None, _punctuated(blocks)) if blocks else None
 
     def _framed(self, keys: Sequence[str], asked: Collection[str], boxed: Collection[str]) -> set[str]:
-        """Return the keys of the steps of a part that are framed."""
         derived = max((i for i, key in enumerate(keys) if key not in asked), default=-1)
         measured = {key for key in keys[derived + 1 :] if (v := self.values.get(key)) and v.outcome == "measured"}
         verdicts = {key for key in asked if self.derivation.step(key).display.verdict}

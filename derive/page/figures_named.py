@@ -92,7 +92,7 @@ def _after_figures(blocks: list[Block], figures: Sequence[Illustration], words: 
 def _with_forces(blocks: list[Block], figures: Sequence[Illustration], words: Phrases) -> list[Block]:
     """Mention the figures of forces at the beginning of the first sentence.
 
-    Return an empty list if this sentence has another form.
+    Return an empty list unless the first block is a single sentence that begins with the definite article.
     """
     first, article = blocks[0], words.drawings["article"]
     nodes = first.nodes if isinstance(first, Paragraph) else ()

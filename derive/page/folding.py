@@ -56,7 +56,7 @@ def _merged(
 
 
 def _naming_once(block: Block, numbers: Mapping[str, Number]) -> Block:
-    """Keep one of adjacent references to the same number."""
+    """Keep only one of several adjacent references to the same number."""
     if isinstance(block, Paragraph):
         return Paragraph(each_number_once(block.nodes, numbers))
     if not isinstance(block, Display):

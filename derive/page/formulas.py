@@ -173,12 +173,12 @@ class Formulas:
         return read
 
     def _check_number(self, left: Side, right: Side, mark: str) -> None:
-        """Reject `$m = 2\\,\\mathrm{kg}$` if the file gives another number for m."""
+        """Reject `$m = 2\\,\\mathrm{kg}$` if the file gives a different number for m."""
         one, other = left.branches[0][0][0], right.branches[0][0][0]
         if mark == "=" and one in self.numbers and other.is_number and other != self.numbers[one].si:
             known = self.numbers[one]
             message = f"`{left.text}` is {known.number} {known.unit}".rstrip() + f", so it is not `{right.text}`"
-            help_line = f"write `<<{one.name}>>`, which is printed with its number"
+            help_line = "correct the number, or leave it out: the page adds the numbers that the statement lacks"
             raise Rejected(Complaint("wrong-number", message, right.place, (), help_line))
 
     def _check_result(self, left: Side, right: Side) -> None:

@@ -166,7 +166,6 @@ class _Hints:
         return kept
 
     def _tells_a_result(self, line: ChainLine, result: ChainLine, step: Step) -> bool:
-        """Return whether the line gives a result away."""
         names = self.names - letters_in(_sides(result, step)) - letters_of(step.symbol)
         has_names = bool(letters_in(_sides(line, step)) & names)
         return not (has_names or _is_to_be_done(line) and not _is_to_be_done(result)) or _of(line.right) in self.results

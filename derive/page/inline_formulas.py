@@ -37,7 +37,7 @@ def in_words(document: Document, derivation: Derivation, worded: Collection[str]
 
 
 def _in_short_sentences(blocks: tuple[Block, ...]) -> Iterator[Display]:
-    """Yield the displays of one line without a frame or a reason that are between words and the end of a sentence."""
+    """Yield the displays between words and the end of a sentence, if they have one line without frame or reason."""
     for before, block in pairwise(blocks):
         if not (isinstance(before, Paragraph) and isinstance(block, Display) and block.end == "."):
             continue

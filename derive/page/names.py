@@ -26,6 +26,6 @@ def page_names(problem: Problem, derivation: Derivation, words: Phrases) -> dict
 
 
 def _functions(derivation: Derivation) -> list[Prescribed]:
-    """Return the prescribed functions of the time in the steps."""
+    """Return the prescribed functions of time in the steps."""
     letters = {s for step in derivation.steps for form in step.chain for s in form.expr.free_symbols}
     return sorted({s.function for s in letters if isinstance(s, Prescribed)}, key=str)

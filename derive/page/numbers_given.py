@@ -30,7 +30,7 @@ def take(numbers: tuple[Inline, ...], words: Phrases) -> tuple[Inline, ...]:
 
 
 def are_told(cases: Iterable[Sequence[Measured]], question: Sequence[Inline]) -> bool:
-    """Return whether a question has all the numbers of the cases of its plot."""
+    """Return whether a question states all the numbers of the cases of its plot."""
     return not any(_untold(case, question) for case in cases)
 
 

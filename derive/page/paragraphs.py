@@ -9,7 +9,7 @@ from derive.page.clauses import continues_sentence
 from derive.page.tree import Block, Paragraph
 from derive.page.wording import Inline, Text, ToldOnce
 
-SHORT = 200  # greatest number of characters of a remark that does not need a paragraph of its own
+SHORT = 200  # a remark with at most this number of characters is joined with the next paragraph
 FORMULA = 10  # a formula or a reference counts as this number of characters
 
 

@@ -141,7 +141,7 @@ def _add(page: PhraseTable, topic: PhraseTable) -> None:
 
 
 def _replace(known: PhraseTable, own: PhraseTable, keys: tuple[str, ...]) -> None:
-    """Replace phrases of derive by phrases of a course."""
+    """Replace phrases of derive by phrases of a course. A new phrase is rejected, except under `terms`."""
     for name, phrases in own.items():
         if name not in known and keys != ("terms",):  # a course may have words for the names of its own bodies
             message = f"derive has no phrase `{'.'.join((*keys, name))}` that this one could replace"
@@ -169,8 +169,8 @@ def _check_forms(terms: Mapping[str, Any], known: Mapping[str, None]) -> None:
 
 
 class _Checked:
-    """Checks the structure of a file and records the place of each phrase; a file with another structure is
-    rejected."""
+    """Checks the structure of a file and records the place of each phrase; a file with a different structure
+    is rejected."""
 
     def __init__(self, source: Source):
         self.source, self.count = source, 0

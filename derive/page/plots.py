@@ -44,8 +44,8 @@ MOST_MARKED, MOST_IN_TIME = 6, 3  # greatest number of extrema with marks; the s
 NEAR = 1e-6
 MOST_TOGETHER = 4  # greatest number of curves in one panel; they differ in the style of their lines
 KEPT = 1 / 3  # length of the constant part after the range of a curve, divided by the length of this range
-# To test whether a curve depends on a number, the number is multiplied by a factor, and values of the curve are
-# compared at places given as fractions of the range.
+# To test whether a curve depends on the number of a symbol, this number is multiplied by CHANGED. The values of the
+# curve before and after are compared at the fractions SHARES of the range.
 CHANGED, SHARES = 1.31, (0.23, 0.59, 0.87)
 FLATTEST = 1 / 6  # least size of a readable curve, divided by the size of all curves in the panel
 
@@ -235,7 +235,7 @@ def _divided(
     sizes = [float(expr.xreplace(each)) for each in numbers]
     if max(sizes) - min(sizes) > NEAR * abs(sizes[0]) or sizes[0] <= 0:
         message = f"`{name}`, the divisor of an axis of `{plot.key}`, must be the same positive number for all curves"
-        raise Rejected(Complaint("drawing", message, _place(problem, placement), help="divide by another quantity"))
+        raise Rejected(Complaint("drawing", message, _place(problem, placement), help="divide by a different quantity"))
     return Axis("", 1 / sizes[0], name)
 
 
@@ -520,7 +520,7 @@ def told_value(up: Axis, extremum: Extremum) -> str:
 
 
 def with_unit(value: float, unit: str) -> str:
-    """Return a number to four figures with its unit; a degree sign has no space before it."""
+    """Return a number to at most four figures with its unit; a degree sign has no space before it."""
     return _signed(f"{value:.4g}{_gap(unit)}{unit}")
 
 

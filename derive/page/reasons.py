@@ -1,9 +1,9 @@
 """Reasons and frames that a page leaves out because the reader does not need them.
 
-A reason that only names equations, "from (2) and (3)", is left out if each of these equations is one of the two before
-the line, or is named in the paragraph before the display. The lines of a step show a common reason once, at the last of
-them, and the next step of the display does not repeat this reason. A result that a part has framed is not framed again
-in this part.
+A reason that only names equations, "from (2) and (3)", is left out if all these equations are in view. An equation is
+in view if it is one of the two before the line, or if the paragraph before the display names it. The lines of a step
+show a common reason once, at the last of these lines, and the next step of the display does not repeat this reason. A
+result that a part has framed is not framed again in this part.
 """
 
 from __future__ import annotations

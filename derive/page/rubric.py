@@ -95,7 +95,6 @@ def _weighed(part: PartPage, into: Mapping[str, Collection[str]]) -> list[Weighe
 
 
 def _shared(points: Fraction, groups: Sequence[Weighed]) -> dict[str, Fraction]:
-    """Divide points among steps."""
     numbers = [group.equations.key for group in groups if group.weight == NUMBER]
     others = [group for group in groups if group.weight != NUMBER]
     worth = UNITS[0] if points >= UNITS[0] * len(groups) else Fraction(0)

@@ -38,10 +38,10 @@ LONGEST_CLAUSE = 24  # greatest number of nodes in the expression tree of a resu
 
 @dataclass(frozen=True)
 class Needed:
-    """What earlier versions of the page have shown: the hidden steps whose symbols the page uses or to whose equations
-    it refers, and the displays to whose numbers nothing refers.
+    """What earlier versions of the page have shown. `letters` and `numbers` contain the hidden steps whose symbols
+    the page uses or to whose equations it refers. `in_words` contains the displays to whose numbers nothing refers.
 
-    in_words   key of a step whose equation is in its sentence -> whether the page uses the symbol of the step
+    in_words   key of a step whose equation is in its sentence -> whether the sentence must name the step's symbol
     """
 
     letters: Mapping[str, int]  # key of a step -> number of versions of the page that lacked the symbol of the step

@@ -33,7 +33,7 @@ class Templates:
         return next((path for path in paths if path.is_file()), paths[-1])
 
     def files(self, pattern: str) -> dict[str, Path]:
-        """Return by name, in the order of the names, the files that match the pattern."""
+        """Return the files that match the pattern, by name, in the order of the names."""
         found = {path.name: path for folder in reversed(self.folders) for path in folder.glob(pattern)}
         return dict(sorted(found.items()))
 

@@ -31,7 +31,7 @@ def test_places_in_a_plane_and_in_space_do_not_mix() -> None:
 
 
 def test_what_is_no_place_is_refused() -> None:
-    with pytest.raises(Rejected, match="needs a vector or a place here, but this is of type int"):
+    with pytest.raises(Rejected, match="needs a vector or a place here, but the value is of type int"):
         vector_of(3)
 
 

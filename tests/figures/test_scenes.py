@@ -59,7 +59,7 @@ def test_a_name_that_could_not_be_a_file_is_refused(name: str) -> None:
 def test_what_is_no_vector_is_refused() -> None:
     with pytest.raises(Rejected, match="needs a vector or a place here, but `kinetic_energy` is not one"):
         arrow(known_block()["kinetic_energy"])
-    with pytest.raises(Rejected, match="but this is of type int"):
+    with pytest.raises(Rejected, match="but the value is of type int"):
         point_mark(3)
     with pytest.raises(Rejected, match="no view"):
         drawing("one", point_mark(column(0, 0, 0)), view="side")
@@ -68,7 +68,7 @@ def test_what_is_no_vector_is_refused() -> None:
 
 
 def test_a_plot_needs_a_quantity_that_depends_on_its_letter() -> None:
-    with pytest.raises(Rejected, match="does not depend on theta"):
+    with pytest.raises(Rejected, match="needs a scalar that depends on theta, but"):
         plot("energy", known_block()["magnitude"], theta, (0, 1))
 
 

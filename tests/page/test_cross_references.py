@@ -50,9 +50,9 @@ def test_each_sort_of_reference_has_its_number(references: References, faults: l
     ("of", "name", "code", "help_line"),
     [
         (PROBLEM, "tpo", "no-such-problem", "did you mean `top`?"),
-        (PROBLEM, "zebra", "no-such-problem", "a set has the problems that its set.yaml lists"),
+        (PROBLEM, "zebra", "no-such-problem", "use the name of a problem that `set.yaml` lists"),
         (FIGURE, "axis", "undefined-name", "did you mean `axes`?"),
-        (FIGURE, "zebra", "undefined-name", "give the drawing a `caption:` under `drawings:`"),
+        (FIGURE, "zebra", "undefined-name", "use the name of a drawing, and write its `caption:` under `drawings:`"),
     ],
 )
 def test_what_has_no_number_is_told_with_what_was_meant(

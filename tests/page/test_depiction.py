@@ -108,7 +108,7 @@ def test_prose_cannot_point_at_a_drawing_without_a_number(tmp_path: Path) -> Non
     edits = {WORDS: "at: c", "ask: Find the angle between": "ask: In <<figure axes>>, find the angle between"}
     (fault,) = faults(tmp_path, edits)
     assert "error[undefined-name]: no drawing with a caption is called `axes`" in fault
-    assert "help: give the drawing a `caption:` under `drawings:`" in fault
+    assert "help: use the name of a drawing, and write its `caption:` under `drawings:`" in fault
 
 
 # --- places ----------------------------------------------------------------------------------------------------------

@@ -86,7 +86,7 @@ def test_a_letter_of_integration_is_not_free_either(letter: str, why: str, cone:
 
 def test_a_coordinate_and_its_rates_are_no_letters_of_the_problem(slab: Known, tmp_path: Path) -> None:
     for n, (letter, why) in enumerate(
-        [("theta", "a coordinate of that name"), ("theta_ddot", "a rate of the coordinate `theta`")]
+        [("theta", "a coordinate has the same name"), ("theta_ddot", "a rate of the coordinate `theta`")]
     ):
         edits = {"I: moment of inertia": f"{letter}: moment of inertia", "inertia: I ": f"inertia: {letter} "}
         (complaint,) = clashes(tmp_path / str(n), "slab", slab, edits)

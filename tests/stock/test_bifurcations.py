@@ -148,7 +148,7 @@ def test_equilibria_outside_the_range_of_the_coordinate_are_not_missed(tmp_path:
         ([("omega/omega_c", "omega/R")], 19, "`omega/R` is in ", "a letter or a dimensionless ratio"),
         ([("    against: omega/omega_c\n", "")], 17, "needs `against` with a letter, and `range`", ""),
         ([("[0, 3]", "[1.2, 3]")], 17, "changes its stability for values of the parameter from 1.2 to 3",
-         "choose another `range`"),
+         "choose a different `range`"),
         ([("[0, 3]", "[3, 0]")], 20, "must go from a smaller number to a larger number", ""),
         ([("[0, 3]", "[0 m, 3 m]")], 20, "`range` must be", ""),
         ([("omega/omega_c", "omega"), ("[0, 3]", "[0 rad/s, 9 rad/s]")], 17, "needs a number for `R`, `g`", ""),

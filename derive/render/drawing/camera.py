@@ -26,7 +26,7 @@ ANGLE = pi / 5
 APART = 0.25  # an arrowhead closer than this to a corner makes a view less suitable; relative to the size of the bodies
 OPEN = 0.5  # least cosine, if possible, of the angle between the normal of a flat body and the line of sight
 THIN = 0.1  # greatest thickness of a flat body, relative to its size
-SHARES = (0.8, 0.6, 1.0, 0.7)  # values of coordinates without a number, except angles, in units of `typical`
+SHARES = (0.8, 0.6, 1.0, 0.7)  # values of coordinates without a number, except angles, in units of a typical length
 
 
 def stand_ins(letters: Sequence[tuple[Symbol, str]], numbers: Mapping[Symbol, Any]) -> dict[Symbol, float]:

@@ -17,8 +17,8 @@ ENOUGH = 30.0  # in points: a greater distance from the other curves is not bett
 STEP = 2.0  # in points: the distance between the points that represent a curve
 TRIED = 48  # the approximate number of places along a curve at which a name is tried
 INNER = 9.0  # in points: the distance of a legend from the axes with their ticks
-LONGEST = 0.35  # greatest part of a curve that the gap for its name takes away
-STUB = 15.0  # in points: the least piece of an open curve between the gap for its name and an end of the curve
+LONGEST = 0.35  # greatest fraction of a curve that the gap for its name removes
+STUB = 15.0  # in points: the least distance from the gap in an open curve to an end of the curve
 TURN = 4.0  # in points: the least distance, if possible, of the gap in a closed curve from a turning point of the curve
 ENDS = 0.04  # fraction of a curve, at each of its ends, at which no name is tried
 
@@ -134,7 +134,7 @@ def _distance(box: Extent, dots: Sequence[Spot]) -> float:
 def corner_for(
     size: tuple[float, float], dots: Sequence[Spot], taken: Sequence[Extent], panel: Extent
 ) -> Extent | None:
-    """Return a box of this size in a corner of the panel that no curve and no other text reaches, or None."""
+    """Return a box of this size in a corner of the panel, clear of curves and other texts; None if there is none."""
     wide, high = size
     left, below, right, above = panel[0] + INNER, panel[1] + INNER, panel[2], panel[3]
     corners = [(right - wide, above - high), (left, above - high), (right - wide, below), (left, below)]

@@ -72,7 +72,7 @@ class OnPaper(Paper):
         axis = unit(plus(centres[-1], centres[0], -1.0))
 
         def side(k: int) -> list[float]:
-            """Return, for each point around ring k, how much the side up to the next ring faces the eye."""
+            """Return, for each point around ring k, how much the side between this ring and the next faces the eye."""
             height, widening = size_of(plus(centres[k + 1], centres[k], -1.0)), radii[k + 1] - radii[k]
             return [height * dot(outward, eye) - widening * dot(axis, eye) for outward in outwards]
 

@@ -3,7 +3,7 @@
 For each label, several positions around its point are tried. A position has a cost for each line point and each label
 that it covers. A second, smaller cost grows with the distance from the position that the mark prefers. The position
 with the lowest total cost is used. The labels are placed one after another, in several rounds. If the total cost is
-still high, they are placed again in another order.
+still high, they are placed again in a different order.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ LINE, HEAVY = 3.0, 60.0  # cost of covering a point of a line, and of covering a
 OUTSIDE = 6.0  # cost of a position outside the thing that the label names
 BESIDE, TOGETHER = 9.0, 5.0  # gap in points below which two labels in a row look like a product; cost of such a pair
 STACKED = 4.0  # the gap in a column, in points, below which two labels look like a fraction
-HEAVY_ENOUGH = 20.0  # if the total cost is at least this number, the labels are placed again in another order
+HEAVY_ENOUGH = 20.0  # if the total cost is at least this number, the labels are placed again in a different order
 # A drawn point that is closer to a label than NEAR, in points, costs DOUBT. All such points together cost at most
 # MOST_DOUBT.
 NEAR, DOUBT, MOST_DOUBT = 3.0, 0.6, 12.0
@@ -33,8 +33,8 @@ OWN = 1.5  # in points; drawn points closer than this to the line that a label n
 ROUNDS = 3
 INSIDE = 0.62  # the distance of a letter inside an arc from the vertex, divided by the radius
 LETTER = 5.5  # in points: half the room for the letter of an angle
-ALONG_ARC = (0.5, 0.36, 0.64, 0.25, 0.75, 0.12, 0.88)  # places of a letter along its arc, the best first
-AT_END = 8.0  # cost of a letter at an end of its arc, in place of its middle
+ALONG_ARC = (0.5, 0.36, 0.64, 0.25, 0.75, 0.12, 0.88)  # places of a letter, as fractions of its arc, the best first
+AT_END = 8.0  # additional cost of a letter at an end of its arc, compared with the middle of the arc
 NARROW = 12.0  # cost of a letter inside an arc that has little room
 
 
@@ -221,7 +221,7 @@ def _reads_as_fraction(one: Extent, other: Extent) -> bool:
 
 
 def _seen(pieces: Sequence[Piece], width: Callable[[Stroke], float]) -> list[Spot]:
-    """Return points of the lines and bullets that are visible."""
+    """Return the visible points of the lines and bullets."""
     found: list[Spot] = []
     for piece in pieces:
         if isinstance(piece, Patch):

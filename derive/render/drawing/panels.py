@@ -41,7 +41,7 @@ FLATTEST, STEEPEST = 0.25, 1.4  # limits of height divided by width, for a path 
 # The axis of a positive curve begins at zero if the least value is below this part of the curve's height.
 NEAR_ZERO = 0.25
 FEWEST = 3  # least number of ticks, if smaller steps can give it
-AT_TICK = 1e-5  # a tick marks a place if their distance is at most this part of the distance of the outermost ticks
+AT_TICK = 1e-5  # a tick marks a place within this fraction of the distance between the outermost ticks
 USUAL = (-2, 4)  # numbers at an axis have no factor 10^n if the power of ten of the greatest number is in this range
 
 _ROOT = re.compile(r"\\sqrt\{(?:[^{}]|\{[^{}]*\})*\}")
@@ -57,7 +57,7 @@ class Trace:
 
     points   the curve, in the units of the axes
     turns    the extrema: the point, whether it is a minimum, and the forms of the name of its place on the horizontal
-             axis, the shortest last; the name is left out if the place has no symbol and a tick already shows it
+             axis, the shortest last. There is no name if the place has no symbol and a tick already shows it
     name     the name of the curve; empty if the panel has no other curve
     """
 
@@ -269,9 +269,9 @@ def _is_tick_at_end(point: tuple[float, float, bool], across: Ticks, curves: Cur
 def _point(
     at: float, value: float, is_zero: bool, curves: Curves, own: Sequence[Curve], across: Ticks, notation: Notation
 ) -> tuple[Spot, str]:
-    """Return a point of a panel with its name: the symbol of its place on the horizontal axis, with the value unless
-    the values on the axis are divided by a quantity. Without a symbol, the name of a meeting point has the values on
-    both axes, and a zero at a tick has no name."""
+    """Return a point of a panel with its name. The name is the symbol of its place on the horizontal axis, followed by
+    the value unless the values on the axis are divided by a quantity. Without a symbol, the name of a meeting point has
+    the values on both axes, the name of a zero has one value, and a zero at a tick has no name."""
     x, y = at * curves.variable.per_unit, value * curves.up.per_unit
     for curve in own:
         (found,) = with_names([Extremum(at, value, MINIMUM)], curve.places, NEAR * (curve.upper - curve.lower))
@@ -370,7 +370,6 @@ def portrait_panel(
 
 
 def _level(value: Any, number: float, axis: Axis, notation: Notation) -> str:
-    """Return the name of a level."""
     if value.free_symbols and axis.per is None:
         return _mathtext(notation.layout(value))
     return _with_unit(number * axis.per_unit, axis.unit)
@@ -436,8 +435,8 @@ def _box(traces: Sequence[Trace]) -> Extent:
 
 
 def _room(sides: int, height: float) -> float:
-    """Return the margin above or below a curve for the names of its extrema, in units of the height of the curve;
-    `sides` is 2 if there are names above and below."""
+    """Return the margin above or below a curve for the names of its extrema, in units of the height of the curve. If
+    there are names above and below, `sides` is 2."""
     part = min(NAME / height, MOST_NAME)
     return part / (1 - 2 * part) if sides == 2 else part * (1 + MARGIN) / (1 - part)
 

@@ -22,8 +22,8 @@ SMALLEST = 15.0  # in points: the least distance from the middle of the bodies t
 def picture(drawing: Drawing, numbers: Numbers, width: float, height: float) -> list[Piece]:
     """Return the pieces in points.
 
-    Without labels, the pieces fit into `width` x `height` centimetres, except in some force diagrams, for some arrows
-    of normal modes, and if the bodies would be too small.
+    The pieces without their labels fit into `width` x `height` centimetres. Exceptions are some force diagrams, some
+    arrows of normal modes, and drawings whose bodies would be too small.
     """
     if drawing.mode is not None:
         return [_reduced(piece) for piece in _fitted(drawing, numbers, width / REDUCED, height / REDUCED)]

@@ -241,7 +241,7 @@ class Names:
 
     curves   the names of several curves, as shapes
     turns    the names of extrema
-    above    the height up to which a legend above the panel reaches
+    above    the height of the upper end of a legend above the panel; 0 without such a legend
     points   the values at zeros and at points at which two curves meet
     gaps     the gaps for names in the curves of a phase portrait: the index of the curve, and the box
     """
@@ -383,7 +383,6 @@ def _guide(change: Mark, frame: Frame) -> tuple[Spot, Spot]:
 
 
 def _around(spot: Spot, size: tuple[float, float]) -> Iterator[Extent]:
-    """Yield boxes of a name around a point."""
     (x, y), (wide, high) = spot, size
     gap = PAD + DOT
     for left, below in (
@@ -456,7 +455,6 @@ def _names_of_turns(
 
 
 def _beside_turn(spot: Spot, is_lowest: bool, size: tuple[float, float], paper: Extent) -> Iterator[Extent]:
-    """Yield boxes of the name of an extremum."""
     (x, y), (wide, high) = spot, size
     above, below = y + PAD + DOT, y - PAD - DOT - high
     middle = max(paper[0] + TICK + PAD, min(x - wide / 2, paper[2] - wide))

@@ -39,7 +39,7 @@ class Solution:
     values     the steps that evaluate answers numerically, by key
     compared   outcomes of the comparison with a reference
     warnings   warnings for the author, which are not part of the page
-    width      the width of the reader's text in centimetres, for a fragment
+    width      for a fragment, the width of the text in the document that includes it, in centimetres
     """
 
     document: Document

@@ -56,7 +56,7 @@ def _rendered(solution: Solution) -> str:
 
 
 def _is_of_positive_letters(step: Step) -> bool:
-    """Return whether all letters of an answer are positive: a platform may then take sqrt(x^2) for x."""
+    """Return whether all letters of an answer are positive: a platform may then replace sqrt(x^2) by x."""
     values = [of for name, of in step.names if name in getattr(step.result, "free_symbols", ())]
     letters = (getattr(each, "free_symbols", ()) for each in (step.result, *values))
     return all(letter.is_positive for found in letters for letter in found)
@@ -64,8 +64,8 @@ def _is_of_positive_letters(step: Step) -> bool:
 
 def _in_letters(named: StepNames, letters: set[Symbol]) -> dict[str, Any]:
     """Return an answer in the letters of the problem, and the quantities, such as mu, that its formula on the page
-    contains; an empty mapping if there are no such quantities. A platform that compares formulas does not know these
-    quantities."""
+    contains. The mapping is empty if there are no such quantities. A platform that compares formulas does not know
+    these quantities."""
     from sympy import Expr, Symbol
 
     from derive.algebra.node import explicit
@@ -86,8 +86,8 @@ def _in_letters(named: StepNames, letters: set[Symbol]) -> dict[str, Any]:
 def _components(step: Step, notation: Notation) -> list[str]:
     """Return the symbols of the components of a vector in TeX; an empty list for any other answer.
 
-    There are no components if the vector is known up to a factor, such as the amplitudes of a mode, or if the answer is
-    a list of values in any order.
+    There are no components if the vector is known only up to a factor, such as the amplitudes of a mode, or if the
+    answer is a list of values in any order.
     """
     from sympy import MatrixBase
 

@@ -260,7 +260,7 @@ def ends_in_differential(layout: Layout) -> bool:
 
 
 def separator_of(items: Iterable[Layout]) -> Operator:
-    """Return the sign between the items of a list: a semicolon if a number has a decimal comma."""
+    """Return the sign between the items of a list: a semicolon if a number has a decimal comma, else a comma."""
     return Operator("semicolon" if any(map(_has_decimal_comma, items)) else "comma")
 
 

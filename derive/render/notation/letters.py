@@ -84,7 +84,7 @@ def meanings(step: Step, letters: Iterable[Symbol] = ()) -> Iterator[tuple[Any, 
     """Yield every name that a step introduces, with its meaning; `letters` are symbols that the problem declares."""
     yield from _named_by(step)
     for q, _ in step.coordinates:
-        yield q, "the script has a coordinate of that name"
+        yield q, "a coordinate has the same name"
         yield from ((rate(q, n), f"it is a rate of the coordinate `{q.name}`") for n in range(1, len(RATES)))
     own: set[Basic] = {q for q, _ in step.coordinates}
     for form in step.chain:

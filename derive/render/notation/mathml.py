@@ -27,7 +27,7 @@ def in_pieces(
 ) -> list[tuple[float, Html]]:
     """Return each term of a sum as a separate formula with its width in characters; a line may end between two terms.
 
-    The relation `sign`, if any, precedes the first term; with `goes_on` the sum continues from another line.
+    The relation `sign`, if any, precedes the first term; with `goes_on`, the terms continue a sum of the line before.
     """
     first, *others = latex_of_terms(layout, inline=inline)
     begun = _going_on(first, inline) if goes_on else of_latex(f"{sign} {first}".strip(), inline=inline)

@@ -99,8 +99,8 @@ def times_ten_to(power: int) -> Layout:
 
 
 def present(value: Any) -> Any:
-    """Return a vector or tensor with its common factor in front, and a scalar with tangents for quotients of sine and
-    cosine."""
+    """Return a vector or tensor with its common factor in front, and a scalar with tangents in place of quotients of
+    sine and cosine."""
     if not isinstance(value, MatrixBase):
         return with_tangents(value) if isinstance(value, Expr) else value
     if all(entry == 0 for entry in value):
@@ -191,7 +191,8 @@ def root_cancelled(above: list[Expr], below: list[Expr]) -> tuple[list[Expr], li
 
 
 def under_one_root(number: Expr) -> list[Expr]:
-    """Write 7 sqrt(2779)/397 as the factors 7 and sqrt(7/397). Return no factors if a number has no shorter form."""
+    """Write 7 sqrt(2779)/397 as the factors 7 and sqrt(7/397). Return no factors if this form is neither shorter nor
+    simpler."""
     square = number**2
     if number.is_Rational or not square.is_Rational or square.q == 1 or square < 0:
         return []
@@ -255,8 +256,8 @@ def _with_plain_root(factor: Expr) -> tuple[Expr, ...]:
 
 
 def _below_under_root(number: Rational, inside: Rational) -> tuple[Rational, Rational]:
-    """Return the factor that is taken from the front under the root, and the new number under the root: 1/3 and 2/3
-    for sqrt(6)/3 = sqrt(2/3), 1/2 and 1/2 for sqrt(2)/2 = sqrt(1/2)."""
+    """Return the factor that moves from the front of a root under the root, and the new number under the root. They
+    are 1/3 and 2/3 for sqrt(6)/3 = sqrt(2/3), and 1/2 and 1/2 for sqrt(2)/2 = sqrt(1/2)."""
     shared = gcd(number.q, inside.p) if inside.q == 1 else Rational(1)
     return Rational(1, shared), inside / shared**2
 
@@ -311,7 +312,7 @@ class Place(IntEnum):
     RATE = auto()
     SWINGING = auto()  # sums with functions: m l^2 omega^2 (1 - cos a)
     FORCE = auto()  # after a coefficient of friction, and after a sum with functions: mu N, (a - b cos a) F
-    EXPONENTIAL = auto()  # also a sum with functions of the time
+    EXPONENTIAL = auto()  # also a sum with functions of time
     ROOT = auto()
     CHANGING = auto()  # rates of coordinates, and the time: r r_dot, not r_dot r
 

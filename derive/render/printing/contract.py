@@ -6,10 +6,11 @@ each line equals the line before it, with these exceptions:
 
     a number        (`because: rounded`) differs from the last line before the numbers by at most `within`
     a relation      has a residual, left minus right: the residual of the line before is `factor` times the residual of
-                    this line; the factor is not zero if no entry of `nonzero` is zero (for an inequality: if each entry
-                    is positive)
-    a series        (`because: series`) equals the line before up to an `order` in its `variable`
-    the motion      (`because: motion`): the line equals the one before after `motion` is substituted
+                    this line; the factor is not zero if no entry of `nonzero` is zero (for an inequality, if every
+                    entry is positive)
+    a series        (`because: series`, or `limit` with order 0) agrees with the line before up to the `order` in its
+                    `variable`
+    the motion      (`because: motion`): the line equals the one before after `motion` is substituted in both
 
 If the left side is a formula (`symbol.formula`), it equals the first line. A step that `approximates` a symbol is a
 limit or a series of that symbol; a result derived from such a step is only approximately equal to its first line

@@ -50,7 +50,7 @@ from derive.render.printing.text_page import inline_text
 from derive.render.printing.theorems_once import theorem, told_in
 from derive.render.rendered import Files, Html
 
-LISTED = 3  # a page with at least this many parts has a table of contents
+LISTED = 3  # a separate page with at least this many parts has a table of contents
 # Characters of a formula that fit into a narrow window, in text and in a table. A wider formula can be scrolled, also
 # by keyboard.
 WIDE, IN_TABLE = 24.0, 14.0

@@ -18,7 +18,7 @@ _WORD = re.compile(rf"(?<![\\\w])[^\W\d_]{{{SHORTEST},}}")
 
 
 def divided_words(tex: str, language: str) -> str:
-    """Return the words of a document in LaTeX with a hyphen at each place where a line may end.
+    """Return the words of a document in LaTeX that can be divided, with a hyphen at each place where a line may end.
 
     The language is a code such as `de`. The result is empty if Pyphen has no dictionary for it.
     """

@@ -81,7 +81,7 @@ class Passage:
     after: tuple[Blocks, ...] = ()
 
 
-NO_WORDS = r"\hyphenation{}"  # in a template that is not in English, the place of the hyphenated words
+NO_WORDS = r"\hyphenation{}"  # marks the place for the divided words of a document that is not in English
 NOT_TYPESET = Fragments(*[Tex("")] * 5)
 
 

@@ -104,7 +104,7 @@ class TexInHtml(MarkdownPage):
 
 
 def _equations(blocks: Iterable[Block]) -> Iterator[Equations]:
-    """Yield the equations of these blocks that have numbers."""
+    """Yield the numbered equations of these blocks."""
     for block in blocks:
         if isinstance(block, Display):
             yield from block.groups
