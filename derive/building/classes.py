@@ -204,7 +204,7 @@ def made_class(
     reseed      whether `seed` may differ from the seed with which the class was made before
     scheduler   the address of a Dask scheduler, whose workers do the jobs; by default, processes of this machine do the
                 jobs
-    ended       is called for each student when the documents are made, or when making them fails
+    ended       is called for each student whose documents are made or whose variant has an error
     """
     root = root.resolve()
     begun, chosen = time.monotonic(), chosen_engine(engine)

@@ -41,7 +41,7 @@ WIDE, LOW = 7.0, 0.4  # the width of a low drawing: at the width WIDTH, its heig
 # the position of a label is more than CROWDED, or if there are at least MANY labels and more than DENSE per square
 # centimetre. The larger drawing is kept unless its greatest cost is more than that of the smaller drawing plus SLIGHT.
 CROWDED, MANY, DENSE, SLIGHT = 5.5, 7, 0.45, 3.0
-EXACT = 1e-9  # a number below this counts as zero
+EXACT = 1e-9  # a number with a smaller absolute value counts as zero
 # the widths for the drawing of a normal mode of at most FEW masses; the second is for low drawings
 OF_MODES, FEW = (3.6, 4.7), 4
 

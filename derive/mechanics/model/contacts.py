@@ -174,7 +174,7 @@ def contact(
     if sliding is not None:
         found.append(_sliding(touch, sliding, direction, normal or "N"))
     elif direction is not None and not isinstance(rolling, str) and static is None:
-        message = "`direction` is the direction of the friction, but no friction is given"
+        message = "`direction` is for a contact with friction, but no friction is given"
         raise Rejected(Complaint("unused-key", message))
     if static is not None:
         found += _sticking(touch, force, direction, _static_limit(touch, static, normal))
@@ -191,7 +191,8 @@ def point_of_contact(of: Any, on: Any) -> PointOfBody:
 
 def _check_carried(touch: Contact, rough: bool) -> None:
     """Require a body that carries the surface if the surface, or the axes in which it is at rest, move with
-    coordinates. With friction, also require such a body if the normal of a plane depends on the time."""
+    coordinates. With friction, also require such a body if no axes are given and the normal of a plane depends on the
+    time."""
     surface = touch.surface
     turning = touch.normal.components if isinstance(surface, Plane) else ()
     axes = tuple(surface.moves.in_space) if isinstance(surface.moves, Axes) else ()

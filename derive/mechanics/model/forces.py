@@ -1,8 +1,8 @@
 """Forces other than weight and springs: given forces and torques, drag, charges in fields, and potential energies that
 are given as functions.
 
-The torque of a couple acts along an angle. A potential energy has a generalized force along each coordinate that it
-contains.
+The torque of a couple is a generalized force along an angle. A potential energy has a generalized force along each
+coordinate that it contains.
 """
 
 from __future__ import annotations

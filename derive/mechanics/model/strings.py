@@ -80,7 +80,8 @@ class Line(Connection):
         return tuple(each.at if isinstance(each, Pulley) else each for each in self.through)
 
     def weighed(self, gravity: Expr) -> Sequence[Part]:
-        """Return the weight of a rope, unless its potential energy contains no coordinate."""
+        """Return the correction for the weight of a rope; nothing for a line without mass, or if no coordinate changes
+        the correction."""
         if self.rope is None:
             return ()
         found = _weight_of_rope(self.places, self.lengths, self.rope, gravity)
@@ -111,8 +112,8 @@ class Line(Connection):
 
 @dataclass(frozen=True)
 class WeightOfRope(StoredEnergy):
-    """The correction for the weight of a rope. In the system, a particle with the mass of the rope represents the rope;
-    its potential energy is subtracted from the potential energy of the rope.
+    """The correction for the weight of a rope. In the system, a particle with the mass of the rope represents the rope.
+    The potential energy of this particle is subtracted from the potential energy of the rope.
 
     energy   the sum of (mass) g (height of the middle) over the straight pieces, minus M g y of the particle, J
     force    a force on the first end, along the rope, that does the work of the weight. If all pieces move by ds along
@@ -404,7 +405,10 @@ def _tangent(one: Any, other: Any) -> tuple[Location, Location]:
     )
     if not found:
         message = f"no horizontal or vertical tangent of {name} leads to the next end or pulley"
-        help_line = "the end of a vertical string must be one radius to the left or right of the centre"
+        help_line = (
+            "a vertical string must be one radius to the left or right of the centre, a horizontal string one radius "
+            "above or below it"
+        )
         raise Rejected(Complaint("no-contact", message, help=help_line))
     if len(found) > 1 and any(isinstance(each, Rim) for each in (one, other)):
         message = f"the string to the next end or pulley may be tangent to {name} on either side"

@@ -247,11 +247,11 @@ def _check_motion(surface: Plane) -> None:
     if isinstance(surface.moves, Location):
         velocity = Location(tuple(diff(c, TIME) for c in surface.moves.components))
         if any(depends_on_time(c) or coordinates_in(column_of(velocity)) for c in velocity.components):
-            message = "the velocity of a surface is not constant"
+            message = "the velocity of a surface must be constant"
             help_line = "give a place on the surface as a function of time, `through: [A*t**2/2, 0]`"
             raise Rejected(Complaint("changes", message, help=help_line))
         if not is_zero(tidied(dot(velocity, surface.unit_normal))):
-            message = "the velocity of the surface is not along the surface"
+            message = "the velocity of a surface must be along the surface"
             help_line = "give a place on the surface as a function of time, `through: [0, v*t]`"
             raise Rejected(Complaint("wrong-argument", message, help=help_line))
 

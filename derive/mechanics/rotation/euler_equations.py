@@ -403,7 +403,7 @@ def _euler_equation(rate: Quantity, i: int, torque: tuple[Expr, Expr, Expr]) -> 
 
 def _without_common_factor(left: Expr, torque: Expr) -> Relation:
     """Return the equation. Without a torque, the equation is divided by the positive factors that its terms have in
-    common. For a block with the edges a, 2a and 3a, it is then 13 omega_x_dot - 5 omega_y omega_z = 0."""
+    common. For a block with the edges a, 2a and 3a, the first equation is 13 omega_x_dot - 5 omega_y omega_z = 0."""
     terms = Add.make_args(left)
     if torque != 0 or len(terms) < 2:
         return Relation(left, "=", torque)
