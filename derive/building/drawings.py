@@ -195,8 +195,8 @@ def _holds(relation: Relation, numbers: Mapping[Symbol, float]) -> bool:
 
 
 def numbers_of(problem: Problem, placement: Placement | None, drawing: Recorded | None = None) -> dict[Symbol, float]:
-    """Return a number for each symbol of a problem and of a drawing: the number that the drawing specifies, else the
-    given value, else a number that is chosen here."""
+    """Return a number for each symbol of a problem and of a drawing. This is the number that the drawing specifies,
+    else the given value, else a number that is chosen here."""
     said = dict(placement.values) if placement else {}
     if isinstance(drawing, Drawing) and drawing.mode is not None:
         sketch = placement_of(problem, drawing.mode.like)

@@ -142,7 +142,7 @@ def contact(
     direction  "right", "left" or a vector. With `sliding`, the material point of the body slips over the surface in
                this direction. In space, `direction` is optional with `sliding`; leave it out if the coordinates allow
                other directions of slip. With a symbol of friction under `rolling` or `static`, the friction on the body
-               is positive in this direction; then `direction` is allowed only for a motion in a plane
+               is positive in this direction. `direction` is then allowed only for a motion in a plane
     static     the coefficient of static friction mu_s: the material points in contact do not move over each other, so
                a round body rolls. The friction must satisfy |F| <= mu_s N, or |F| <= mu_s |N| on a rail. In space, |F|
                is sqrt(F_x^2 + F_y^2)

@@ -116,9 +116,9 @@ class WeightOfRope(StoredEnergy):
     The potential energy of this particle is subtracted from the potential energy of the rope.
 
     energy   the sum of (mass) g (height of the middle) over the straight pieces, minus M g y of the particle, J
-    force    a force on the first end, along the rope, that does the work of the weight. If all pieces move by ds along
-             the rope towards the second end, this work is (M/l) g (y_0 - y_1) ds, where y_0 and y_1 are the heights of
-             the first and the second end
+    force    a force on the first end, along the rope, that does the work of the weight. Let y_0 and y_1 be the heights
+             of the first and the second end. If all pieces move by ds along the rope towards the second end, this work
+             is (M/l) g (y_0 - y_1) ds
     at       the position of the first end
     """
 

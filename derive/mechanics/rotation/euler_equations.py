@@ -324,8 +324,8 @@ def rate_in_space(
 
 
 def _constancy(rate: Any, in_body: Quantity | None) -> str:
-    """Return the outcome: whether L is constant in space, and if it is, whether L is also constant in the body;
-    "generic" if the equations of motion are not substituted."""
+    """Return the outcome. It states whether L is constant in space and in the body, or is "generic" if the equations of
+    motion are not substituted."""
     if in_body is None:
         return "generic"
     if not is_zero(rate):

@@ -38,7 +38,7 @@ def linearised_rotation(
     axis        "x", "y" or "z": the principal axis of the steady rotation
     speed       the constant rate omega of the steady rotation, 1/s
 
-    Second route: the sum of m r x a over the particles of the body is computed for two opposite perturbations; half of
+    Second route: the sum of m r x a over the particles of the body is computed for two opposite perturbations. Half of
     the difference contains the terms of first order.
     Errors: a steady rotation about the axis does not satisfy the equations, for example because a torque acts; there is
     no such axis; the rate is not constant; one of the three equations is missing.

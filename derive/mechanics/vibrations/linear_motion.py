@@ -99,7 +99,7 @@ def solution(
     """Motion q(t) that satisfies a linear equation with constant coefficients and initial values. If a s^2 + b s + c
     has two different roots s_1 and s_2, then q = C_1 e^(s_1 t) + C_2 e^(s_2 t) + a particular motion.
 
-    equation     a q_ddot + b q_dot + c q = f(t), where f is a sum of powers of t, exponentials, sines and cosines; the
+    equation     a q_ddot + b q_dot + c q = f(t), where f is a sum of powers of t, exponentials, sines and cosines. The
                  equation may be of first order, a = 0, or solved for q_ddot or q_dot
     q            the coordinate of the equation of motion
     start        the value of q at t = 0
