@@ -346,7 +346,8 @@ def _of_length(verb: str, ends: Sequence[Any], length: Any, letter: str) -> tupl
         raise Rejected(Complaint("missing-key", message, help="give its `length`"))
     if kept is not None:
         message = f"the coordinates keep the length {kept} constant, so the force `{letter}` does not appear"
-        help_line = "leave out the force, or give the end a coordinate along the string, so that the length can change"
+        key, what = ("force", "rod") if is_rod else ("tension", "string")
+        help_line = f"leave out `{key}`, or give the end a coordinate along the {what}, so that the length can change"
         raise Rejected(Complaint("not-an-unknown", message, help=help_line))
     require_bodies(verb, [pair for piece in pieces for pair in zip((piece.start, piece.end), piece.of, strict=True)])
     force = scalar(letter)
@@ -464,7 +465,7 @@ def _require_kept(verb: str, kept: Expr | None, whole: Expr | None) -> None:
         raise Rejected(Complaint("missing-key", message, help=f"give its `length`, and the symbol of its `{key}`"))
     if whole is None and depends_on_time(kept):
         message = f"the length {kept} of the {what} changes with the time, but a {what} is inextensible by default"
-        help_line = f"give this `length`, for a {what} that is pulled in or paid out"
+        help_line = f"if the {what} changes its length in a given way, give this `length`"
         raise Rejected(Complaint("missing-key", message, help=help_line))
     if whole is not None and not is_zero(kept - whole):
         message = f"with these coordinates the {what} has the length {kept}, but its `length` is given as {whole}"

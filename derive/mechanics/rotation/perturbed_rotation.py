@@ -45,7 +45,8 @@ def linearised_rotation(
     Source: Landau, Lifshitz, *Mechanics*, section 37; Taylor, *Classical Mechanics*, section 10.8.
     """
     if axis not in AXES:
-        raise Rejected(Complaint("no-such-axis", f'a body can rotate about "x", "y" or "z", not about "{axis}"'))
+        message = f'the axis of a steady rotation must be "x", "y" or "z", not "{axis}"'
+        raise Rejected(Complaint("no-such-axis", message))
     require_constant("linearised_rotation", "rate", speed)
     of = _rate_of(equations)
     disturbed = Disturbed(AXES.index(axis), speed, of)
@@ -53,7 +54,8 @@ def linearised_rotation(
     for equation in equations:
         if not is_zero(_left(equation).xreplace(steady)):
             message = f"a steady rotation about {axis} does not satisfy `{equation.key}`"
-            raise Rejected(Complaint("not-steady", message, help="a torque acts, or the axis is not a principal axis"))
+            help_line = "use a principal axis, and equations without a torque"
+            raise Rejected(Complaint("not-steady", message, help=help_line))
     first, second = (_linear_equation(equations, disturbed, k, key) for k in disturbed.across)
     return first, second
 
