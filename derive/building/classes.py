@@ -294,7 +294,7 @@ def _check_codes(students: Sequence[Student], heading: ProblemSet) -> None:
     for student in students:
         if student.code.lower() in names:
             message = f"the code `{student.code}` of {student.name} is the name of a document of the set"
-            raise Misused(Complaint("roster", message, help="give this student another code"))
+            raise Misused(Complaint("roster", message, help="give this student a different code"))
 
 
 def class_is_older(root: Path, set_id: str, engine: Engine) -> list[Complaint]:

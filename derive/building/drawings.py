@@ -36,7 +36,7 @@ SUFFIXES = ("pdf", "svg")
 POINTS_PER_CM = 72 / 2.54
 WIDTH, HEIGHT = 5.0, 4.2  # centimetres, without labels
 BESIDE_STATEMENT = 0.74  # the height of a drawing next to the statement, divided by the usual height
-WIDE, LOW = 7.0, 0.4  # WIDE is the width of drawings whose height, at the width WIDTH, is at most LOW * WIDTH
+WIDE, LOW = 7.0, 0.4  # a drawing gets the width WIDE if, at the width WIDTH, its height is at most LOW times its width
 # A drawing without a given width is made larger if its labels are crowded. Labels are crowded if the greatest cost of
 # the position of a label is more than CROWDED, or if there are at least MANY labels and more than DENSE per square
 # centimetre. The larger drawing is kept unless its greatest cost is more than that of the smaller drawing plus SLIGHT.

@@ -94,7 +94,7 @@ def _has_rims(placed: PlacedBody) -> bool:
 
 
 def _outline(placed: PlacedBody) -> Round | None:
-    """Return the outer boundary of a body if it is round, otherwise None."""
+    """Return the outer boundary of a body if this boundary is round, otherwise None."""
     boundary = placed.body.boundary
     outer = boundary.whole if isinstance(boundary, Hollowed) else boundary
     return outer if isinstance(outer, Round) else None

@@ -424,8 +424,8 @@ def excess_is(sign: int | None) -> Predicate:
 
 
 def root_is(grows: bool, *squares: str) -> Predicate:
-    """Judge two conditions: the square of the rate is negative exactly if `grows` is true, and the step that derives
-    the square has one of these outcomes. A square of unknown sign counts as not negative."""
+    """Judge two conditions: the square of the rate is negative if and only if `grows` is true, and the step that
+    derives the square has one of these outcomes. A square of unknown sign counts as not negative."""
 
     def is_so(facts: Judged) -> bool:
         word = facts.quantities["squared"].step.outcome

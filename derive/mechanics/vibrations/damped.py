@@ -241,7 +241,8 @@ def _shape(
     linear = equations.linear
 
     def moving(found: MatrixBase) -> tuple[MatrixBase, MatrixBase]:
-        """Check that the residuals are multiples of the factor of the determinant, so they vanish at its roots."""
+        """Check that the residuals are multiples of a factor of the determinant, so they vanish at the roots of this
+        factor."""
         letter = Symbol("s_trial")
         course = exp(letter * T)
         left = [(value / course).expand() for value in equations.with_motion([a * course for a in found])]

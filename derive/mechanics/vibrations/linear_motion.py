@@ -115,7 +115,7 @@ def solution(
     for example because c/a is negative), uniform (no force depends on position or rate), slows (no force depends on
     position: the rate decays), relaxes (first order), accumulates (first order, without q).
     Errors: the equation is not linear with constant coefficients; the case depends on the symbols and `case` is not
-    given, or the case is known and differs from `case`; the driving force f(t) has another form.
+    given, or the case is known and differs from `case`; the driving force f(t) has a different form.
     Source: Taylor, *Classical Mechanics*, sections 5.4 to 5.6.
     """
     linear = linear_equation(equation, q)
