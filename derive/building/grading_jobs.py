@@ -122,7 +122,7 @@ def _graded(root: Path, problem_id: str, rows: Sequence[Asked], of_class: ClassR
 
 
 def unknown_part(problem_id: str, name: str, parts: Sequence[tuple[str, str]]) -> Complaint:
-    """Return the error about a part that the problem does not have or, with an empty name, that is not named.
+    """Return the error for a name that no part of the problem has; with an empty name, the error for a missing name.
 
     parts   the label and the question of each part of the problem
     """

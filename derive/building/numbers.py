@@ -52,8 +52,8 @@ class _Answer:
 
     @property
     def in_form(self) -> Place | None:
-        """The place in the file where the form of this answer asks for a unit or, if `is_halfway`, for a number of
-        figures; otherwise None."""
+        """The place in the file where the form of this answer states a unit or, if `is_halfway`, the number of
+        significant figures; otherwise None."""
         form = self.part.form_of(self.asked)
         if form.units:
             return form.units[0].place

@@ -1,7 +1,7 @@
 """The time limit of a worker. It counts processor time, so that a problem does not fail because the machine is busy.
 
-At the limit, `OutOfTime` is raised inside the work. It is also raised if the work waits for the same wall-clock time
-without using the processor.
+At the limit, `OutOfTime` is raised inside the work. It is also raised if the work waits, without using the
+processor, for a wall-clock time equal to the limit.
 """
 
 from __future__ import annotations

@@ -174,7 +174,7 @@ def contact(
     if sliding is not None:
         found.append(_sliding(touch, sliding, direction, normal or "N"))
     elif direction is not None and not isinstance(rolling, str) and static is None:
-        message = "`direction` is for a contact with friction, but no friction is given"
+        message = "`direction` needs friction with a symbol or a coefficient, but neither is given"
         raise Rejected(Complaint("unused-key", message))
     if static is not None:
         found += _sticking(touch, force, direction, _static_limit(touch, static, normal))
