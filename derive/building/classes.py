@@ -83,7 +83,7 @@ def read_roster(path: Path) -> tuple[Student, ...]:
     try:
         cells = read_cells(path.read_bytes(), shown)
     except OSError as error:
-        message, help_line = f"`{shown}` cannot be read: {error.strerror}", "give the path of a CSV file"
+        message, help_line = f"`{shown}` cannot be read: {error.strerror}", "give the path of a readable CSV file"
         raise Rejected(Complaint("roster", message, help=help_line)) from None
     columns = [name.lower() for name in cells.heading]
     if "name" not in columns:

@@ -360,7 +360,8 @@ def _sticking(touch: Contact, symbol: str, direction: Any = None, limit: StaticL
     moving = [each for each in constraints if not is_zero(each.left)]
     if not moving:
         message = f"the coordinates keep the body from slipping, so the friction `{symbol}` does not appear"
-        raise Rejected(Complaint("not-an-unknown", message, help="write `rolling` without a symbol"))
+        help_line = "leave this friction out, or give the body coordinates that allow it to slip"
+        raise Rejected(Complaint("not-an-unknown", message, help=help_line))
     return moving
 
 

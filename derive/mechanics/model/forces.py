@@ -248,7 +248,8 @@ def couple(torque: Any, on: Any) -> GivenForce:
     """A given torque along an angle, N m; the angle is a coordinate, or a formula in coordinates."""
     along = as_expr(on)
     if not coordinates_in(along):
-        raise Rejected(Complaint("wrong-argument", f"`couple` needs an angle that varies, but {along} is constant"))
+        message = f"`couple` needs an angle with a coordinate, but {along} contains none"
+        raise Rejected(Complaint("wrong-argument", message))
     return GivenForce((as_expr(torque),), (along,))
 
 

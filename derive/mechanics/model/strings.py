@@ -270,7 +270,8 @@ def _check_rope(line: Any, particle: Any, tension: str) -> None:
     still = not any(coordinates_in(at) or depends_on_time(at) for at in map(column_of, line.places[1:-1]))
     if not still or any(_rotates(b - a) for a, b in pairwise(line.places)):
         message = "the pieces of a rope with mass must move along themselves, but their places or directions change"
-        raise Rejected(Complaint("wrong-argument", message, help="describe a rotating rope as several rods"))
+        help_line = "keep the bends of the rope at rest; describe a rotating rope as several rods"
+        raise Rejected(Complaint("wrong-argument", message, help=help_line))
     first, last, own = (velocity_at(each, line.places[0]) for each in (line.places[0], line.places[-1], particle))
     if any(not is_zero(tidied(dot(v, v) - dot(own, own))) for v in (first, last)):
         message = "the speed of the rope differs from the speed of the particle that has its mass"
