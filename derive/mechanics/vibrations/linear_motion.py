@@ -260,7 +260,7 @@ def _sort(linear: LinearCoefficients, case: str | None, equation: Quantity | Non
         return "runs_away", None
     if not _is_positive(b / a, key):
         if known in (None, "underdamped"):
-            message = f"{key}: the damping is negative, so the oscillation grows, and no case of `solution` applies"
+            message = f"{key}: the damping is negative, so the motion grows, and no case of `solution` applies"
             raise Rejected(Complaint("open-case", message, help="check the sign of the damping"))
         return "runs_away", None
     if (known or case) == "critically_damped" and not is_zero(linear.discriminant):  # zero for the given numbers only
