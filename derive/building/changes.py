@@ -47,7 +47,7 @@ class Change:
 
 def changes(before: Mapping[str, Any], after: Mapping[str, Any]) -> list[Change]:
     """Return the differences: first the differences in the input and the questions, then in results and sentences,
-    then in drawings, numbers, references and warnings."""
+    then in drawings, equation numbers, references and warnings."""
     parts = list(_paired(before["parts"], after["parts"]))
     return [
         *_table("given", _given(before), _given(after)),

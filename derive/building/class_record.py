@@ -12,7 +12,7 @@ from derive.building.files import write
 from derive.building.set_names import set_folder
 from derive.errors import Complaint, Misused, did_you_mean
 
-RECORD = ".class.json"  # in the folder of the set, so that it stays if the documents of the class are removed
+RECORD = ".class.json"  # in the set's folder of outputs, so that it stays if the folders of the class are removed
 
 
 @dataclass(frozen=True)
@@ -26,7 +26,7 @@ class ClassRecord:
 
     @classmethod
     def read(cls, root: Path, set_id: str) -> ClassRecord | None:
-        """Return the record; None if its file is missing or unreadable."""
+        """Return the record; None if its file is missing or not valid."""
         try:
             kept = json.loads((set_folder(root, set_id) / RECORD).read_bytes())
             students = {str(code): str(name) for code, name in kept["students"].items()}
@@ -78,14 +78,15 @@ class ClassRecord:
 
 
 def _comparable(text: str) -> str:
-    """Return a code or a name in a form that does not depend on case, spaces, or the Unicode encoding of accents."""
+    """Return a code or a name in a form that does not depend on case, extra spaces, or the encoding of accents."""
     return " ".join(unicodedata.normalize("NFC", text).split()).casefold()
 
 
 def class_to_grade(root: Path, set_id: str, seed: str | None, students: Mapping[str, str] | None) -> ClassRecord | None:
     """Return the class whose answers are graded; None if no class has been made and no roster is given.
 
-    seed       the stated seed, which must be the seed of the class; a seed without a class or a roster is an error
+    seed       the stated seed, which must be the seed of the class. If there is no class and no roster, a seed is an
+               error
     students   the names of the students in a roster, by their codes; None if no roster is given
     """
     made = ClassRecord.read(root, set_id)

@@ -83,7 +83,7 @@ def read_roster(path: Path) -> tuple[Student, ...]:
     try:
         cells = read_cells(path.read_bytes(), shown)
     except OSError as error:
-        message, help_line = f"`{shown}` cannot be read: {error.strerror}", "give the path of a CSV file"
+        message, help_line = f"`{shown}` cannot be read: {error.strerror}", "give the path of a readable CSV file"
         raise Rejected(Complaint("roster", message, help=help_line)) from None
     columns = [name.lower() for name in cells.heading]
     if "name" not in columns:
@@ -204,7 +204,7 @@ def made_class(
     reseed      whether `seed` may differ from the seed with which the class was made before
     scheduler   the address of a Dask scheduler, whose workers do the jobs; by default, processes of this machine do the
                 jobs
-    ended       is called for each student when the documents are made, or when making them fails
+    ended       is called for each student whose documents are made or whose variant has an error
     """
     root = root.resolve()
     begun, chosen = time.monotonic(), chosen_engine(engine)
@@ -294,7 +294,7 @@ def _check_codes(students: Sequence[Student], heading: ProblemSet) -> None:
     for student in students:
         if student.code.lower() in names:
             message = f"the code `{student.code}` of {student.name} is the name of a document of the set"
-            raise Misused(Complaint("roster", message, help="give this student another code"))
+            raise Misused(Complaint("roster", message, help="give this student a different code"))
 
 
 def class_is_older(root: Path, set_id: str, engine: Engine) -> list[Complaint]:

@@ -48,7 +48,7 @@ class Cluster:
         if others:
             self._client.close()
             help_line = "install the same version of derive on each machine"
-            message = f"the worker `{others[0]}` has another version of derive"
+            message = f"the worker `{others[0]}` has a different version of derive"
             raise Misused(Complaint("scheduler", message, help=help_line))
         return self
 

@@ -35,13 +35,13 @@ if TYPE_CHECKING:
 SUFFIXES = ("pdf", "svg")
 POINTS_PER_CM = 72 / 2.54
 WIDTH, HEIGHT = 5.0, 4.2  # centimetres, without labels
-BESIDE_STATEMENT = 0.74  # the height of a drawing of the statement, divided by the usual height
-WIDE, LOW = 7.0, 0.4  # the width of a low drawing: at the width WIDTH, its height is at most LOW times its width
+BESIDE_STATEMENT = 0.74  # the height of a drawing next to the statement, divided by the usual height
+WIDE, LOW = 7.0, 0.4  # a drawing gets the width WIDE if, at the width WIDTH, its height is at most LOW times its width
 # A drawing without a given width is made larger if its labels are crowded. Labels are crowded if the greatest cost of
 # the position of a label is more than CROWDED, or if there are at least MANY labels and more than DENSE per square
 # centimetre. The larger drawing is kept unless its greatest cost is more than that of the smaller drawing plus SLIGHT.
 CROWDED, MANY, DENSE, SLIGHT = 5.5, 7, 0.45, 3.0
-EXACT = 1e-9  # a number below this counts as zero
+EXACT = 1e-9  # a number with a smaller absolute value counts as zero
 # the widths for the drawing of a normal mode of at most FEW masses; the second is for low drawings
 OF_MODES, FEW = (3.6, 4.7), 4
 
@@ -195,8 +195,8 @@ def _holds(relation: Relation, numbers: Mapping[Symbol, float]) -> bool:
 
 
 def numbers_of(problem: Problem, placement: Placement | None, drawing: Recorded | None = None) -> dict[Symbol, float]:
-    """Return a number for each symbol of a problem and of a drawing: the number that the drawing specifies, else the
-    given value, else a number that is chosen here."""
+    """Return a number for each symbol of a problem and of a drawing. This is the number that the drawing specifies,
+    else the given value, else a number that is chosen here."""
     said = dict(placement.values) if placement else {}
     if isinstance(drawing, Drawing) and drawing.mode is not None:
         sketch = placement_of(problem, drawing.mode.like)

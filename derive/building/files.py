@@ -43,7 +43,7 @@ _SHORT = {
 
 
 def shown_path(path: Path) -> str:
-    """Return a path relative to the working folder if it is below that folder."""
+    """Return a path as text: relative to the working folder if it is below that folder, otherwise unchanged."""
     try:
         relative = os.path.relpath(path)
     except FileNotFoundError:  # the working folder does not exist any more

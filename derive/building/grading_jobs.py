@@ -43,7 +43,8 @@ def grade_answers(
     """Return the result of each row by the number of the row. With a class, each answer is compared with the variant of
     its student.
 
-    If a job with several answers fails, its answers are divided between two new jobs.
+    If a worker with several answers exceeds a limit or has an internal error, its answers are divided between two
+    new jobs.
     """
     found: dict[int, Result] = {}
     waiting: dict[Job, tuple[str, Sequence[Asked]]] = {}
@@ -121,8 +122,10 @@ def _graded(root: Path, problem_id: str, rows: Sequence[Asked], of_class: ClassR
 
 
 def unknown_part(problem_id: str, name: str, parts: Sequence[tuple[str, str]]) -> Complaint:
-    """Return the error about a part that a problem does not have; `parts` are the labels of its parts, with what
-    they ask for."""
+    """Return the error for a name that no part of the problem has; with an empty name, the error for a missing name.
+
+    parts   the label and the question of each part of the problem
+    """
     shown = name if len(name) <= 40 else name[:40] + " ..."
     message = f"`{problem_id}` has no part `{shown}`" if shown else f"`{problem_id}` has several parts"
     notes = tuple(f"({label}) {ask}" for label, ask in parts)
@@ -130,7 +133,8 @@ def unknown_part(problem_id: str, name: str, parts: Sequence[tuple[str, str]]) -
 
 
 def check_part(root: Path, problem_id: str, name: str | None) -> str:
-    """Return the name of a part, by default of the only part; raise `Misused` if there is no such part."""
+    """Return the name of a part, by default of the only part. Raise `Misused` if the problem has no such part, or has
+    several and no name is given."""
     from derive.course.problem import load_problem
     from derive.grading.key import label_in
 

@@ -49,7 +49,7 @@ class Manifest:
 
     @classmethod
     def read(cls, folder: Path) -> Manifest:
-        """Return the record of this folder; an empty record if there is none, or if the record was altered."""
+        """Return the record of this folder; an empty record if there is no valid one."""
         recorded = signatures.data_of(signatures.read_signed(folder / ".manifest.json", _record_of(folder)))
         return cls(folder, **recorded) if _is_record(recorded) else cls(folder)
 

@@ -52,7 +52,8 @@ class _Answer:
 
     @property
     def in_form(self) -> Place | None:
-        """The place in the file where the form of this answer asks for a number; None if the form asks for none."""
+        """The place in the file where the form of this answer states a unit or, if `is_halfway`, the number of
+        significant figures; otherwise None."""
         form = self.part.form_of(self.asked)
         if form.units:
             return form.units[0].place

@@ -79,7 +79,7 @@ def printed(
     cache: Cache = NO_CACHE,
     failures: tuple[Complaint, ...] = (),
 ) -> Rendered:
-    """Return the page of a derived problem; raise `Rejected` if it has errors.
+    """Return the page of a derived problem; raise `Rejected` if there are errors.
 
     cache      the cache that stores the files of the drawings
     failures   the disagreements with the reference, which are added to the warnings

@@ -49,4 +49,4 @@ def preload(root: Path, derives: bool, draws: bool, set_id: str = "") -> None:
     if draws:
         from derive.render.drawing.lettering import letters_of
 
-        letters_of(["$x$"])  # the first letter loads everything that typesets letters
+        letters_of(["$x$"])  # one letter is enough to load all modules that typeset letters

@@ -247,7 +247,7 @@ def _too_slow(engine: Engine, source: Path, seconds: float) -> BuildFailed:
 
 def _environment(engine: Engine) -> dict[str, str]:
     """Return the environment of the engine: long messages, a fixed date and restricted access to files."""
-    kept = ("PATH", "HOME", "TMPDIR", "SYSTEMROOT")  # other variables may configure another TeX
+    kept = ("PATH", "HOME", "TMPDIR", "SYSTEMROOT")  # other variables may configure a different TeX installation
     return {name: value for name, value in os.environ.items() if engine.name != WHEEL or name in kept} | {
         "openin_any": "p",
         "openout_any": "p",

@@ -241,8 +241,8 @@ parts:
         ),
         ("{through: [0, 0], along: [1, 0]}", "{through: [0, 0]}", "not a plane, a circle or a curve"),
         ("on: ground, normal", "on: one, normal", "no contact uses the surface `ground`"),
-        ("along: [1, 0]}", "along: [1, 0], velocity: [g*t, 0]}", "the velocity of a surface is not constant"),
-        ("along: [1, 0]}", "along: [1, 0], velocity: [0, sqrt(g*a)]}", "is not along the surface"),
+        ("along: [1, 0]}", "along: [1, 0], velocity: [g*t, 0]}", "the velocity of a surface must be constant"),
+        ("along: [1, 0]}", "along: [1, 0], velocity: [0, sqrt(g*a)]}", "must be along the surface"),
         (
             "{through: [0, 0], along: [1, 0]}",
             "{through: [x, 0], along: [1, 0]}",

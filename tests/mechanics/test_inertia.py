@@ -168,7 +168,7 @@ def test_an_unknown_point_is_refused() -> None:
 
 
 def test_a_moment_about_an_axis_that_does_not_exist_is_rejected() -> None:
-    with pytest.raises(Rejected, match='about "x", "y" or "z", not about "w"') as refused:
+    with pytest.raises(Rejected, match='must be "x", "y" or "z", not "w"') as refused:
         moment_of_inertia(Cuboid((a, b, c), M), "w")
     assert [each.code for each in refused.value.complaints] == ["no-such-axis"]
 

@@ -341,7 +341,7 @@ class Hollow(Body):
 
     inner: Expr
     outer: Expr
-    power: ClassVar[int]  # the mass of the body without its cavity is proportional to this power of the radius
+    power: ClassVar[int]  # the mass of a body without a cavity is proportional to this power of its radius
     is_round: ClassVar[bool] = True
 
     def check_sizes(self) -> None:

@@ -131,8 +131,8 @@ Boundary: TypeAlias = Round | Faces | Segment | Rim | Extruded | Ellipsoidal | T
 
 
 def of_map(place: ImmutableMatrix, limits: Bounds) -> Boundary | None:
-    """The boundary of a position map if it is a straight line, the closed edge of a flat body in the plane of x and y,
-    or an ellipsoid.
+    """The boundary of a position map if this boundary is a straight line, the closed edge of a flat body in the plane
+    of x and y, or an ellipsoid.
 
     Return None for every other map.
     """

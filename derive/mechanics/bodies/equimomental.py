@@ -159,7 +159,8 @@ def from_moments(
                    about the origin
 
     A Cholesky decomposition gives S = sum of D_k l_k l_k^T. For each k, a pair of particles with the total mass D_k/L^2
-    is at +-L l_k, where L^2 is the trace of S divided by the mass. The rest of the mass is at the centre of mass.
+    is at +-L l_k from the centre of mass, where L^2 is the trace of S divided by the mass. The rest of the mass is at
+    the centre of mass.
     Source: Routh, *Dynamics of a System of Rigid Bodies*, elementary part, chapter 1.
     """
     left = Matrix(second) if second is not None else Matrix.diag(*about_origin) - mass * centre * centre.T

@@ -13,7 +13,7 @@ from derive.steps.step import Fact
 
 @dataclass(frozen=True)
 class OfBody(Fact):
-    """The body to which an inertia tensor belongs; the distribution of its mass is known."""
+    """The body to which an inertia tensor belongs; the distribution of mass in this body is known."""
 
     missing = "does not belong to a body"
     body: Any

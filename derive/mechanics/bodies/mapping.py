@@ -101,7 +101,7 @@ def from_point(point: Point, position: ImmutableMatrix, limits: Bounds, weight: 
 def cell(position: ImmutableMatrix, limits: Bounds, positive: tuple[Expr, ...] = ()) -> Expr:
     """The factor that turns the product of the differentials of the variables into a length, an area or a volume.
 
-    positive   sizes that are taken to be positive for all values of their symbols
+    positive   sizes that are positive: random values of the symbols for which a size is not positive are left out
     """
     tangents = tangents_of(position, [x for x, _, _ in limits])
     known = (*limits, *((Dummy("size"), Integer(0), size) for size in positive))

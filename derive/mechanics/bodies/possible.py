@@ -73,7 +73,7 @@ class Fault:
     """Why no body can consist of the given parts.
 
     why     "shared" (parts overlap), "hole" (a hole is outside the body, or holes overlap) or "empty" (nothing is left)
-    names   the names of the parts that overlap, or of the holes, at one place; none for "empty"
+    names   the names of the parts that overlap at one place, or of the holes there; none for "empty"
     """
 
     why: str

@@ -132,7 +132,7 @@ class Cone(Conical, RoundSolid):
 
     def particles(self) -> Particles:
         """One twentieth of the mass at the apex, four fifths as a disc at three quarters of the height, and three
-        twentieths as a disc at the base; each disc has five particles.
+        twentieths as a disc at the base. Each disc has five particles.
 
         The slices of a cone have masses proportional to z^2. With the height as unit, the means of 1, z and z^2 are 1,
         3/4 and 3/5. The means of 1, z and z^2 over the heights 0, 3/4 and 1 with the weights 1/20, 16/20 and 3/20 are

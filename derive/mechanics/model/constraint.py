@@ -83,13 +83,15 @@ class Constraint(Part):
 
     @property
     def acting(self) -> list[PointForce]:
-        """The forces on bodies, without the reaction on the ground."""
+        """The forces on bodies and particles; the reaction on the ground is left out."""
         return [each for each in self.forces if each.of is not None]
 
     def sense(self, side: int) -> str:
         """Return the direction of the force on the first body, if the symbol of the force has the sign `side`.
 
-        The result is "up", "down", "right" or "left"; it is empty if the direction is unknown.
+        The result is "up", "down", "right" or "left". If the vertical component is not zero and has a known sign, it
+        decides; otherwise the horizontal component decides. The result is empty for a motion in space, or if
+        the direction is unknown.
         """
         signs = [sign_known(side * c) for each in self.acting[:1] for c in each.direction]
         if len(signs) != 2 or not (signs[1] or signs[0]):

@@ -75,8 +75,8 @@ def _feet(placed: PlacedBody, curve: Curve) -> Iterator[Location]:
 
 
 def _assume_that_it_fits(placed: PlacedBody, curve: Curve, foot: Location) -> None:
-    """Assume that a round body fits into the curve: where the curve bends towards the body, the radius of the body is
-    less than the radius of curvature at the point of contact."""
+    """Assume that a round body fits into the curve. Where the curve bends towards the body, the radius of the body must
+    be less than the radius of curvature at the point of contact."""
     bends = diff(curve.formula, curve.letter, 2).xreplace({curve.letter: (foot - curve.through).components[0]})
     room = tidied(curve.gradient(foot) ** 3 - radius_of(placed) * (-bends if curve.below else bends))
     if sign_for_all(room) != 1:
@@ -86,15 +86,15 @@ def _assume_that_it_fits(placed: PlacedBody, curve: Curve, foot: Location) -> No
 
 
 def _has_rims(placed: PlacedBody) -> bool:
-    """Whether a body moves in space and its outer shape is the convex hull of one or two circles, as for a disc, a
-    hoop, a cylinder or a cone.
+    """Whether the outer shape of a body in space is the convex hull of one or two circles, as for a disc, a hoop, a
+    cylinder or a cone.
     """
     outline = _outline(placed)
     return not placed.is_plane and outline is not None and outline.is_straight and not outline.is_line
 
 
 def _outline(placed: PlacedBody) -> Round | None:
-    """Return the outer boundary of a body if it is round, otherwise None."""
+    """Return the outer boundary of a body if this boundary is round, otherwise None."""
     boundary = placed.body.boundary
     outer = boundary.whole if isinstance(boundary, Hollowed) else boundary
     return outer if isinstance(outer, Round) else None
@@ -105,7 +105,8 @@ def lowest(placed: PlacedBody, surface: Surface) -> tuple[Location, Expr]:
     plane.
 
     The body is the convex hull of its rims, so the nearest point is on a rim. The vector from the centre of the rim to
-    this point is one radius long, and opposite to the projection of the normal of the plane onto the plane of the rim.
+    this point is one radius long. It is opposite to the projection of the normal of the plane onto the plane of the
+    rim.
     """
     if not isinstance(surface, Plane) or not isinstance(placed.turned, Axes):
         message = f"in space, the point where {placed.body.name} touches a surface is known only for a plane"
@@ -134,8 +135,8 @@ def _rims(placed: PlacedBody) -> list[tuple[Expr, Expr]]:
 def _check_lowest(placed: PlacedBody, plane: Surface, place: Location, gap: Expr) -> None:
     """Check that the place of contact is on a rim of the body, and that no place on a rim is nearer to the plane.
 
-    The lowest place of a rim is r sin(a) below the centre of the rim, where r is the radius of the rim and a is the
-    angle between the rim and the plane.
+    On a rim of radius r, the lowest place is r sin(a) below the centre of the rim, where a is the angle between the rim
+    and the plane.
     """
     middle = _own(placed, ZERO, ZERO, ZERO)
     along, across, axis = (_own(placed, *map(Integer, own)) - middle for own in ((1, 0, 0), (0, 1, 0), (0, 0, 1)))

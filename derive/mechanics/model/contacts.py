@@ -142,7 +142,7 @@ def contact(
     direction  "right", "left" or a vector. With `sliding`, the material point of the body slips over the surface in
                this direction. In space, `direction` is optional with `sliding`; leave it out if the coordinates allow
                other directions of slip. With a symbol of friction under `rolling` or `static`, the friction on the body
-               is positive in this direction; then `direction` is allowed only for a motion in a plane
+               is positive in this direction. `direction` is then allowed only for a motion in a plane
     static     the coefficient of static friction mu_s: the material points in contact do not move over each other, so
                a round body rolls. The friction must satisfy |F| <= mu_s N, or |F| <= mu_s |N| on a rail. In space, |F|
                is sqrt(F_x^2 + F_y^2)
@@ -174,7 +174,7 @@ def contact(
     if sliding is not None:
         found.append(_sliding(touch, sliding, direction, normal or "N"))
     elif direction is not None and not isinstance(rolling, str) and static is None:
-        message = "`direction` is the direction of the friction, but no friction is given"
+        message = "`direction` needs friction with a symbol or a coefficient, but neither is given"
         raise Rejected(Complaint("unused-key", message))
     if static is not None:
         found += _sticking(touch, force, direction, _static_limit(touch, static, normal))
@@ -191,7 +191,8 @@ def point_of_contact(of: Any, on: Any) -> PointOfBody:
 
 def _check_carried(touch: Contact, rough: bool) -> None:
     """Require a body that carries the surface if the surface, or the axes in which it is at rest, move with
-    coordinates. With friction, also require such a body if the normal of a plane depends on the time."""
+    coordinates. With friction, also require such a body if no axes are given and the normal of a plane depends on the
+    time."""
     surface = touch.surface
     turning = touch.normal.components if isinstance(surface, Plane) else ()
     axes = tuple(surface.moves.in_space) if isinstance(surface.moves, Axes) else ()
@@ -359,7 +360,8 @@ def _sticking(touch: Contact, symbol: str, direction: Any = None, limit: StaticL
     moving = [each for each in constraints if not is_zero(each.left)]
     if not moving:
         message = f"the coordinates keep the body from slipping, so the friction `{symbol}` does not appear"
-        raise Rejected(Complaint("not-an-unknown", message, help="write `rolling` without a symbol"))
+        help_line = "leave this friction out, or give the body coordinates that allow it to slip"
+        raise Rejected(Complaint("not-an-unknown", message, help=help_line))
     return moving
 
 

@@ -177,7 +177,7 @@ class Matter(Fact):
         return sum((field.momentum_along(q) for field in self.fields), Integer(0))
 
     def inertia_along(self, q: Symbol) -> Expr:
-        """The sum of m a . dr/dq: minus the virtual work of the inertial forces"""
+        """The sum of m a . dr/dq: minus the generalized force of the inertial forces"""
         return sum((m * _dot(a, _along(r, q)) for m, r, a in self._moving(2)), Integer(0))
 
     def turning_along(self, q: Symbol) -> Expr:

@@ -1,8 +1,8 @@
 """Forces other than weight and springs: given forces and torques, drag, charges in fields, and potential energies that
 are given as functions.
 
-The torque of a couple acts along an angle. A potential energy has a generalized force along each coordinate that it
-contains.
+The torque of a couple is a generalized force along an angle. A potential energy has a generalized force along each
+coordinate that it contains.
 """
 
 from __future__ import annotations
@@ -248,7 +248,8 @@ def couple(torque: Any, on: Any) -> GivenForce:
     """A given torque along an angle, N m; the angle is a coordinate, or a formula in coordinates."""
     along = as_expr(on)
     if not coordinates_in(along):
-        raise Rejected(Complaint("wrong-argument", f"`couple` needs an angle that varies, but {along} is constant"))
+        message = f"`couple` needs an angle with a coordinate, but {along} contains none"
+        raise Rejected(Complaint("wrong-argument", message))
     return GivenForce((as_expr(torque),), (along,))
 
 

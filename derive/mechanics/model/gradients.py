@@ -1,8 +1,8 @@
 """The factor between a multiplier and the constraint force: the length of the gradient of the condition in space.
 
-For a condition f = c with the multiplier lambda, the virtual work of the constraint force is lambda df, so the force on
-a particle is lambda times the gradient of f. If there is only one particle and this gradient has the length 1, the
-magnitude of the force is |lambda|.
+For a condition f = c with the multiplier lambda, the virtual work of the constraint force is lambda df. The force on a
+particle is therefore lambda times the gradient of f. If there is only one particle and this gradient has the length 1,
+the magnitude of the force is |lambda|.
 
 Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4; Lanczos, *The Variational Principles of Mechanics*,
 chapter III.

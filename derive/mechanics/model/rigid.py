@@ -128,8 +128,8 @@ def _seen_from(axes: Axes, i: int, count: int) -> ImmutableMatrix:
 
 
 def convenient_axes(placed: PlacedBody, inertia: ImmutableMatrix) -> Axes:
-    """Return axes along which the inertia of a body in space is constant, and its angular velocity has short
-    components.
+    """Return axes along which the inertia of a body in space is constant and the angular velocity of this body has
+    short components.
 
     If the last of several rotations is about an axis of symmetry, these are the axes before this rotation.
     """

@@ -80,7 +80,8 @@ class Line(Connection):
         return tuple(each.at if isinstance(each, Pulley) else each for each in self.through)
 
     def weighed(self, gravity: Expr) -> Sequence[Part]:
-        """Return the weight of a rope, unless its potential energy contains no coordinate."""
+        """Return the correction for the weight of a rope; nothing for a line without mass, or if no coordinate changes
+        the correction."""
         if self.rope is None:
             return ()
         found = _weight_of_rope(self.places, self.lengths, self.rope, gravity)
@@ -111,13 +112,13 @@ class Line(Connection):
 
 @dataclass(frozen=True)
 class WeightOfRope(StoredEnergy):
-    """The correction for the weight of a rope. In the system, a particle with the mass of the rope represents the rope;
-    its potential energy is subtracted from the potential energy of the rope.
+    """The correction for the weight of a rope. In the system, a particle with the mass of the rope represents the rope.
+    The potential energy of this particle is subtracted from the potential energy of the rope.
 
     energy   the sum of (mass) g (height of the middle) over the straight pieces, minus M g y of the particle, J
-    force    a force on the first end, along the rope, that does the work of the weight. If all pieces move by ds along
-             the rope towards the second end, this work is (M/l) g (y_0 - y_1) ds, where y_0 and y_1 are the heights of
-             the first and the second end
+    force    a force on the first end, along the rope, that does the work of the weight. Let y_0 and y_1 be the heights
+             of the first and the second end. If all pieces move by ds along the rope towards the second end, this work
+             is (M/l) g (y_0 - y_1) ds
     at       the position of the first end
     """
 
@@ -269,7 +270,8 @@ def _check_rope(line: Any, particle: Any, tension: str) -> None:
     still = not any(coordinates_in(at) or depends_on_time(at) for at in map(column_of, line.places[1:-1]))
     if not still or any(_rotates(b - a) for a, b in pairwise(line.places)):
         message = "the pieces of a rope with mass must move along themselves, but their places or directions change"
-        raise Rejected(Complaint("wrong-argument", message, help="describe a rotating rope as several rods"))
+        help_line = "keep the bends of the rope at rest; describe a rotating rope as several rods"
+        raise Rejected(Complaint("wrong-argument", message, help=help_line))
     first, last, own = (velocity_at(each, line.places[0]) for each in (line.places[0], line.places[-1], particle))
     if any(not is_zero(tidied(dot(v, v) - dot(own, own))) for v in (first, last)):
         message = "the speed of the rope differs from the speed of the particle that has its mass"
@@ -345,7 +347,8 @@ def _of_length(verb: str, ends: Sequence[Any], length: Any, letter: str) -> tupl
         raise Rejected(Complaint("missing-key", message, help="give its `length`"))
     if kept is not None:
         message = f"the coordinates keep the length {kept} constant, so the force `{letter}` does not appear"
-        help_line = "leave out the force, or give the end a coordinate along the string, so that the length can change"
+        key, what = ("force", "rod") if is_rod else ("tension", "string")
+        help_line = f"leave out `{key}`, or give the end a coordinate along the {what}, so that the length can change"
         raise Rejected(Complaint("not-an-unknown", message, help=help_line))
     require_bodies(verb, [pair for piece in pieces for pair in zip((piece.start, piece.end), piece.of, strict=True)])
     force = scalar(letter)
@@ -404,7 +407,10 @@ def _tangent(one: Any, other: Any) -> tuple[Location, Location]:
     )
     if not found:
         message = f"no horizontal or vertical tangent of {name} leads to the next end or pulley"
-        help_line = "the end of a vertical string must be one radius to the left or right of the centre"
+        help_line = (
+            "a vertical string must be one radius to the left or right of the centre, a horizontal string one radius "
+            "above or below it"
+        )
         raise Rejected(Complaint("no-contact", message, help=help_line))
     if len(found) > 1 and any(isinstance(each, Rim) for each in (one, other)):
         message = f"the string to the next end or pulley may be tangent to {name} on either side"
@@ -460,7 +466,7 @@ def _require_kept(verb: str, kept: Expr | None, whole: Expr | None) -> None:
         raise Rejected(Complaint("missing-key", message, help=f"give its `length`, and the symbol of its `{key}`"))
     if whole is None and depends_on_time(kept):
         message = f"the length {kept} of the {what} changes with the time, but a {what} is inextensible by default"
-        help_line = f"give this `length`, for a {what} that is pulled in or paid out"
+        help_line = f"if the {what} changes its length in a given way, give this `length`"
         raise Rejected(Complaint("missing-key", message, help=help_line))
     if whole is not None and not is_zero(kept - whole):
         message = f"with these coordinates the {what} has the length {kept}, but its `length` is given as {whole}"

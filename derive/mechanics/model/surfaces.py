@@ -247,11 +247,11 @@ def _check_motion(surface: Plane) -> None:
     if isinstance(surface.moves, Location):
         velocity = Location(tuple(diff(c, TIME) for c in surface.moves.components))
         if any(depends_on_time(c) or coordinates_in(column_of(velocity)) for c in velocity.components):
-            message = "the velocity of a surface is not constant"
+            message = "the velocity of a surface must be constant"
             help_line = "give a place on the surface as a function of time, `through: [A*t**2/2, 0]`"
             raise Rejected(Complaint("changes", message, help=help_line))
         if not is_zero(tidied(dot(velocity, surface.unit_normal))):
-            message = "the velocity of the surface is not along the surface"
+            message = "the velocity of a surface must be along the surface"
             help_line = "give a place on the surface as a function of time, `through: [0, v*t]`"
             raise Rejected(Complaint("wrong-argument", message, help=help_line))
 
@@ -311,7 +311,8 @@ def curve(
         raise Rejected(Complaint("wrong-argument", f"`curve` needs a symbol for x, not {letter}"))
     if len(through.components) != 2 or moves is not None:
         message = "a curve needs a plane of motion; it moves only with the place `through` or the body that carries it"
-        raise Rejected(Complaint("wrong-argument", message, help="give `through` as a function of time, or `of`"))
+        help_line = "in a plane, give `through` as a function of time, or `of`; in space, use a plane or a sphere"
+        raise Rejected(Complaint("wrong-argument", message, help=help_line))
     moving = [s.name for s in {**coordinates_in(formula), TIME: ""} if s != letter and formula.has(s)]
     if moving:
         message = f"the formula of a curve contains {moving[0]}, but a curve has a constant shape"

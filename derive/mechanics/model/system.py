@@ -218,7 +218,7 @@ def weight(gravity: Expr) -> Weight:
 def spring(constant: Expr, start: Location, end: Location, natural: Expr = ZERO, massless: bool = False) -> Central:
     """A massless spring between two places, U = (1/2) k (r - l)^2, with k in N/m and the natural length l in m.
 
-    massless   whether the spring may end at a massless joint; by default each end must be fixed to the ground, or move
+    massless   whether the spring may end at a massless joint. By default each end must be fixed to the ground, or move
                with a body, a particle or a massless rod
     """
     require_constant("spring", "spring constant", constant)
@@ -478,8 +478,8 @@ def _is_put_into(condition: Quantity, parts: Sequence[Part]) -> bool:
 def _with_branches(system: System) -> tuple[Part, ...]:
     """Return the parts. In a potential, a distance |u| is replaced by u or by -u if there is a natural choice.
 
-    There is such a choice if the coordinates are displacements from an equilibrium, as for carts at x_1 and d + x_2:
-    the page then states that u keeps its sign. There is no natural choice for a cart at x with a spring to a wall at d:
+    There is such a choice if the coordinates are displacements from an equilibrium, as for carts at x_1 and d + x_2.
+    The page then states that u keeps its sign. There is no natural choice for a cart at x with a spring to a wall at d:
     |x - d| remains.
     """
     sided = tuple(_near_rest(each) for each in system.between)

@@ -30,7 +30,7 @@ from derive.steps.rule import Judged, Naming, Predicate, handed_on_by
 from derive.steps.step import is_zero
 
 # moments of uniform bodies that tables give: words -> the point, the axes, and a function that returns the moment
-# divided by the mass; its arguments are the sizes, in the order of `measures`
+# divided by the mass. The arguments of this function are the sizes, in the order of `measures`
 _TABLE: Mapping[str, tuple[str, str, Callable[..., Expr]]] = {
     "rod_about_its_end": ("end", "xy", lambda length: length**2 / 3),
     "rod_about_its_centre": ("centre", "xy", lambda length: length**2 / 12),
@@ -160,9 +160,9 @@ def moments_compared(wanted: str) -> Predicate:
     """Judge how the moments compare.
 
     With `wanted="always"`, all moments must be equal. With `wanted="never"`, they must not be equal for any values of
-    the symbols: every difference that is not identically zero has a fixed sign, and there is at least one such
-    difference. With any other word, the moments must be equal for the value of a symbol that the result states, and
-    neither "always" nor "never" may be true.
+    the symbols. This is so if every difference that is not identically zero has a fixed sign, and there is at least one
+    such difference. With any other word, the moments must be equal for the value of a symbol that the result states,
+    and neither "always" nor "never" may be true.
     """
 
     def is_so(facts: Judged) -> bool:
@@ -424,8 +424,8 @@ def excess_is(sign: int | None) -> Predicate:
 
 
 def root_is(grows: bool, *squares: str) -> Predicate:
-    """Judge two conditions: the square of the rate is negative exactly if `grows` is true, and the step that derives
-    the square has one of these outcomes. A square of unknown sign counts as not negative."""
+    """Judge two conditions: the square of the rate is negative if and only if `grows` is true, and the step that
+    derives the square has one of these outcomes. A square of unknown sign counts as not negative."""
 
     def is_so(facts: Judged) -> bool:
         word = facts.quantities["squared"].step.outcome

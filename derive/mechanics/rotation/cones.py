@@ -115,7 +115,7 @@ def tangent_between(a: Quantity, b: Quantity, angle: str = "theta", key: str = "
     a, b    vectors (3) along the same axes, not zero and not perpendicular to each other
     angle   the symbol of the angle
 
-    Second route: the length of the component of b perpendicular to a, divided by the component of b along a; the
+    Second route: the length of the component of b perpendicular to a, divided by the component of b along a. The
     lengths are found by rotating the vectors onto an axis.
     Outcomes: generic, parallel (the tangent vanishes).
     Errors: a or b vanishes; a and b are perpendicular, or belong to different bodies.

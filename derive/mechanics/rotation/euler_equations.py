@@ -324,8 +324,8 @@ def rate_in_space(
 
 
 def _constancy(rate: Any, in_body: Quantity | None) -> str:
-    """Return the outcome: whether L is constant in space, and if it is, whether L is also constant in the body;
-    "generic" if the equations of motion are not substituted."""
+    """Return the outcome. It states whether L is constant in space and in the body, or is "generic" if the equations of
+    motion are not substituted."""
     if in_body is None:
         return "generic"
     if not is_zero(rate):
@@ -403,7 +403,7 @@ def _euler_equation(rate: Quantity, i: int, torque: tuple[Expr, Expr, Expr]) -> 
 
 def _without_common_factor(left: Expr, torque: Expr) -> Relation:
     """Return the equation. Without a torque, the equation is divided by the positive factors that its terms have in
-    common. For a block with the edges a, 2a and 3a, it is then 13 omega_x_dot - 5 omega_y omega_z = 0."""
+    common. For a block with the edges a, 2a and 3a, the first equation is 13 omega_x_dot - 5 omega_y omega_z = 0."""
     terms = Add.make_args(left)
     if torque != 0 or len(terms) < 2:
         return Relation(left, "=", torque)

@@ -153,7 +153,7 @@ def moment_of_inertia(
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, section 7.3.
     """
     if axis not in AXES:
-        message = f'a moment of inertia is about "x", "y" or "z", not about "{axis}"'
+        message = f'the axis of a moment of inertia must be "x", "y" or "z", not "{axis}"'
         raise Rejected(Complaint("no-such-axis", message))
     return moment_seen(body, axis, about, symbol, key, {"seen": "own" if body.is_of_particles else "mapped"})
 
@@ -447,7 +447,8 @@ def moved_from_centre(inertia: Quantity, centre: Quantity, symbol: str = "J", ke
     target = centre.needed(CountedFrom).start
     if inertia.needed(AboutPoint).point != replace(body.middle, axes=target.axes):
         message = f"`{inertia.key}` is not about the centre of mass, or its axes are not the axes of `{centre.key}`"
-        raise Rejected(Complaint("another-origin", message, help="start from the tensor about the centre of mass"))
+        help_line = f"start from the tensor about the centre of mass, along the axes of `{centre.key}`"
+        raise Rejected(Complaint("another-origin", message, help=help_line))
     return _moved(inertia, centre, target, symbol, key)
 
 

@@ -105,7 +105,7 @@ def _two_to_compare(moments: Quantity) -> tuple[int, int]:
 
 def _solved(letter: Expr, difference: Expr, moments: Quantity) -> tuple[Symbol, Expr, int]:
     """Return the first symbol in `letter` for which the equation difference = 0 has exactly one positive root, this
-    root, and the power that `_root` returns."""
+    root, and 2 or 1 as in `_root`."""
     for symbol in sorted(letter.free_symbols & difference.free_symbols, key=str):
         root = _root(difference, symbol)
         if root is not None:

@@ -38,14 +38,15 @@ def linearised_rotation(
     axis        "x", "y" or "z": the principal axis of the steady rotation
     speed       the constant rate omega of the steady rotation, 1/s
 
-    Second route: the sum of m r x a over the particles of the body is computed for two opposite perturbations; half of
+    Second route: the sum of m r x a over the particles of the body is computed for two opposite perturbations. Half of
     the difference contains the terms of first order.
     Errors: a steady rotation about the axis does not satisfy the equations, for example because a torque acts; there is
     no such axis; the rate is not constant; one of the three equations is missing.
     Source: Landau, Lifshitz, *Mechanics*, section 37; Taylor, *Classical Mechanics*, section 10.8.
     """
     if axis not in AXES:
-        raise Rejected(Complaint("no-such-axis", f'a body can rotate about "x", "y" or "z", not about "{axis}"'))
+        message = f'the axis of a steady rotation must be "x", "y" or "z", not "{axis}"'
+        raise Rejected(Complaint("no-such-axis", message))
     require_constant("linearised_rotation", "rate", speed)
     of = _rate_of(equations)
     disturbed = Disturbed(AXES.index(axis), speed, of)
@@ -53,7 +54,8 @@ def linearised_rotation(
     for equation in equations:
         if not is_zero(_left(equation).xreplace(steady)):
             message = f"a steady rotation about {axis} does not satisfy `{equation.key}`"
-            raise Rejected(Complaint("not-steady", message, help="a torque acts, or the axis is not a principal axis"))
+            help_line = "use a principal axis, and equations without a torque"
+            raise Rejected(Complaint("not-steady", message, help=help_line))
     first, second = (_linear_equation(equations, disturbed, k, key) for k in disturbed.across)
     return first, second
 

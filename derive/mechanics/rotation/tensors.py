@@ -88,7 +88,7 @@ def turned_tensor(
     """A tensor along rotated axes, I' = R^T I R, where the columns of R are the new axes.
 
     inertia   tensor I (3, 3), kg m^2
-    axis      "x", "y" or "z": the axis about which the axes are rotated
+    axis      "x", "y" or "z": the axis of the rotation
     angle     the angle of this right-handed rotation
 
     Second route: the sum of m (r.r 1 - r r) over equimomental particles, with components along the rotated axes. Check:

@@ -33,8 +33,8 @@ class DampedModes(Equations[Damped]):
     """The results of `normal_modes` with drag."""
 
     def found(self) -> tuple[Quantity, ...]:
-        """Return the steps for each factor of the determinant: one step for a zero exponent; otherwise the decay rate,
-        the frequency if the factor is quadratic, and the shape if there are several coordinates."""
+        """Return the steps for each factor of the determinant. A zero exponent gives one step. Any other factor gives
+        the decay rate, the frequency if the factor is quadratic, and the shape if there are several coordinates."""
         roots, characteristic = self.system.roots, _characteristic(self)
         found: list[Quantity] = []
         number = self.before
@@ -241,7 +241,8 @@ def _shape(
     linear = equations.linear
 
     def moving(found: MatrixBase) -> tuple[MatrixBase, MatrixBase]:
-        """Check that the residuals are multiples of the factor of the determinant, so they vanish at its roots."""
+        """Check that the residuals are multiples of a factor of the determinant, so they vanish at the roots of this
+        factor."""
         letter = Symbol("s_trial")
         course = exp(letter * T)
         left = [(value / course).expand() for value in equations.with_motion([a * course for a in found])]

@@ -514,9 +514,8 @@ def _without_squares(value: Expr, square: Symbol) -> Expr:
 
 
 def _remainder(value: Expr, condition: Relation) -> Expr:
-    """Return the remainder after division of the value by the residual of a condition, which is its left side minus its
-    right side. The numerator of the value is divided by the numerator of the residual; both are polynomials in one
-    symbol."""
+    """Return the remainder after division of the value by the residual of a condition: the left side minus the right
+    side. The numerator of the value is divided by the numerator of the residual; both are polynomials in one symbol."""
     residual = Poly(condition.residual.as_numer_denom()[0].expand())
     letter = min(residual.gens, key=lambda each: (not each.is_Symbol, str(each)))
     return Poly(value.as_numer_denom()[0].expand(), letter).rem(Poly(residual.as_expr(), letter)).as_expr()

@@ -99,7 +99,7 @@ def solution(
     """Motion q(t) that satisfies a linear equation with constant coefficients and initial values. If a s^2 + b s + c
     has two different roots s_1 and s_2, then q = C_1 e^(s_1 t) + C_2 e^(s_2 t) + a particular motion.
 
-    equation     a q_ddot + b q_dot + c q = f(t), where f is a sum of powers of t, exponentials, sines and cosines; the
+    equation     a q_ddot + b q_dot + c q = f(t), where f is a sum of powers of t, exponentials, sines and cosines. The
                  equation may be of first order, a = 0, or solved for q_ddot or q_dot
     q            the coordinate of the equation of motion
     start        the value of q at t = 0
@@ -115,7 +115,7 @@ def solution(
     for example because c/a is negative), uniform (no force depends on position or rate), slows (no force depends on
     position: the rate decays), relaxes (first order), accumulates (first order, without q).
     Errors: the equation is not linear with constant coefficients; the case depends on the symbols and `case` is not
-    given, or the case is known and differs from `case`; the driving force f(t) has another form.
+    given, or the case is known and differs from `case`; the driving force f(t) has a different form.
     Source: Taylor, *Classical Mechanics*, sections 5.4 to 5.6.
     """
     linear = linear_equation(equation, q)
@@ -260,7 +260,7 @@ def _sort(linear: LinearCoefficients, case: str | None, equation: Quantity | Non
         return "runs_away", None
     if not _is_positive(b / a, key):
         if known in (None, "underdamped"):
-            message = f"{key}: the damping is negative, so the oscillation grows, and no case of `solution` applies"
+            message = f"{key}: the damping is negative, so the motion grows, and no case of `solution` applies"
             raise Rejected(Complaint("open-case", message, help="check the sign of the damping"))
         return "runs_away", None
     if (known or case) == "critically_damped" and not is_zero(linear.discriminant):  # zero for the given numbers only

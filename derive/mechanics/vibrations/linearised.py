@@ -327,7 +327,7 @@ def _check_exists(at: Any) -> None:
 
 
 def _check_rest(equations: Sequence[Quantity], moving: Sequence[Coordinate], place: Mapping[Symbol, Expr]) -> None:
-    """Check that the coefficients do not depend on the time, and that the given values of the coordinates are an
+    """Check that the coefficients do not depend on the time. Also check that the given values of the coordinates are an
     equilibrium: without motion, only driving forces remain in the equations."""
     where = ", ".join(f"{s} = {value}" for s, value in place.items())
     for equation in equations:

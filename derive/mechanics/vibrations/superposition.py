@@ -142,7 +142,10 @@ def _excited(
         frequencies = {columns[0]: (modes[0], roots[0][1].sign)}
     if not is_zero(C) and (is_zero(C + C.T) or not _separates(C, columns)):
         message = "forces that depend on the rates mix the modes, so the shapes without these forces do not apply"
-        help_line = "drag that is proportional to the masses or to the springs does not mix the modes"
+        help_line = (
+            "drag does not mix the modes if it is proportional to the masses or to the springs; "
+            "gyroscopic forces always mix them"
+        )
         raise Rejected(Complaint("no-closed-form", message, help=help_line))
     found = []
     for column in columns:
