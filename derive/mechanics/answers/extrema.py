@@ -173,10 +173,12 @@ def _not_one(of: Quantity, x: Symbol, verb: str, count: int, elsewhere: bool) ->
     """Return the error for no suitable place, or for more than one."""
     many = "no place" if not count else f"{count} places"
     message = f"`{verb}`: `{of.key}` has {many} with zero slope where a {verb} is possible"
-    help_line: str = Spelled("give the interval with `within=(..., ...)`", "give the interval, `within: [0, pi/2]`")
+    only_one = "give an interval that contains only one of them"
+    help_line: str = Spelled(f"{only_one}, `within=(..., ...)`", f"{only_one}, `within: [0, pi/2]`")
+    if not count:
+        help_line = f"the {verb} is at an end of the interval, or does not exist: `put_in` gives the value at an end"
     if not count and elsewhere:
         message = f"`{verb}`: `{of.key}` is not stationary for any allowed {x.name}"
-        help_line = f"the {verb} is at an end of the interval, or does not exist: `put_in` gives the value at an end"
     return Rejected(Complaint("no-extremum", message, help=help_line))
 
 

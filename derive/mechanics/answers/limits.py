@@ -169,8 +169,8 @@ def _own_letter(whole: Any, symbol: str | None, x: Symbol, aim: Expr) -> Any:
     if symbol is None:
         return letter_of_limit(whole, x, aim)
     if symbol == str(whole):
-        message = f"`limiting_case`: {symbol} is the letter of the result itself, so the limit needs another letter"
-        raise Rejected(Complaint("letter-clash", message, help="give another `symbol`, or none"))
+        message = f"`limiting_case`: {symbol} is the letter of the result itself, so the limit needs a different letter"
+        raise Rejected(Complaint("letter-clash", message, help="give a different `symbol`, or none"))
     return Symbol(symbol, real=True)
 
 
@@ -225,7 +225,7 @@ def _check_assumed(x: Symbol, aim: Expr) -> None:
                 return
     if conditions:
         message = f"`limiting_case`: where {x.name} goes to {aim}, not all assumptions hold"
-        help_line = f"leave a relation that contains {x.name} out of `assume:`, or give another limit"
+        help_line = f"leave a relation that contains {x.name} out of `assume:`, or give a different limit"
         raise Rejected(Complaint("contradiction", message, help=help_line))
 
 

@@ -82,9 +82,9 @@ def put_in(
     """Value or equation in which other results, or values of letters, are substituted: f(x) with x = g is f(g).
 
     of       a value or an equation
-    others   results, each of which replaces its letter; equations whose left side is only a letter or a rate, or only a
-             power, sine, cosine or tangent of such a letter; mappings of letters or coordinates to values
-    values   values of letters at one instant, by the names of the letters: `theta=0`
+    others   results, each of which replaces its letter; equations for a letter or a rate, or for a power, sine, cosine
+             or tangent of a letter; mappings of letters or coordinates to values
+    values   values of letters, by their names: `theta=0`; for a coordinate or a rate, the value at one instant
     again    an earlier result that this substitution must reproduce
     fixed_by the constraints that together fix the substituted values of coordinates; the sentence gives this reason
 
@@ -99,7 +99,7 @@ def put_in(
     identity (an equation that always holds after the substitution), again (an earlier result is reproduced), turned (a
     rate that has changed its sign).
     Errors: there is nothing to replace; a prescribed function with a value that contains a coordinate; an equation that
-    is not solved for a letter; a relation that cannot hold; a place that the motion does not reach.
+    is not solved for a letter; an equation that cannot hold; a place that the motion does not reach.
     Source: none needed: substitution.
     """
     rests, given = _sorted_out(others)

@@ -289,13 +289,9 @@ def let(
         if not isinstance(value, Expr | Relation):
             needed, found = "a number, an expression or an equation", type(value).__name__
             message = f"`let` needs {needed}, but the law of `{key}` returns a {found}"
-            raise Rejected(
-                Complaint(
-                    "wrong-argument",
-                    message,
-                    help=Spelled("fractions are written `Rational(1, 2)`", "fractions are written `1/2`"),
-                )
-            )
+            fraction = Spelled("fractions are written `Rational(1, 2)`", "fractions are written `1/2`")
+            help_line = fraction if isinstance(value, float) else None
+            raise Rejected(Complaint("wrong-argument", message, help=help_line))
         return value
 
     is_equation = isinstance(scalar_law(*(q.symbol for q in quantities)), Relation)

@@ -38,7 +38,7 @@ from derive.steps.step import Quantity, lettered
 __all__ = ["rates_by_momenta"]
 
 LARGEST = 4  # greatest number of coupled rates
-LARGEST_WITH_ANGLES = 2  # this number if the coupling contains sines or cosines; with three rates, H fills a page
+LARGEST_WITH_ANGLES = 2  # greatest number if the coupling contains sines or cosines; with three rates, H fills a page
 ZERO = Integer(0)
 
 

@@ -228,8 +228,8 @@ def angular_momentum_law(impact: Impact, q: Coordinate, key: str | None = None) 
 
 
 def _rotation(impact: Impact, body: Alone) -> tuple[list[Alone], Vector, dict[Symbol, Expr]]:
-    """Return the bodies in the law, the point of the law, and the changes of the coordinates, per angle of rotation,
-    when these bodies rotate counterclockwise about this point."""
+    """Return the bodies in the law, the point of the law, and the change of each coordinate per angle of rotation. In
+    this rotation, the bodies rotate counterclockwise about the point."""
     choices: list[tuple[list[Alone], Vector]] = [([body], body.centre)]
     if body.axis is not None:
         choices = [(bodies_alone(impact.system), body.axis), ([body], body.axis), *choices]

@@ -316,7 +316,7 @@ def constraint_rate(of: Quantity, number: int = 0, key: str | None = None) -> Qu
 
     Outcomes: in_rates, in_coordinates, constant (the constraint is y = a, with one coordinate), together (several
     constraints, including this one, are equivalent to relations such as y = a).
-    Check: differentiate with each coordinate as its Taylor series in t.
+    Check: replace each coordinate in f by its Taylor series in t, and differentiate with respect to t.
     Errors: there is no constraint with this index.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4.
     """

@@ -14,7 +14,7 @@ from derive.algebra.collect import by_rates, by_terms
 from derive.algebra.expressions import Factors, Partial, Relation, Terms, TimeRate, explicit, rate, scalar
 from derive.algebra.normal_form import vanishes
 from derive.algebra.tidy import tidied
-from derive.errors import Complaint, Rejected
+from derive.errors import Complaint, Rejected, Spelled
 from derive.mechanics.arguments import checked
 from derive.mechanics.in_results import Value, Values, in_results
 from derive.mechanics.kinematics.coordinates import Coordinate, by_functions_of_time, required
@@ -121,6 +121,10 @@ def _plain(value: Any, role: str, of: Quantity) -> Expr:
     return found
 
 
+GAINED = Spelled(
+    "if the change is the rate of some F, add `gained=F`", "if the change is the rate of some F, add `gained: F`"
+)
+
 CHANGE_UNDER_SHIFT = Rule(
     "lagrange.change_under_shift",
     source=(
@@ -146,7 +150,7 @@ def _change(of: Quantity, xi: Mapping[Symbol, Expr], gain: Expr, key: str) -> Qu
         message = (
             f"`noether`: the shift is not a symmetry: it changes `{of.key}` by epsilon times {by_terms(tidied(left))}"
         )
-        raise Rejected(Complaint("no-symmetry", message, help="if the change is the rate of some F, add `gained=F`"))
+        raise Rejected(Complaint("no-symmetry", message, help=GAINED))
 
     told: dict[str, Expr] = {}
     for i, (q, x) in enumerate(xi.items(), 1):
@@ -161,8 +165,8 @@ def _change(of: Quantity, xi: Mapping[Symbol, Expr], gain: Expr, key: str) -> Qu
         return by_functions_of_time(gain, moving)
 
     def by_places(found: Relation) -> tuple[Any, Any]:
-        """Return the change of L from mass points and forces: the change of (1/2) m v.v, the work of the forces, and
-        the rate of e A . dr for charges e in magnetic fields."""
+        """Return the change of L from mass points and forces. It is the change of (1/2) m v.v plus the work of the
+        forces; for charges e in magnetic fields, the rate of e A . dr is added."""
         if isinstance(matter, Varied):
             left = matter.change_along(xi)
             return ImmutableDenseMatrix([found.left, found.right]), ImmutableDenseMatrix([left, changed_by(gain)])

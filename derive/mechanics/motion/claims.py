@@ -195,8 +195,8 @@ def _vanishing_force(facts: Judged) -> bool:
 
 
 def lost(later: bool) -> Predicate:
-    """Judge three conditions: the result is an equation for the unknown, the force at the start is numerically positive
-    (zero if `later`), and the stated condition for reaching the place is correct."""
+    """Judge three conditions. The result must be an equation for the unknown. The force at the start must be positive
+    numerically, or zero if `later`. The stated condition for reaching the place must be correct."""
 
     def is_so(facts: Judged) -> bool:
         letter, start = _letter_at(facts.inputs["unknown"], facts.inputs["start"])

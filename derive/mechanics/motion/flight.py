@@ -345,7 +345,8 @@ def _the_one_that_flies(departure: Departure) -> Flyer:
 
 
 def _flyer(departure: Departure, part: Any) -> Flyer | None:
-    """Return a particle, or a body in a plane, as a possible flyer; None for a motion in space."""
+    """Return a particle, or a body in a plane, as a possible flyer. Return None for a motion in space, or if the system
+    has no mass point with its mass at its place."""
     is_body = isinstance(part, PlacedBody)
     place = part.centre if is_body else part.at
     if len(place.components) != 2:
@@ -691,7 +692,7 @@ def _ends(first: Quantity, second: Quantity, on: Surface | None, key: str) -> tu
     if back is not None and sign_known(back - time) != 1:
         message = (
             f"`lands`: the particle meets its circle again at the time {back}, "
-            "and it is not known whether it reaches the plane earlier"
+            "and it is not known to reach the plane earlier"
         )
         raise Rejected(Complaint("not-decided", message, help="leave `on` out, or state with `assume:` which is first"))
     return _landed(first, second, time, target, key, parents)
@@ -788,7 +789,7 @@ def _time_to(known: InFlight, target: Plane) -> Expr | None:
     if towards == -1 and bend == 1 and sign_known(inside) == 1:
         return presented(tidied((-v - sqrt(inside)) / (2 * a)))
     message = "`lands`: it is not known whether the particle reaches the plane"
-    help_line = "state with `assume:` when the particle reaches the plane, or give numbers"
+    help_line = "state with `assume:` the condition for reaching the plane, or give numbers"
     raise Rejected(Complaint("not-decided", message, help=help_line))
 
 
@@ -1011,7 +1012,7 @@ def passes_through(flight: Sequence[Quantity], through: Sequence[Any], key: str 
 
     Positive factors of the condition are omitted. The place must be ahead of the particle.
     Check: where the particle has the horizontal position of the place, it has the height of the place.
-    Errors: the particle passes through the place in any case or never; the horizontal velocity is not constant; it is
+    Errors: the particle always passes through the place, or never does; the horizontal velocity is not constant; it is
     not known whether the place is ahead of the particle or, for a flight inside a circle, inside this circle.
     Source: Morin, *Introduction to Classical Mechanics*, sections 3.4 and 5.3.
     """
