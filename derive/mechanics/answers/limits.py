@@ -93,9 +93,9 @@ def limiting_case(
     For a vector or a tensor, the largest entry determines the leading power: smaller entries are negligible. Use
     `put_in` to set letters equal, b = a. If terms are left out, the result has a new symbol: `symbol` or, by default, a
     symbol such as omega_lim for omega. Results computed from this symbol are approximate.
-    Check: numerically, on each possible side of the limit, the omitted part divided by the highest power that is kept
-    shrinks on the way to the limit. If the terms can also be found without a derivative, by adding, multiplying and
-    dividing power series, the two results agree.
+    Check: numerically, on each possible side of the limit, the omitted part is divided by the highest power that is
+    kept. This quotient shrinks on the way to the limit. If the terms can also be found without a derivative, by adding,
+    multiplying and dividing power series, the two results agree.
     Outcomes: finite, vanishes, diverges (only the leading term); small, large, near (to an order); exact (nothing is
     left out).
     Errors: the result does not contain the letter; the letter changes in the motion and does not go to infinity; the

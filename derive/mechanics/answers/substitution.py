@@ -229,9 +229,8 @@ def _replacements(quantity: Quantity, of: Quantity) -> list[Replacement]:
         target, value = _letter_replaced(quantity, of), quantity.value
     value = explicit(value)
     if isinstance(value, MatrixBase):
-        raise Rejected(
-            Complaint("wrong-argument", f"`put_in`: `{quantity.key}` is not a number", help="`at` takes vectors")
-        )
+        message = f"`put_in`: `{quantity.key}` is not a number"
+        raise Rejected(Complaint("wrong-argument", message, help=Spelled("`at` takes vectors", None)))
     try:
         target = unknown_of("put_in", target)
     except Rejected:
@@ -395,8 +394,8 @@ def arranged(value: Any, moving: Sequence[Symbol]) -> Any:
 
 
 def _energy_by_terms(value: Expr) -> Expr | None:
-    """Write an energy with separate terms for T and U: (1/2) m R^2 theta_dot^2 - m g R cos theta, not m R times a
-    bracket. Return None for an expression that is not such a sum."""
+    """Write an energy with separate terms for T and U: (1/2) m R^2 theta_dot^2 - m g R cos theta, without m R as a
+    factor before a bracket. Return None for an expression that is not such a sum."""
     moving = list(coordinates_in(value))
     squares = [rate(q) ** 2 for q in moving if value.has(rate(q))]
     if not squares or value.as_numer_denom()[1].free_symbols:
@@ -440,9 +439,8 @@ def _name(of: Quantity, symbol: str | None) -> Any:
 
 
 def _means(name: Any, result: Any) -> dict[Any, Any]:
-    """Return the value of the symbol in the name of the result: of theta_dot for the name theta_dot^2.
-
-    For the name |q_dot|, q_dot has the value of the result.
+    """Return the value of the symbol that the name of the result contains, such as theta_dot in theta_dot^2. In
+    |q_dot|, q_dot has the value of the result.
     """
     if isinstance(name, Abs):
         return {name.args[0]: result}

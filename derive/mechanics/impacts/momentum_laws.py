@@ -183,8 +183,8 @@ def angular_momentum_law(impact: Impact, q: Coordinate, key: str | None = None) 
     q        a coordinate that rotates one body
 
     Second route: the integral of Lagrange's equations over the time of the impact, for the rotation of these bodies.
-    Outcomes: kept (about a fixed axis, and the impulses have no torque about it), struck (about a fixed axis),
-    about_centre.
+    Outcomes: kept (about a fixed axis, and the impulses have no torque about it), struck (about a fixed axis, and the
+    impulses have a torque about it), about_centre.
     Errors: the coordinates do not allow the rotation; it is unknown on which body an impulse acts.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 7.
     """

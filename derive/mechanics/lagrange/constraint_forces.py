@@ -243,7 +243,7 @@ def _told(of: Constraint, moving: Sequence[Symbol]) -> Relation:
     """Return the relation of a constraint, unchanged if its right side is not zero.
 
     A constraint between rates is solved for a rate that is a term by itself. If no rate is a term by itself, or if the
-    constraint is between coordinates, a minus sign at the beginning of the left side is removed.
+    constraint is between coordinates, all signs change if the left side begins with a minus sign.
     """
     if of.right != 0:
         return of.relation

@@ -1,7 +1,8 @@
 """Coordinates and rates that several constraints together keep constant.
 
-Two contacts of one body with a floor keep its angle and its height constant, although each contact alone relates the
-two. Two strings keep a particle at one place of a plane. Static friction in two directions keeps two rates zero.
+Two contacts of one body with a floor keep its angle and its height constant, although each contact alone only relates
+the angle to the height. Two strings keep a particle at one place of a plane. Static friction in two directions keeps
+two rates zero.
 """
 
 from __future__ import annotations

@@ -694,7 +694,8 @@ def _ends(first: Quantity, second: Quantity, on: Surface | None, key: str) -> tu
             f"`lands`: the particle meets its circle again at the time {back}, "
             "and it is not known to reach the plane earlier"
         )
-        raise Rejected(Complaint("not-decided", message, help="leave `on` out, or state with `assume:` which is first"))
+        help_line = "leave `on` out, or state with `assume:` which comes first, the circle or the plane"
+        raise Rejected(Complaint("not-decided", message, help=help_line))
     return _landed(first, second, time, target, key, parents)
 
 

@@ -197,7 +197,7 @@ def ratio_of_modes(rational: bool) -> Predicate:
 
         mass, stiffness = facts.inputs["system"]
         if rational and mass.shape[0] > 2:
-            return False  # a third mode may have another ratio
+            return False  # a third mode may have a different ratio
         return (degree == 1) == rational and for_each_form(fast, agrees, slow.value, *mass, *stiffness)
 
     return is_so
@@ -331,7 +331,7 @@ def names_a_letter(facts: Judged) -> bool:
 
 
 def _may_vary(letter: Symbol, point: Point) -> Point:
-    """Return the point with another number for this symbol only."""
+    """Return the point with a different number for this symbol only."""
     return {**point, letter: point[letter] * Rational(8, 7)}
 
 
@@ -422,8 +422,8 @@ def grows_without_bound_there(facts: Judged) -> bool:
 
 
 def branches_off(facts: Judged) -> bool:
-    """Whether an equilibrium loses its stability to two others at the stated value of the symbol. Just below this value
-    it is stable, and the two others do not exist; just above, it is unstable, and the two others are stable.
+    """Whether, at the stated value of the symbol, an equilibrium becomes unstable and two others appear. Just below
+    this value it is stable, and the two others do not exist; just above, it is unstable, and the two others are stable.
     """
     curvature, beside = (explicit(facts.quantities[role].value) for role in ("of", "beside"))
     cosine, border = facts.inputs["cosine"], facts.result

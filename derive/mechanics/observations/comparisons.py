@@ -317,7 +317,7 @@ def polhode(view: View) -> Observed:
 
 
 def _conserved(kept: Sequence[Quantity], rule: str) -> Quantity | None:
-    """Return the quantity of this rule whose rate of change was found to vanish, or None."""
+    """Return the quantity that this rule derived, if its rate of change was found to vanish; otherwise None."""
     return next((p for q in kept for p in q.ancestors() if p.step.rule == rule), None)
 
 

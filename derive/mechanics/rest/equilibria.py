@@ -135,7 +135,8 @@ def _given_pushes(of: Quantity) -> list[Expr]:
         strange = changes(ImmutableDenseMatrix(push.components), of.coordinates)
         if strange is not None or changes(ImmutableDenseMatrix(push.at)) is not None:
             message = f"the given force {push.components[0]} is not constant, so its potential energy is unknown"
-            help_line = "a force with a potential energy U is given by `potential(U)`"
+            known = "for a force with a potential energy U, write"
+            help_line = Spelled(f"{known} `potential(U)`", f"{known} `potential: U`")
             raise Rejected(Complaint("changes", message, help=help_line))
         found += [Factors(f, at) for f, at in zip(push.components, push.at, strict=True) if f != 0]
     return found
