@@ -365,8 +365,8 @@ def _letters_of_motion(facts: Judged) -> set[Any]:
 def slips_first(facts: Judged) -> bool:
     """Whether, numerically, mu_s N - |F| is positive before the place and zero at the place.
 
-    If the sentence states a condition for sticking at the start, mu_s N - |F| must not be positive at the start where
-    this condition is false. Numbers for which the motion turns back before the place are skipped.
+    If the sentence states a condition for sticking at the start, mu_s N - |F| must not be positive at the start for
+    numbers that violate this condition. Numbers for which the motion turns back before the place are skipped.
     """
     start, place = with_numbers(facts.inputs["begin"]), with_numbers(_letter_at(*facts.result.sides)[1])
     letters = _letters_of_motion(facts)

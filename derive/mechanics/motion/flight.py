@@ -1048,7 +1048,7 @@ def _passes_through(first: Quantity, second: Quantity, through: Sequence[Any], k
         raise Rejected(Complaint("no-condition", message, help="ask for the place and time of landing instead"))
 
     def at_its_time(found: Relation) -> tuple[Any, Any]:
-        """Compare with the height at this time, up to a factor that does not vanish."""
+        """Compare the condition with the height at this time, up to a factor that does not vanish."""
         there = known.path[1].xreplace({TIME: time}) - Y
         return found.residual * above, there * core
 

@@ -398,9 +398,8 @@ def _names(potential: Quantity, sought: Sequence[Symbol], count: int) -> dict[Sy
 
 
 def _level_where(force: Expr, q: Symbol) -> Relation | None:
-    """Return the condition that excludes a force that is zero for all values of q.
-
-    This force is zero if a factor that does not contain q is zero. Return None if no such factor can be zero.
+    """Return the condition that no factor without q is zero; otherwise the force would be zero for all values of q.
+    Return None if no such factor can be zero.
     """
     factors = (f.as_base_exp()[0] for f in Mul.make_args(_factored(force).as_numer_denom()[0]))
     left = may_vanish(Mul(*(f for f in factors if not f.has(q))))
