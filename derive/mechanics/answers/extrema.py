@@ -171,12 +171,13 @@ def _letter_of(of: Quantity) -> str | None:
 
 def _not_one(of: Quantity, x: Symbol, verb: str, count: int, elsewhere: bool) -> Rejected:
     """Return the error for no suitable place, or for more than one."""
-    many = "no place" if not count else f"{count} places"
-    message = f"`{verb}`: `{of.key}` has {many} with zero slope where a {verb} is possible"
+    message = f"`{verb}`: `{of.key}` has {count} places with zero slope where a {verb} is possible"
     only_one = "give an interval that contains only one of them"
     help_line: str = Spelled(f"{only_one}, `within=(..., ...)`", f"{only_one}, `within: [0, pi/2]`")
     if not count:
-        help_line = f"the {verb} is at an end of the interval, or does not exist: `put_in` gives the value at an end"
+        curvature = "negative" if verb == "maximum" else "positive"
+        message = f"`{verb}`: `{of.key}` has no place with zero slope and {curvature} curvature"
+        help_line = f"the {verb} may be at an end of the interval: `put_in` gives the value there"
     if not count and elsewhere:
         message = f"`{verb}`: `{of.key}` is not stationary for any allowed {x.name}"
     return Rejected(Complaint("no-extremum", message, help=help_line))
