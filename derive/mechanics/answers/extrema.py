@@ -208,7 +208,7 @@ def _conditions(real: Relation | None, room: Sequence[Relation]) -> dict[str, Re
 
 def _inside(place: Expr, real: Relation | None, within: Within | None, x: Symbol) -> list[Relation] | None:
     """Return the conditions for the place to lie between the ends of the interval. The list is empty if the place
-    always lies between them; return None if it never does."""
+    always lies between them; return None if it never does, or does not for the given numbers."""
     if within is None and (real is not None or not x.is_positive):  # every real place is allowed
         return []
     low, high = within or (Integer(0), None)

@@ -345,8 +345,8 @@ def _the_one_that_flies(departure: Departure) -> Flyer:
 
 
 def _flyer(departure: Departure, part: Any) -> Flyer | None:
-    """Return a particle, or a body in a plane, as a possible flyer. Return None for a motion in space, or if the system
-    has no mass point with its mass at its place."""
+    """Return a particle, or a body in a plane, as a possible flyer. Return None for a motion in space, or if no mass
+    point of the system has the mass and the place of the part."""
     is_body = isinstance(part, PlacedBody)
     place = part.centre if is_body else part.at
     if len(place.components) != 2:
