@@ -59,7 +59,7 @@ def noether(
     over charges e in magnetic fields. Here epsilon dr is the displacement by the shift.
     Check: for a given L, Q + F follows from the first-order changes of L if the rates change.
     Outcomes: symmetry, with_gain (F is not zero).
-    Errors: L is not invariant (the message shows the difference); the shift or F contains a rate; the shift is zero, or
+    Errors: L is not invariant (the message shows its change); the shift or F contains a rate; the shift is zero, or
     shifts something that is not a coordinate of L.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 13.7.
     """
@@ -145,11 +145,11 @@ def _change(of: Quantity, xi: Mapping[Symbol, Expr], gain: Expr, key: str) -> Qu
     ways = {q: x for q, x in xi.items() if x != 0 and L.has(q)}
     turned = {rate(q): v for q, x in xi.items() if (v := explicit(TimeRate(x, *moving))) != 0 and L.has(rate(q))}
     ways = _in_order(L, ways, turned)
-    left = Add(*(diff(L, s) * x for s, x in ways.items())) - explicit(TimeRate(gain, *moving))
-    if not vanishes(left):
-        message = (
-            f"`noether`: the shift is not a symmetry: it changes `{of.key}` by epsilon times {by_terms(tidied(left))}"
-        )
+    change, gained = Add(*(diff(L, s) * x for s, x in ways.items())), explicit(TimeRate(gain, *moving))
+    if not vanishes(change - gained):
+        by = f"epsilon times {by_terms(tidied(change))}"
+        by += f", but the rate of `gained` is {by_terms(tidied(gained))}" if gained != 0 else ""
+        message = f"`noether`: the shift is not a symmetry: it changes `{of.key}` by {by}"
         raise Rejected(Complaint("no-symmetry", message, help=GAINED))
 
     told: dict[str, Expr] = {}
