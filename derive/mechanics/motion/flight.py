@@ -1013,7 +1013,7 @@ def passes_through(flight: Sequence[Quantity], through: Sequence[Any], key: str 
 
     Positive factors of the condition are omitted. The place must be ahead of the particle.
     Check: where the particle has the horizontal position of the place, it has the height of the place.
-    Errors: the particle always passes through the place, or never does; the horizontal velocity is not constant; it is
+    Errors: the particle always passes through the place, or never does; the horizontal velocity is zero or not constant; it is
     not known whether the place is ahead of the particle or, for a flight inside a circle, inside this circle.
     Source: Morin, *Introduction to Classical Mechanics*, sections 3.4 and 5.3.
     """
@@ -1032,7 +1032,7 @@ def _passes_through(first: Quantity, second: Quantity, through: Sequence[Any], k
     _check_before_circle(known, (X, Y))
     v = tidied(diff(known.path[0], TIME).xreplace({TIME: ZERO}))
     if diff(known.path[0], TIME, 2) != 0 or v == 0:
-        message = "`passes` needs a flight with a constant horizontal velocity"
+        message = "`passes` needs a flight whose horizontal velocity is constant and not zero"
         raise Rejected(Complaint("wrong-argument", message))
     time = tidied((X - known.path[0].xreplace({TIME: ZERO})) / v)
     if sign_known(time) != 1:

@@ -134,7 +134,8 @@ def _given_pushes(of: Quantity) -> list[Expr]:
     for push in acted.forces if acted is not None else ():
         strange = changes(ImmutableDenseMatrix(push.components), of.coordinates)
         if strange is not None or changes(ImmutableDenseMatrix(push.at)) is not None:
-            message = f"the given force {push.components[0]} is not constant, so its potential energy is unknown"
+            components = ", ".join(map(str, push.components))
+            message = f"the given force ({components}) is not constant, so its potential energy is unknown"
             known = "for a force with a potential energy U, write"
             help_line = Spelled(f"{known} `potential(U)`", f"{known} `potential: U`")
             raise Rejected(Complaint("changes", message, help=help_line))
