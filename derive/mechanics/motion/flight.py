@@ -1013,8 +1013,9 @@ def passes_through(flight: Sequence[Quantity], through: Sequence[Any], key: str 
 
     Positive factors of the condition are omitted. The place must be ahead of the particle.
     Check: where the particle has the horizontal position of the place, it has the height of the place.
-    Errors: the particle always passes through the place, or never does; the horizontal velocity is zero or not constant; it is
-    not known whether the place is ahead of the particle or, for a flight inside a circle, inside this circle.
+    Errors: the particle always passes through the place, or never does; the horizontal velocity is zero or not
+    constant; it is not known whether the place is ahead of the particle or, for a flight inside a circle, inside this
+    circle.
     Source: Morin, *Introduction to Classical Mechanics*, sections 3.4 and 5.3.
     """
     first, second = _both(flight)
