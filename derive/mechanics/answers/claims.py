@@ -216,7 +216,7 @@ def compared(squared: bool) -> Predicate:
 
 def always(wanted: bool) -> Predicate:
     """Judge whether, at all trial numbers, the difference has the stated sign or satisfies the relation of the result.
-    The requested comparison must allow this sign if and only if `wanted` is true."""
+    The requested comparison must allow the stated sign if and only if `wanted` is true."""
 
     def is_so(facts: Judged) -> bool:
         held = facts.inputs["sign"] in ALLOWED[MARK_OF[facts.words["comparison"]]]

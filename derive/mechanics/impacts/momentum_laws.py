@@ -175,9 +175,9 @@ ANGULAR_MOMENTUM_LAW = Rule(
 
 def angular_momentum_law(impact: Impact, q: Coordinate, key: str | None = None) -> Quantity:
     """Angular momentum in an impact, L = L_before + sum of the torques of the impulses. The law is for all bodies,
-    about the fixed axis of the body that rotates with the coordinate q. Without a fixed axis, or if the coordinates do
-    not allow all bodies to rotate about it, the law is for this body only: about its fixed axis or its centre of
-    mass.
+    about the fixed axis of the body that rotates with the coordinate q. If this body has no fixed axis, or if the
+    coordinates do not allow all bodies to rotate about the axis, the law is for this body only. It is then about the
+    fixed axis or the centre of mass of this body.
 
     impact   the system, its state and the impulses
     q        a coordinate that rotates one body

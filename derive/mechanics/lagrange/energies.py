@@ -384,8 +384,8 @@ POTENTIAL_ENERGY = Rule(
 
 
 def potential_energy_of(system: System, symbol: str | None = None, key: str = "potential_energy") -> Quantity:
-    """Potential energy of a system, U = sum of m g y over the weights + sum of (1/2) k (d - l)^2 over the springs, plus
-    the other potential energies of the system.
+    """Potential energy of a system, U = sum of m g y over the weights + sum of (1/2) k (d - l)^2 over the springs +
+    other potential energies.
 
     system   particles and bodies, with weights, springs and other potential energies
 
