@@ -1,5 +1,5 @@
 """Sum of the torques on one body in a plane, about its centre of mass, a fixed axis or a point of contact. For a body
-at rest, this may also be a point where unknown forces act."""
+at rest, the torques may also be about a point where unknown forces act."""
 
 from __future__ import annotations
 
