@@ -1,8 +1,8 @@
 """Check the arguments of a verb against its signature; a verb is a function that scripts call.
 
 The annotations of a verb declare what each argument must be: a step (`Quantity`), a coordinate, an expression, a body.
-An argument of another type, such as a matrix in place of a step, or a floating-point number, is an error. The message
-names the verb and the argument, in the terms of the script.
+An argument of a different type is an error, for example a matrix in place of a step, or a floating-point number. The
+message names the verb and the argument, in the terms of the script.
 """
 
 from __future__ import annotations

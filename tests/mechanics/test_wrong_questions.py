@@ -98,7 +98,7 @@ QUESTIONS: dict[str, tuple[Callable[[], Any], str]] = {
             kinetic_energy(of_block(), any_angular_velocity()),
             spin(omega, along=BLOCK.direction(DIAGONAL), through="corner"),
         ),
-        "rotates about the centre",
+        "is about the centre",
     ),
     "an axis through a point that the body has not": (
         lambda: spin(omega, along=BLOCK.direction(DIAGONAL), through="apex"),

@@ -191,8 +191,9 @@ def identity(facts: Judged) -> bool:
 
 
 def _is_divided_as_told(facts: Judged) -> bool:
-    """Whether the sentence states the right condition "factor != 0": the difference of quantity and bound, divided by
-    this factor, must contain the unknown, and must vanish if the result is substituted. True without a condition."""
+    """Whether the sentence states the right condition "factor != 0". The difference of quantity and bound is divided by
+    this factor. The quotient must contain the unknown, and must vanish if the result is substituted. True without a
+    condition."""
     excluded = facts.inputs.get("excluded")
     if excluded is None:
         return True
@@ -215,7 +216,7 @@ def compared(squared: bool) -> Predicate:
 
 def always(wanted: bool) -> Predicate:
     """Judge whether, at all trial numbers, the difference has the stated sign or satisfies the relation of the result.
-    The requested comparison must allow this sign if and only if `wanted` is true."""
+    The requested comparison must allow the stated sign if and only if `wanted` is true."""
 
     def is_so(facts: Judged) -> bool:
         held = facts.inputs["sign"] in ALLOWED[MARK_OF[facts.words["comparison"]]]
@@ -406,11 +407,10 @@ def slope_vanishes_by(facts: Judged, letter: Any) -> bool:
 
 
 def names_put_in(facts: Judged, value: Any) -> bool:
-    """Whether the value is an equation whose left side has no minus sign, and the substitution of all stated values in
-    the original gives the result or an equivalent equation. If a rate has changed its sign, the result must be the
-    negative of the value that the substitution gives. The result is not compared if other results are substituted
-    too, if rates are replaced too, if an expression such as cos(theta) is replaced, or if a value contains a replaced
-    symbol.
+    """Whether the value is an equation without a minus sign before its left side, and the stated values, substituted in
+    the original, give the result. Equivalent equations are accepted. If a rate has changed its sign, the result must be
+    the negative of the value that the substitution gives. The result is not compared if other results or rates are also
+    replaced, if an expression such as cos(theta) is replaced, or if a value contains a replaced symbol.
     """
     told = {v.left: v.right for role, v in facts.inputs.items() if role.rpartition("_")[0] == "value"}
     others = [role for role in facts.quantities if role.rpartition("_")[0] == "other"]
@@ -557,8 +557,8 @@ def _between_the_ends_just_where_told(facts: Judged) -> bool:
 
 
 def goes_where_it_is_said(facts: Judged, outcome: str) -> bool:
-    """Whether the letter or ratio that the sentence names, such as h/R, goes to the stated value when the symbol of the
-    expansion, here h, goes to the limit of the step."""
+    """Whether the sentence names the right limit of a letter, or of a ratio such as h/R. It must go to this limit when
+    the symbol of the expansion, here h, goes to the limit of the step."""
     goes, approach, to = (facts.inputs[role] for role in ("letter", "approach", "to"))
     if not isinstance(approach, Approach) or approach.args[0] != goes:
         return False

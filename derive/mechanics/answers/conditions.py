@@ -77,8 +77,8 @@ def where(
     letter    the unknown: a letter, a rate, or an expression such as `cos(theta)`. Apart from positive factors,
               quantity minus bound must be linear in the unknown or in its square. For a sum or product such as 2b, the
               relation is solved for one of the letters in it
-    through   a pair: the same condition in other letters, for an intermediate line, and the results that these
-              letters denote
+    through   a pair for an intermediate line: the same condition in other letters, and the results that these letters
+              denote
     for_real  whether the quantity is a discriminant and the condition is for real roots
 
     Check: quantity minus bound is zero if the unknown equals the right side of the solved relation. If the sign of this

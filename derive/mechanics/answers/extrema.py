@@ -171,12 +171,15 @@ def _letter_of(of: Quantity) -> str | None:
 
 def _not_one(of: Quantity, x: Symbol, verb: str, count: int, elsewhere: bool) -> Rejected:
     """Return the error for no suitable place, or for more than one."""
-    many = "no place" if not count else f"{count} places"
-    message = f"`{verb}`: `{of.key}` has {many} with zero slope where a {verb} is possible"
-    help_line: str = Spelled("give the interval with `within=(..., ...)`", "give the interval, `within: [0, pi/2]`")
+    message = f"`{verb}`: `{of.key}` has {count} places with zero slope where a {verb} is possible"
+    only_one = "give an interval that contains only one of them"
+    help_line: str = Spelled(f"{only_one}, `within=(..., ...)`", f"{only_one}, `within: [0, pi/2]`")
+    if not count:
+        curvature = "negative" if verb == "maximum" else "positive"
+        message = f"`{verb}`: `{of.key}` has no place with zero slope and {curvature} curvature"
+        help_line = f"the {verb} may be at an end of the interval: `put_in` gives the value there"
     if not count and elsewhere:
         message = f"`{verb}`: `{of.key}` is not stationary for any allowed {x.name}"
-        help_line = f"the {verb} is at an end of the interval, or does not exist: `put_in` gives the value at an end"
     return Rejected(Complaint("no-extremum", message, help=help_line))
 
 
@@ -205,7 +208,7 @@ def _conditions(real: Relation | None, room: Sequence[Relation]) -> dict[str, Re
 
 def _inside(place: Expr, real: Relation | None, within: Within | None, x: Symbol) -> list[Relation] | None:
     """Return the conditions for the place to lie between the ends of the interval. The list is empty if the place
-    always lies between them; return None if it never does."""
+    always lies between them; return None if it never does, or does not for the given numbers."""
     if within is None and (real is not None or not x.is_positive):  # every real place is allowed
         return []
     low, high = within or (Integer(0), None)

@@ -93,9 +93,9 @@ def limiting_case(
     For a vector or a tensor, the largest entry determines the leading power: smaller entries are negligible. Use
     `put_in` to set letters equal, b = a. If terms are left out, the result has a new symbol: `symbol` or, by default, a
     symbol such as omega_lim for omega. Results computed from this symbol are approximate.
-    Check: numerically, on each possible side of the limit, the omitted part divided by the highest power that is kept
-    shrinks on the way to the limit. If the terms can also be found without a derivative, by adding, multiplying and
-    dividing power series, the two results agree.
+    Check: numerically, on each possible side of the limit, the omitted part is divided by the highest power that is
+    kept. This quotient shrinks on the way to the limit. If the terms can also be found without a derivative, by adding,
+    multiplying and dividing power series, the two results agree.
     Outcomes: finite, vanishes, diverges (only the leading term); small, large, near (to an order); exact (nothing is
     left out).
     Errors: the result does not contain the letter; the letter changes in the motion and does not go to infinity; the
@@ -169,8 +169,8 @@ def _own_letter(whole: Any, symbol: str | None, x: Symbol, aim: Expr) -> Any:
     if symbol is None:
         return letter_of_limit(whole, x, aim)
     if symbol == str(whole):
-        message = f"`limiting_case`: {symbol} is the letter of the result itself, so the limit needs another letter"
-        raise Rejected(Complaint("letter-clash", message, help="give another `symbol`, or none"))
+        message = f"`limiting_case`: {symbol} is the letter of the result itself, so the limit needs a different letter"
+        raise Rejected(Complaint("letter-clash", message, help="give a different `symbol`, or none"))
     return Symbol(symbol, real=True)
 
 
@@ -225,7 +225,7 @@ def _check_assumed(x: Symbol, aim: Expr) -> None:
                 return
     if conditions:
         message = f"`limiting_case`: where {x.name} goes to {aim}, not all assumptions hold"
-        help_line = f"leave a relation that contains {x.name} out of `assume:`, or give another limit"
+        help_line = f"leave a relation that contains {x.name} out of `assume:`, or give a different limit"
         raise Rejected(Complaint("contradiction", message, help=help_line))
 
 

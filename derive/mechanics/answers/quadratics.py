@@ -222,8 +222,9 @@ def _formula(of: Quadratic) -> Expr:
 
 
 def _arranged(of: Quadratic, found: Expr) -> Expr:
-    """Write the roots as k (u +- sqrt(u^2 - w)). Here u, up to its sign, is the product of the factors of -b that
-    contain symbols, but no symbol of a or c. If the sign of the other factors is unknown, only simplify the roots."""
+    """Write the roots in the form k (u +- sqrt(u^2 - w)). Here u, up to its sign, is the product of the factors of -b
+    that contain symbols, but no symbol of a or c. If the sign of the other factors is unknown, only simplify the roots.
+    """
     own = [
         f
         for f in Mul.make_args(-of.b)

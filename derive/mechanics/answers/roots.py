@@ -386,8 +386,8 @@ def _sum_of_squares(root: RootOf) -> bool:
 
 
 def _ascending(found: list[RootOf]) -> list[RootOf]:
-    """Sort the roots by their numerical values. If a value is not a number, swap two roots if the first is known to be
-    greater than the second."""
+    """Sort the roots by their numerical values if all values are numbers. Otherwise, only a pair of roots is sorted: it
+    is reversed if the first root is known to be greater, or if `_turned` is true."""
     numbers = [with_numbers(root.value) for root in found]
     if all(number.is_real and not number.free_symbols for number in numbers):
         order = sorted(range(len(found)), key=lambda i: numbers[i].evalf(30))

@@ -82,9 +82,9 @@ def put_in(
     """Value or equation in which other results, or values of letters, are substituted: f(x) with x = g is f(g).
 
     of       a value or an equation
-    others   results, each of which replaces its letter; equations whose left side is only a letter or a rate, or only a
-             power, sine, cosine or tangent of such a letter; mappings of letters or coordinates to values
-    values   values of letters at one instant, by the names of the letters: `theta=0`
+    others   results, each of which replaces its letter; equations for a letter or a rate, or for a power, sine, cosine
+             or tangent of a letter; mappings of letters or coordinates to values
+    values   values of letters, by their names: `theta=0`; for a coordinate or a rate, the value at one instant
     again    an earlier result that this substitution must reproduce
     fixed_by the constraints that together fix the substituted values of coordinates; the sentence gives this reason
 
@@ -99,7 +99,7 @@ def put_in(
     identity (an equation that always holds after the substitution), again (an earlier result is reproduced), turned (a
     rate that has changed its sign).
     Errors: there is nothing to replace; a prescribed function with a value that contains a coordinate; an equation that
-    is not solved for a letter; a relation that cannot hold; a place that the motion does not reach.
+    is not solved for a letter; an equation that cannot hold; a place that the motion does not reach.
     Source: none needed: substitution.
     """
     rests, given = _sorted_out(others)
@@ -229,9 +229,8 @@ def _replacements(quantity: Quantity, of: Quantity) -> list[Replacement]:
         target, value = _letter_replaced(quantity, of), quantity.value
     value = explicit(value)
     if isinstance(value, MatrixBase):
-        raise Rejected(
-            Complaint("wrong-argument", f"`put_in`: `{quantity.key}` is not a number", help="`at` takes vectors")
-        )
+        message = f"`put_in`: `{quantity.key}` is not a number"
+        raise Rejected(Complaint("wrong-argument", message, help=Spelled("`at` takes vectors", None)))
     try:
         target = unknown_of("put_in", target)
     except Rejected:
@@ -395,8 +394,8 @@ def arranged(value: Any, moving: Sequence[Symbol]) -> Any:
 
 
 def _energy_by_terms(value: Expr) -> Expr | None:
-    """Write an energy with separate terms for T and U: (1/2) m R^2 theta_dot^2 - m g R cos theta, not m R times a
-    bracket. Return None for an expression that is not such a sum."""
+    """Write an energy with separate terms for T and U: (1/2) m R^2 theta_dot^2 - m g R cos theta, without m R as a
+    factor before a bracket. Return None for an expression that is not such a sum."""
     moving = list(coordinates_in(value))
     squares = [rate(q) ** 2 for q in moving if value.has(rate(q))]
     if not squares or value.as_numer_denom()[1].free_symbols:
@@ -440,9 +439,8 @@ def _name(of: Quantity, symbol: str | None) -> Any:
 
 
 def _means(name: Any, result: Any) -> dict[Any, Any]:
-    """Return the value of the symbol in the name of the result: of theta_dot for the name theta_dot^2.
-
-    For the name |q_dot|, q_dot has the value of the result.
+    """Return the value of the symbol that the name of the result contains, such as theta_dot in theta_dot^2. In
+    |q_dot|, q_dot has the value of the result.
     """
     if isinstance(name, Abs):
         return {name.args[0]: result}

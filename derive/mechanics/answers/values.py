@@ -57,7 +57,7 @@ def at(general: Quantity, particular: Quantity, key: str | None = None) -> Quant
 
     Check: the law of the general result, evaluated with the particular vector from the start.
     Errors: the general result does not contain the components of the unspecified vector; the two vectors have different
-    kinds, or are rotations about different points.
+    kinds, or belong to rotations about different points.
     Source: none needed: substitution.
     """
     _check_same_kind(general, particular)
@@ -99,7 +99,10 @@ def _check_same_kind(general: Quantity, particular: Quantity) -> None:
         raise Rejected(Complaint("wrong-argument", message))
     there, here = (q.fact(Through) for q in (opened, particular))
     if there and here and there != here:
-        message = f"`at`: `{opened.key}` rotates about the {there.point}, but `{particular.key}` about the {here.point}"
+        message = (
+            f"`at`: the rotation of `{opened.key}` is about the {there.point}, "
+            f"but that of `{particular.key}` is about the {here.point}"
+        )
         raise Rejected(Complaint("wrong-point", message))
 
 
@@ -264,9 +267,9 @@ def let(
 
     If the quantities belong to only one body, the result belongs to this body, too. If they have only one reference
     point, or only one angular velocity of a rotation, the result has this point or this angular velocity, too. The
-    result varies in time if it contains a coordinate or the time. If every quantity is stored with the mass points and
-    forces that it belongs to, the result is stored with all of them. No check shows that the result has the meaning of
-    its letter, so the grade of the step is "definition".
+    result varies in time if it contains a coordinate or the time. If the mass points and forces behind every quantity
+    are known, the result belongs to all of them. No check shows that the result has the meaning of its letter, so the
+    grade of the step is "definition".
     Outcomes: generic, because (with the given reason), equation, equation_because.
     Errors: an unknown kind; an expression that is not a scalar; an equation for which a symbol or a kind is given; an
     equation that always or never holds.
@@ -289,13 +292,9 @@ def let(
         if not isinstance(value, Expr | Relation):
             needed, found = "a number, an expression or an equation", type(value).__name__
             message = f"`let` needs {needed}, but the law of `{key}` returns a {found}"
-            raise Rejected(
-                Complaint(
-                    "wrong-argument",
-                    message,
-                    help=Spelled("fractions are written `Rational(1, 2)`", "fractions are written `1/2`"),
-                )
-            )
+            fraction = Spelled("fractions are written `Rational(1, 2)`", "fractions are written `1/2`")
+            help_line = fraction if isinstance(value, float) else None
+            raise Rejected(Complaint("wrong-argument", message, help=help_line))
         return value
 
     is_equation = isinstance(scalar_law(*(q.symbol for q in quantities)), Relation)

@@ -25,7 +25,7 @@ from derive.algebra.expressions import (
 )
 from derive.algebra.length import length
 from derive.algebra.tidy import tidied
-from derive.errors import Complaint, Rejected
+from derive.errors import Complaint, Rejected, Spelled
 from derive.mechanics.arguments import checked
 from derive.mechanics.hamilton import claims
 from derive.mechanics.hamilton.facts import PhaseSpace
@@ -41,6 +41,10 @@ from derive.steps.step import Form, Level, Quantity, value_behind
 __all__ = ["poisson_bracket"]
 
 ZERO = Integer(0)
+WITHOUT_RATES = Spelled(
+    "write the momentum of x as `conjugate(x)`; for a step f, use `in_momenta(f, H)`",
+    "write the momentum of x as `p_x`",
+)
 Pairs = Sequence[tuple[Symbol, Symbol]]
 
 
@@ -157,7 +161,7 @@ def _function(of: Any, pairs: Pairs) -> Any:
     if rates:
         name = f"`{of.key}`" if isinstance(of, Quantity) else str(value)
         message = f"`poisson_bracket` needs functions of coordinates and momenta, but {name} contains {rates[0].name}"
-        raise Rejected(Complaint("wrong-argument", message, help="use `in_momenta(f, H)` to replace its rates"))
+        raise Rejected(Complaint("wrong-argument", message, help=WITHOUT_RATES))
     return found
 
 

@@ -253,10 +253,11 @@ def effective_potential(
     of          the Lagrangian, J, which does not contain the time
     constants   momenta of cyclic coordinates, results of `conserved`; by default the momenta of all cyclic coordinates
 
-    Without cyclic coordinates U_eff is U - T_0. In a prescribed rotation, for example, T_0 is not zero.
+    Without cyclic coordinates U_eff is U - T_0, where T_0 is the part of T without rates. In a prescribed rotation, for
+    example, T_0 is not zero.
     Second route: where the rates and accelerations of the remaining coordinates vanish, -dU_eff/dq is the sum of
     (F - m a) . dr/dq, with the rates of the cyclic coordinates substituted. Also, U_eff is T_2 - T_0 + U with these
-    rates.
+    rates, where T_2 is the part of T of degree 2 in the rates.
     Outcomes: reduced (momenta are conserved), driven (a prescribed motion), unchanged (no conserved momentum
     and no prescribed motion, so U_eff is U), given (L is given, without cyclic coordinates).
     Errors: L contains the time; a momentum belongs to another Lagrangian or is given twice; no coordinate remains; a

@@ -38,7 +38,7 @@ from derive.steps.step import Quantity, lettered
 __all__ = ["rates_by_momenta"]
 
 LARGEST = 4  # greatest number of coupled rates
-LARGEST_WITH_ANGLES = 2  # this number if the coupling contains sines or cosines; with three rates, H fills a page
+LARGEST_WITH_ANGLES = 2  # greatest number if the coupling contains sines or cosines; with three rates, H fills a page
 ZERO = Integer(0)
 
 
@@ -99,8 +99,8 @@ def rates_by_momenta(
 
 
 def _solved(momenta_of: Mapping[Symbol, Expr], rates: Sequence[Symbol]) -> dict[Symbol, Expr]:
-    """Solve for the rates. If the momenta are linear in the rates, solve the equations in blocks of coupled rates;
-    otherwise solve all equations together, which requires that L contains the rates in one quadratic form only."""
+    """Solve for the rates. If the momenta are linear in the rates, solve the equations in blocks of coupled rates.
+    Otherwise solve all equations together; then L must contain the rates in one quadratic form only."""
     matrix = Matrix([[derivative(explicit(p), v) for v in rates] for p in momenta_of.values()])
     at_rest = dict.fromkeys(rates, ZERO)
     wanted = Matrix([letter - bound(explicit(p), at_rest) for letter, p in momenta_of.items()])

@@ -106,8 +106,8 @@ def collision(
                   have the same velocity after the collision
     restitution   coefficient of restitution: 1 for an elastic collision, 0 if the places do not separate
     letter        symbol of the impulse, N s, which acts on the end; the opposite impulse acts on the start
-    of            the body or particle of the end, or a pair for start and end; needed for a place that moves, but not
-                  with a body or particle
+    of            the body or particle at the end, or a pair for start and end; needed for a moving place if no body or
+                  particle moves with it
     """
     size = len(end.components)
     if start is not None and len(start.components) != size:
@@ -285,8 +285,8 @@ class Impact:
         return explicit(value).subs(self.at, simultaneous=True)
 
     def shown_there(self, value: Any, holds: Any) -> Any:
-        """Return the value in the notation of the page, with "at q = q_0" for each coordinate q in `holds` whose value
-        at the impact is given."""
+        """Return the value in the notation of the page, with "at q = q_0" for each coordinate q in the expression
+        `holds` whose value at the impact is given."""
         for q, place in self.at.items():
             if explicit(holds).has(q) and q != place:
                 value = At(value, q, place)

@@ -123,7 +123,8 @@ def meeting_condition(impact: Impact, number: int, key: str | None = None) -> Qu
     impact   the system, its state and the collisions; e is the coefficient of restitution of the collision
     number   the index of the condition, from 0; the conditions of constraints come last
 
-    Check: the same condition, with v from the places as functions of time: each coordinate is its Taylor series.
+    Check: the same condition. Here v is computed from the places as functions of t, in which each coordinate is
+    replaced by its Taylor series.
     Outcomes: together (e = 0), elastic (e = 1), rebound (any other e), kept (a constraint).
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapters 4 and 6.
     """

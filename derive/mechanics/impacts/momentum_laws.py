@@ -175,16 +175,16 @@ ANGULAR_MOMENTUM_LAW = Rule(
 
 def angular_momentum_law(impact: Impact, q: Coordinate, key: str | None = None) -> Quantity:
     """Angular momentum in an impact, L = L_before + sum of the torques of the impulses. The law is for all bodies,
-    about the fixed axis of the body that rotates with the coordinate q. Without a fixed axis, or if the coordinates do
-    not allow all bodies to rotate about it, the law is for this body only: about its fixed axis or its centre of
-    mass.
+    about the fixed axis of the body that rotates with the coordinate q. If this body has no fixed axis, or if the
+    coordinates do not allow all bodies to rotate about the axis, the law is for this body only. It is then about the
+    fixed axis or the centre of mass of this body.
 
     impact   the system, its state and the impulses
     q        a coordinate that rotates one body
 
     Second route: the integral of Lagrange's equations over the time of the impact, for the rotation of these bodies.
-    Outcomes: kept (about a fixed axis, and the impulses have no torque about it), struck (about a fixed axis),
-    about_centre.
+    Outcomes: kept (about a fixed axis, and the impulses have no torque about it), struck (about a fixed axis, and the
+    impulses have a torque about it), about_centre.
     Errors: the coordinates do not allow the rotation; it is unknown on which body an impulse acts.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapter 7.
     """
@@ -228,8 +228,8 @@ def angular_momentum_law(impact: Impact, q: Coordinate, key: str | None = None) 
 
 
 def _rotation(impact: Impact, body: Alone) -> tuple[list[Alone], Vector, dict[Symbol, Expr]]:
-    """Return the bodies in the law, the point of the law, and the changes of the coordinates, per angle of rotation,
-    when these bodies rotate counterclockwise about this point."""
+    """Return the bodies in the law, the point of the law, and the change of each coordinate per angle of rotation. In
+    this rotation, the bodies rotate counterclockwise about the point."""
     choices: list[tuple[list[Alone], Vector]] = [([body], body.centre)]
     if body.axis is not None:
         choices = [(bodies_alone(impact.system), body.axis), ([body], body.axis), *choices]

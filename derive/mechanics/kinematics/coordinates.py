@@ -236,7 +236,7 @@ def rate_of(quantity: Quantity, key: str | None = None) -> Quantity:
 
     quantity   a scalar x that depends on coordinates; the unit of the result is the unit of x per second
 
-    Check: differentiate with each coordinate replaced by its Taylor series in t.
+    Check: replace each coordinate in x by its Taylor series in t, and differentiate with respect to t.
     Outcomes: generic, zero.
     Errors: the symbol of the quantity is not a plain symbol; the quantity is known at one instant only.
     Source: Taylor, *Classical Mechanics*, section 7.1.

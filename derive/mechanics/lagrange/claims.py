@@ -487,8 +487,8 @@ def _constants(facts: Judged) -> dict[Symbol, Expr]:
 
 def follows_from_a_constraint(facts: Judged, told: Relation) -> bool:
     """Whether a stated value of a coordinate, a rate or an acceleration follows from a constraint. For a coordinate, a
-    constraint that contains it must hold for all stated values. An acceleration must be the second derivative of a
-    stated value, and a rate must be zero by the constraints between rates."""
+    constraint that contains it must hold after all stated values are substituted. An acceleration must be the second
+    derivative of a stated value, and a rate must be zero by the constraints between rates."""
     moving = facts.inputs["moving"]
     if told.left in map(rate, moving):
         return bool(is_zero(told.right)) and told.left in _rates_at_rest(facts)

@@ -243,7 +243,7 @@ def _told(of: Constraint, moving: Sequence[Symbol]) -> Relation:
     """Return the relation of a constraint, unchanged if its right side is not zero.
 
     A constraint between rates is solved for a rate that is a term by itself. If no rate is a term by itself, or if the
-    constraint is between coordinates, a minus sign at the beginning of the left side is removed.
+    constraint is between coordinates, all signs change if the left side begins with a minus sign.
     """
     if of.right != 0:
         return of.relation
@@ -316,7 +316,7 @@ def constraint_rate(of: Quantity, number: int = 0, key: str | None = None) -> Qu
 
     Outcomes: in_rates, in_coordinates, constant (the constraint is y = a, with one coordinate), together (several
     constraints, including this one, are equivalent to relations such as y = a).
-    Check: differentiate with each coordinate as its Taylor series in t.
+    Check: replace each coordinate in f by its Taylor series in t, and differentiate with respect to t.
     Errors: there is no constraint with this index.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4.
     """

@@ -164,7 +164,7 @@ def _differentiated(place: Iterable[Expr], moving: Sequence[Symbol]) -> list[For
 
 
 def _velocity(mover: Mover, moving: list[Symbol]) -> list[Quantity]:
-    """Return the steps of the rates of the components that change; empty if only one component changes, or if a
+    """Return the steps of the rates of the components that change; empty if fewer than two components change, or if a
     changing component has no step."""
     known = dict(mover.at.found)
     changing = [k for k, c in enumerate(mover.place) if c.has(*moving) or depends_on_time(c)]
@@ -384,8 +384,8 @@ POTENTIAL_ENERGY = Rule(
 
 
 def potential_energy_of(system: System, symbol: str | None = None, key: str = "potential_energy") -> Quantity:
-    """Potential energy of a system, U = sum of m g y over the weights + sum of (1/2) k (d - l)^2 over the springs, plus
-    the other potential energies of the system.
+    """Potential energy of a system, U = sum of m g y over the weights + sum of (1/2) k (d - l)^2 over the springs +
+    other potential energies.
 
     system   particles and bodies, with weights, springs and other potential energies
 

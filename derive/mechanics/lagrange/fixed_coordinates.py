@@ -1,7 +1,8 @@
 """Coordinates and rates that several constraints together keep constant.
 
-Two contacts of one body with a floor keep its angle and its height constant, although each contact alone relates the
-two. Two strings keep a particle at one place of a plane. Static friction in two directions keeps two rates zero.
+Two contacts of one body with a floor keep its angle and its height constant, although each contact alone only relates
+the angle to the height. Two strings keep a particle at one place of a plane. Static friction in two directions keeps
+two rates zero.
 """
 
 from __future__ import annotations
@@ -39,11 +40,11 @@ def fixed_together(residuals: Sequence[Expr], moving: Sequence[Symbol]) -> dict[
     residuals   f of each constraint f = 0 between coordinates
     moving      all coordinates
 
-    First, look for as many coordinates as there are constraints, such that all constraints hold, and are independent,
-    where these coordinates are zero: they are then fixed at zero. Otherwise, look for a formula with a single
-    coordinate: a sum or difference of two constraints, or a constraint from which other coordinates are eliminated. If
-    this coordinate has a single admissible value, it is fixed; an angle whose sine vanishes is taken to be zero. The
-    result is then empty unless the values satisfy exactly as many constraints as there are values.
+    First, for n constraints, test each set of n coordinates. If all constraints hold and are independent where these
+    coordinates are zero, the coordinates are fixed at zero. Otherwise, look for a formula with a single coordinate: a
+    sum or difference of two constraints, or a constraint from which other coordinates are eliminated. If this
+    coordinate has a single admissible value, it is fixed; an angle whose sine vanishes is taken to be zero. The result
+    is then empty unless the values satisfy exactly as many constraints as there are values.
     """
     if not 1 < len(residuals) <= MOST or any(map(depends_on_time, residuals)):
         return {}

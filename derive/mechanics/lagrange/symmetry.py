@@ -14,7 +14,7 @@ from derive.algebra.collect import by_rates, by_terms
 from derive.algebra.expressions import Factors, Partial, Relation, Terms, TimeRate, explicit, rate, scalar
 from derive.algebra.normal_form import vanishes
 from derive.algebra.tidy import tidied
-from derive.errors import Complaint, Rejected
+from derive.errors import Complaint, Rejected, Spelled
 from derive.mechanics.arguments import checked
 from derive.mechanics.in_results import Value, Values, in_results
 from derive.mechanics.kinematics.coordinates import Coordinate, by_functions_of_time, required
@@ -59,7 +59,7 @@ def noether(
     over charges e in magnetic fields. Here epsilon dr is the displacement by the shift.
     Check: for a given L, Q + F follows from the first-order changes of L if the rates change.
     Outcomes: symmetry, with_gain (F is not zero).
-    Errors: L is not invariant (the message shows the difference); the shift or F contains a rate; the shift is zero, or
+    Errors: L is not invariant (the message shows its change); the shift or F contains a rate; the shift is zero, or
     shifts something that is not a coordinate of L.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 13.7.
     """
@@ -121,6 +121,10 @@ def _plain(value: Any, role: str, of: Quantity) -> Expr:
     return found
 
 
+GAINED = Spelled(
+    "if the change is the rate of some F, add `gained=F`", "if the change is the rate of some F, add `gained: F`"
+)
+
 CHANGE_UNDER_SHIFT = Rule(
     "lagrange.change_under_shift",
     source=(
@@ -141,12 +145,12 @@ def _change(of: Quantity, xi: Mapping[Symbol, Expr], gain: Expr, key: str) -> Qu
     ways = {q: x for q, x in xi.items() if x != 0 and L.has(q)}
     turned = {rate(q): v for q, x in xi.items() if (v := explicit(TimeRate(x, *moving))) != 0 and L.has(rate(q))}
     ways = _in_order(L, ways, turned)
-    left = Add(*(diff(L, s) * x for s, x in ways.items())) - explicit(TimeRate(gain, *moving))
-    if not vanishes(left):
-        message = (
-            f"`noether`: the shift is not a symmetry: it changes `{of.key}` by epsilon times {by_terms(tidied(left))}"
-        )
-        raise Rejected(Complaint("no-symmetry", message, help="if the change is the rate of some F, add `gained=F`"))
+    change, gained = Add(*(diff(L, s) * x for s, x in ways.items())), explicit(TimeRate(gain, *moving))
+    if not vanishes(change - gained):
+        by = f"epsilon times {by_terms(tidied(change))}"
+        by += f", but the rate of `gained` is {by_terms(tidied(gained))}" if gained != 0 else ""
+        message = f"`noether`: the shift is not a symmetry: it changes `{of.key}` by {by}"
+        raise Rejected(Complaint("no-symmetry", message, help=GAINED))
 
     told: dict[str, Expr] = {}
     for i, (q, x) in enumerate(xi.items(), 1):
@@ -161,8 +165,8 @@ def _change(of: Quantity, xi: Mapping[Symbol, Expr], gain: Expr, key: str) -> Qu
         return by_functions_of_time(gain, moving)
 
     def by_places(found: Relation) -> tuple[Any, Any]:
-        """Return the change of L from mass points and forces: the change of (1/2) m v.v, the work of the forces, and
-        the rate of e A . dr for charges e in magnetic fields."""
+        """Return the change of L from mass points and forces. It is the change of (1/2) m v.v plus the work of the
+        forces; for charges e in magnetic fields, the rate of e A . dr is added."""
         if isinstance(matter, Varied):
             left = matter.change_along(xi)
             return ImmutableDenseMatrix([found.left, found.right]), ImmutableDenseMatrix([left, changed_by(gain)])

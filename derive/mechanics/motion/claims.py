@@ -195,8 +195,8 @@ def _vanishing_force(facts: Judged) -> bool:
 
 
 def lost(later: bool) -> Predicate:
-    """Judge three conditions: the result is an equation for the unknown, the force at the start is numerically positive
-    (zero if `later`), and the stated condition for reaching the place is correct."""
+    """Judge three conditions. The result must be an equation for the unknown. The force at the start must be positive
+    numerically, or zero if `later`. The stated condition for reaching the place must be correct."""
 
     def is_so(facts: Judged) -> bool:
         letter, start = _letter_at(facts.inputs["unknown"], facts.inputs["start"])
@@ -365,8 +365,8 @@ def _letters_of_motion(facts: Judged) -> set[Any]:
 def slips_first(facts: Judged) -> bool:
     """Whether, numerically, mu_s N - |F| is positive before the place and zero at the place.
 
-    If the sentence states a condition for sticking at the start, mu_s N - |F| must not be positive at the start where
-    this condition is false. Numbers for which the motion turns back before the place are skipped.
+    If the sentence states a condition for sticking at the start, mu_s N - |F| must not be positive at the start for
+    numbers that violate this condition. Numbers for which the motion turns back before the place are skipped.
     """
     start, place = with_numbers(facts.inputs["begin"]), with_numbers(_letter_at(*facts.result.sides)[1])
     letters = _letters_of_motion(facts)

@@ -215,7 +215,7 @@ def _check_one_coordinate(energy: Quantity, value: Expr, q: Coordinate) -> None:
             f"`speed_from_energy` needs an energy that contains only {q.symbol.name} and its rate, "
             f"but `{energy.key}` contains {what}"
         )
-        help_line = "name an energy, such as `energy_function`"
+        help_line = None if depends_on_time(value) else "name an energy, such as `energy_function`"
         if others:
             other = others[0].name
             help_line = f"with `put_in`, substitute the value of {other}, or the value of its rate from its momentum"
@@ -292,7 +292,7 @@ PERIOD_BY_ENERGY = Rule(
 def period_by_energy(squared: Quantity, order: int = 2, symbol: str | None = None, key: str = "period") -> Quantity:
     """Period of an oscillation, 4 times the integral of dq/q_dot from 0 to the amplitude A, in powers of A.
 
-    squared   q_dot^2 from `speed_from_energy`, 1/s^2, for a release from rest at q = A; it must be even in q
+    squared   q_dot^2 from `speed_from_energy`, for a release from rest at q = A; it must be even in q
     order     the highest power of A in the series
 
     If the period depends on the amplitude, the series has a symbol of its own, such as tau_lim, and numerical values of

@@ -345,7 +345,8 @@ def _the_one_that_flies(departure: Departure) -> Flyer:
 
 
 def _flyer(departure: Departure, part: Any) -> Flyer | None:
-    """Return a particle, or a body in a plane, as a possible flyer; None for a motion in space."""
+    """Return a particle, or a body in a plane, as a possible flyer. Return None for a motion in space, or if no mass
+    point of the system has the mass and the place of the part."""
     is_body = isinstance(part, PlacedBody)
     place = part.centre if is_body else part.at
     if len(place.components) != 2:
@@ -691,9 +692,10 @@ def _ends(first: Quantity, second: Quantity, on: Surface | None, key: str) -> tu
     if back is not None and sign_known(back - time) != 1:
         message = (
             f"`lands`: the particle meets its circle again at the time {back}, "
-            "and it is not known whether it reaches the plane earlier"
+            "and it is not known to reach the plane earlier"
         )
-        raise Rejected(Complaint("not-decided", message, help="leave `on` out, or state with `assume:` which is first"))
+        help_line = "leave `on` out, or state with `assume:` which comes first, the circle or the plane"
+        raise Rejected(Complaint("not-decided", message, help=help_line))
     return _landed(first, second, time, target, key, parents)
 
 
@@ -729,7 +731,7 @@ def _time_back(known: InFlight) -> Expr | None:
     if not orbit.inside and sign in (0, 1):
         return None
     message = "`lands`: it is not known on which side of the circle the particle flies"
-    help_line = "give the range of the symbol `at` of the flight, such as `theta_1: 'angle in (pi/2, pi)'`"
+    help_line = "give the flight a symbol `at` with a range, such as `theta_1: 'angle in (pi/2, pi)'`"
     raise Rejected(Complaint("not-decided", message, help=help_line))
 
 
@@ -788,7 +790,7 @@ def _time_to(known: InFlight, target: Plane) -> Expr | None:
     if towards == -1 and bend == 1 and sign_known(inside) == 1:
         return presented(tidied((-v - sqrt(inside)) / (2 * a)))
     message = "`lands`: it is not known whether the particle reaches the plane"
-    help_line = "state with `assume:` when the particle reaches the plane, or give numbers"
+    help_line = "state with `assume:` the condition for reaching the plane, or give numbers"
     raise Rejected(Complaint("not-decided", message, help=help_line))
 
 
@@ -1011,8 +1013,9 @@ def passes_through(flight: Sequence[Quantity], through: Sequence[Any], key: str 
 
     Positive factors of the condition are omitted. The place must be ahead of the particle.
     Check: where the particle has the horizontal position of the place, it has the height of the place.
-    Errors: the particle passes through the place in any case or never; the horizontal velocity is not constant; it is
-    not known whether the place is ahead of the particle or, for a flight inside a circle, inside this circle.
+    Errors: the particle always passes through the place, or never does; the horizontal velocity is zero or not
+    constant; it is not known whether the place is ahead of the particle or, for a flight inside a circle, inside this
+    circle.
     Source: Morin, *Introduction to Classical Mechanics*, sections 3.4 and 5.3.
     """
     first, second = _both(flight)
@@ -1030,12 +1033,12 @@ def _passes_through(first: Quantity, second: Quantity, through: Sequence[Any], k
     _check_before_circle(known, (X, Y))
     v = tidied(diff(known.path[0], TIME).xreplace({TIME: ZERO}))
     if diff(known.path[0], TIME, 2) != 0 or v == 0:
-        message = "`passes` needs a flight with a constant horizontal velocity"
+        message = "`passes` needs a flight whose horizontal velocity is constant and not zero"
         raise Rejected(Complaint("wrong-argument", message))
     time = tidied((X - known.path[0].xreplace({TIME: ZERO})) / v)
     if sign_known(time) != 1:
         message = f"`passes`: it is not known that the place is ahead of the particle, since {time} may be negative"
-        help_line = "give the range of the symbol `at` of the flight, such as `theta_1: 'angle in (pi/2, pi)'`"
+        help_line = "give the flight a symbol `at` with a range, such as `theta_1: 'angle in (pi/2, pi)'`"
         raise Rejected(Complaint("not-decided", message, help=help_line))
     above = tidied(known.path[1].xreplace({TIME: time}) - Y)
     core = presented(without_positive(factored(above.as_numer_denom()[0]), in_equation=True), in_sums=False)
@@ -1046,7 +1049,7 @@ def _passes_through(first: Quantity, second: Quantity, through: Sequence[Any], k
         raise Rejected(Complaint("no-condition", message, help="ask for the place and time of landing instead"))
 
     def at_its_time(found: Relation) -> tuple[Any, Any]:
-        """Compare with the height at this time, up to a factor that does not vanish."""
+        """Compare the condition with the height at this time, up to a factor that does not vanish."""
         there = known.path[1].xreplace({TIME: time}) - Y
         return found.residual * above, there * core
 

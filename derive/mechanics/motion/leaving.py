@@ -61,7 +61,7 @@ LEAVES_CONTACT = Rule(
     "leaves",
     "where the force vanishes",
     force="leaves: a contact force, or the tension of a string",
-    letter="for: a function of the place, such as `cos(theta)`",
+    letter="for: a coordinate, or a function of it such as `cos(theta)`",
     start="start",
 )
 def leaves_contact(force: Quantity, letter: Letter, start: Value, key: str = "leaves_contact") -> Quantity:

@@ -192,7 +192,7 @@ def _along_motion(contact: Friction, unknown: Expr, speed: Quantity, key: str) -
     signs = [sign_known(each) for each in at_start]
     if 0 in signs:
         message = f"`slips`: at the start of the motion `{contact.friction.key}` already has its largest possible value"
-        raise Rejected(Complaint("no-contact", message, help="give the motion another start"))
+        raise Rejected(Complaint("no-contact", message, help="give the motion a different start"))
     if 1 in signs:
         return _at_once(motion, 1 if signs[0] == 1 else -1, key)
     places, squared = places_of_limit(motion)

@@ -60,7 +60,8 @@ def condition_to_reach(
         raise Rejected(Complaint("not-reached", message, help="this place is an equilibrium; the motion approaches it"))
     if not _is_free_by_algebra(speed, unknown, place) and _is_barred(speed, unknown, place, there):
         message = f"`{of.key}`: the motion need not reach {unknown} = {place}: on the way {rate(q)}**2 can be negative"
-        raise Rejected(Complaint("not-reached", message, help="state with `assume:` when the motion reaches the place"))
+        help_line = "state with `assume:` the condition for reaching the place"
+        raise Rejected(Complaint("not-reached", message, help=help_line))
     return positive(there) if sign_known(there) is None else None
 
 

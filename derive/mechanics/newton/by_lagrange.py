@@ -42,7 +42,7 @@ def lagrangian_behind(system: System) -> Quantity:
 
 
 def facts_of_motion(system: System, q: Coordinate, changes: Mapping[Symbol, Expr]) -> list[Fact]:
-    """The facts about an equation of motion that later steps need: its coordinate, its system with the Lagrangian and
+    """The facts that later steps need about an equation of motion: its coordinate, its system with the Lagrangian and
     the constraints, and the displacement that belongs to the equation."""
     of = lagrangian_behind(system)
     kept = of.fact(Constrained)

@@ -38,7 +38,7 @@ class Direction:
 
 def direction_of(body: Alone, way: Vector) -> Direction:
     """Return the direction of a unit vector in words: along an axis, along a slope or away from it, away from a centre,
-    or along a tangent; otherwise the direction in which the coordinate increases."""
+    or along a tangent. The word for any other vector is "increasing": the coordinate increases in this direction."""
     if way in AXES:
         return Direction(AXES[way])
     if is_fixed(way):

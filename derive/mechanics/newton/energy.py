@@ -108,9 +108,8 @@ def energy_equation(energy: Quantity, system: System, q: Coordinate, key: str | 
         many = f"{count} coordinate{'s' * (count != 1)}"
         many += f" and {forces} constraint force{'s' * (forces != 1)}" if forces else ""
         message = f"conservation of energy is one equation, but this system has {many}"
-        raise Rejected(
-            Complaint("method", message, help="describe the positions by one coordinate, or use another method")
-        )
+        help_line = "describe the positions by one coordinate, without constraint forces; or use a different method"
+        raise Rejected(Complaint("method", message, help=help_line))
     changing = explicit(TimeRate(explicit(energy.value), *moving))
     left = by_accelerations(tidied((changing / q.rate).expand()), moving)
     of, changes = lagrangian_behind(system), {q.symbol: Integer(1)}

@@ -233,7 +233,8 @@ def _independent(matrix: ImmutableDenseMatrix) -> list[int]:
 def _displacements(
     system: System, wanted: Mapping[Any, Vector], there: Callable[[Any], Any]
 ) -> tuple[ImmutableDenseMatrix, ImmutableDenseMatrix]:
-    """The derivatives of all places and angles with respect to the coordinates, and the displacement."""
+    """The derivatives of all places and angles with respect to the coordinates, and the changes of these places and
+    angles in the displacement."""
     rows, column = [], []
     for each in bodies_alone(system):
         own = next((change for part, change in wanted.items() if part is each.part), (ZERO,) * (len(each.centre) + 1))

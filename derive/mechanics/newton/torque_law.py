@@ -1,5 +1,5 @@
-"""Sum of the torques on one body in a plane: about its centre of mass, a fixed axis or a point of contact; for a body
-at rest, also about a point where unknown forces act."""
+"""Sum of the torques on one body in a plane, about its centre of mass, a fixed axis or a point of contact. For a body
+at rest, the torques may also be about a point where unknown forces act."""
 
 from __future__ import annotations
 
@@ -90,7 +90,7 @@ def torque_law(
     body = body_of(system, q.symbol)
     turn = body.turn(q.symbol)
     if turn == 0:
-        message = f"`torque_law`: the coordinate {q.symbol.name} rotates no body"
+        message = f"`torque_law`: the coordinate {q.symbol.name} does not rotate the body that it moves"
         raise Rejected(Complaint("wrong-argument", message, help="use `second_law`"))
     point, sense = _point(body, about, at_rest), sense_of(turn)
     torques = _sum_of_torques([sense * force.torque(point.place) for force in body.forces], at_rest)

@@ -90,7 +90,7 @@ def _nowhere_false(points: Iterable[Point], line: Expr, is_so: Callable[[Expr, P
 
 
 def squared_rate(facts: Judged, number: Expr) -> Expr:
-    """Return the squared angular frequency. The number is this frequency or, if the answer is a period, the period."""
+    """Return the squared angular frequency from the value of the answer, which is an angular frequency or a period."""
     return 4 * pi**2 / number**2 if facts.words["seen"] == "period" else number**2
 
 
@@ -197,7 +197,7 @@ def ratio_of_modes(rational: bool) -> Predicate:
 
         mass, stiffness = facts.inputs["system"]
         if rational and mass.shape[0] > 2:
-            return False  # a third mode may have another ratio
+            return False  # a third mode may have a different ratio
         return (degree == 1) == rational and for_each_form(fast, agrees, slow.value, *mass, *stiffness)
 
     return is_so
@@ -315,7 +315,7 @@ def is_the_result_by_name(facts: Judged, told: Any) -> bool:
 
 
 def _is_allowed(place: Relation) -> bool:
-    """Whether the assumptions hold for the stated value of a symbol and for some numbers for the other symbols."""
+    """Whether the assumptions hold for the stated value of a symbol, with suitable numbers for the other symbols."""
     there = {place.left: explicit(place.right)}
     about = [each for each in map(explicit, map(with_numbers, assumed())) if each.has(place.left)]
     apart = [Relation(expand(each.residual.xreplace(there)), each.operator, 0) for each in about]
@@ -331,7 +331,7 @@ def names_a_letter(facts: Judged) -> bool:
 
 
 def _may_vary(letter: Symbol, point: Point) -> Point:
-    """Return the point with another number for this symbol only."""
+    """Return the point with a different number for this symbol only."""
     return {**point, letter: point[letter] * Rational(8, 7)}
 
 
@@ -422,8 +422,8 @@ def grows_without_bound_there(facts: Judged) -> bool:
 
 
 def branches_off(facts: Judged) -> bool:
-    """Whether an equilibrium loses its stability to two others at the stated value of the symbol. Just below this value
-    it is stable, and the two others do not exist; just above, it is unstable, and the two others are stable.
+    """Whether, at the stated value of the symbol, an equilibrium becomes unstable and two others appear. Just below
+    this value it is stable, and the two others do not exist; just above, it is unstable, and the two others are stable.
     """
     curvature, beside = (explicit(facts.quantities[role].value) for role in ("of", "beside"))
     cosine, border = facts.inputs["cosine"], facts.result
@@ -518,7 +518,7 @@ def slides_freely(facts: Judged) -> bool:
 
 
 def _pulling_springs(facts: Judged) -> int:
-    """Return how many springs of the system would pull with another force if this constant were different."""
+    """Return how many springs of the system pull with a force that depends on this constant."""
     behind = facts.quantities["of"].ancestors()
     systems = {q.subject.body for q in behind if q.step.rule == "lagrange.potential_energy"}
     letter = facts.inputs["letter"]

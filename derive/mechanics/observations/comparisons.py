@@ -305,7 +305,8 @@ POLHODE = Rule(
 
 
 def polhode(view: View) -> Observed:
-    """Constant kinetic energy and constant |L|, so in the body the tip of L stays on an ellipsoid and on a sphere."""
+    """Constant kinetic energy and constant |L|, so the tip of L, seen from the body, stays on an ellipsoid and on a
+    sphere."""
     kept = [q for q in view.shown if q.step.rule == "motion.rate_under" and is_zero(q.value)]
     energy = _conserved(kept, "rotation.kinetic_energy")
     square = _conserved([q for q in kept if q in view.answers], "answers.squared_magnitude")
@@ -316,7 +317,7 @@ def polhode(view: View) -> Observed:
 
 
 def _conserved(kept: Sequence[Quantity], rule: str) -> Quantity | None:
-    """Return the quantity of this rule whose rate of change was found to vanish, or None."""
+    """Return the quantity that this rule derived, if its rate of change was found to vanish; otherwise None."""
     return next((p for q in kept for p in q.ancestors() if p.step.rule == rule), None)
 
 

@@ -304,7 +304,7 @@ BRANCHES = Rule(
 
 
 def branches(view: View) -> Observed:
-    """Angular velocity at which an equilibrium loses its stability and two others branch off from it."""
+    """Angular velocity at which an equilibrium becomes unstable and two other equilibria branch off from it."""
     rests = [q for q in view.shown if q.fact(RestOf) is not None and isinstance(q.symbol, Symbol)]
     for of in (q for q in view.answers if q.fact(StableWhere) is not None):
         here = _at(rests, of.needed(StableWhere).place)

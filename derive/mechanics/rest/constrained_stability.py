@@ -107,7 +107,7 @@ class Allowed:
         return ImmutableDenseMatrix(entries)
 
     def _along(self, way: MatrixBase) -> Expr:
-        """Return the term of order s^2 in the energy for a displacement s z + s^2 w that satisfies the constraints."""
+        """Return the coefficient of s^2 in the energy for a displacement s z + s^2 w that satisfies the constraints."""
         moved = dict(zip(self.coordinates, way, strict=True))
         bent = ImmutableDenseMatrix([coefficient_along(c.residual, self.place, moved, 2) for c in self.constraints])
         normal = self.gradients

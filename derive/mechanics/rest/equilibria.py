@@ -134,8 +134,10 @@ def _given_pushes(of: Quantity) -> list[Expr]:
     for push in acted.forces if acted is not None else ():
         strange = changes(ImmutableDenseMatrix(push.components), of.coordinates)
         if strange is not None or changes(ImmutableDenseMatrix(push.at)) is not None:
-            message = f"the given force {push.components[0]} is not constant, so its potential energy is unknown"
-            help_line = "a force with a potential energy U is given by `potential(U)`"
+            components = ", ".join(map(str, push.components))
+            message = f"the given force ({components}) is not constant, so its potential energy is unknown"
+            known = "for a force with a potential energy U, write"
+            help_line = Spelled(f"{known} `potential(U)`", f"{known} `potential: U`")
             raise Rejected(Complaint("changes", message, help=help_line))
         found += [Factors(f, at) for f, at in zip(push.components, push.at, strict=True) if f != 0]
     return found
@@ -397,9 +399,8 @@ def _names(potential: Quantity, sought: Sequence[Symbol], count: int) -> dict[Sy
 
 
 def _level_where(force: Expr, q: Symbol) -> Relation | None:
-    """Return the condition that excludes a force that is zero for all values of q.
-
-    This force is zero if a factor that does not contain q is zero. Return None if no such factor can be zero.
+    """Return the condition that no factor without q is zero; otherwise the force would be zero for all values of q.
+    Return None if no such factor can be zero.
     """
     factors = (f.as_base_exp()[0] for f in Mul.make_args(_factored(force).as_numer_denom()[0]))
     left = may_vanish(Mul(*(f for f in factors if not f.has(q))))

@@ -28,7 +28,7 @@ DIGITS = 75
 # A growth rate counts as zero if it is less than 10^-SMALL times the largest exponent. A gyroscopic force or an
 # eigenvalue of M counts as zero if it is less than 10^-SMALL times the largest entry of its matrix.
 SMALL = 10
-FEW = 3  # number of sets of numbers that are tried if there are no gyroscopic forces
+FEW = 3  # number of sets of numbers that are tried; `grows_always` tries more if gyroscopic forces act
 ELSEWHERE = Rational(3, 8)  # value of a coordinate that the energy does not contain
 SIZES = (Rational(17, 23), Rational(2300, 7), Rational(3, 71))  # values of symbols that the energy does not contain
 

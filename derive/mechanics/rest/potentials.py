@@ -40,13 +40,13 @@ SLOPE = Rule(
 def slope(potential: Quantity, order: int = 1, key: str | None = None, by: Symbol | None = None) -> Quantity:
     """Derivative of a potential energy with respect to its coordinate, U' = dU/dq or U'' = d^2U/dq^2.
 
-    potential   a function of one coordinate, J
+    potential   a potential energy, J
     order       the order n of the derivative: 1, 2, ...
-    by          the coordinate, if the potential energy depends on several
+    by          the coordinate; needed if the potential energy depends on several
 
     Check: U(q + u) is expanded about an arbitrary point q; the derivative is n! times the coefficient of u^n.
     Outcomes: slope, curvature, higher.
-    Errors: `by` is missing, and the potential depends on several coordinates or on none.
+    Errors: `by` is missing, and the potential energy depends on several coordinates or on none.
     Source: Taylor, *Classical Mechanics*, section 4.6.
     """
     q = by or only_coordinate(potential)
@@ -110,7 +110,7 @@ def extreme_value(
     """Value U(q_0) of a potential energy where its slope vanishes; U''(q_0) decides between minimum and maximum.
 
     potential   a function of one coordinate, J
-    by          the coordinate, if the potential energy depends on several
+    by          the coordinate; by default the only coordinate on which the potential energy depends
     at          the value q_0 of the coordinate; 0 by default
 
     Check: the term of order zero in the expansion of U about q_0.

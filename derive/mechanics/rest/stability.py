@@ -372,7 +372,7 @@ def _of_several(place: Place, key: str) -> Quantity:
         told["exists"] = (place.exists, Relation(-place.exists.right, place.exists.operator, -place.exists.left))
 
     def in_any_direction(found: MatrixBase) -> tuple[MatrixBase, MatrixBase]:
-        """Compare with the minors that follow from the second-order energy of an arbitrary displacement."""
+        """Compare these minors with those from the second-order energy of an arbitrary displacement."""
         marks = {q: stand_in(f"u_{q.name}") for q in moving}
         energy = coefficient_along(place.energy, place.values, marks, 2).expand()
         second = ImmutableDenseMatrix([[derivative(energy, marks[p], marks[q]) for q in moving] for p in moving])
