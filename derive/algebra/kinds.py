@@ -127,7 +127,7 @@ class Inhomogeneous(Exception):
 
 
 def common(terms: Iterable[Any], of: Callable[[Any], Dimension | None]) -> Dimension | None:
-    """The dimension of all terms of a sum; raises `Inhomogeneous` with the first term of another dimension.
+    """The dimension of all terms of a sum; raises `Inhomogeneous` with the first term that has a different dimension.
 
     A term of unknown dimension, such as zero, fits any other term. None if all dimensions are unknown.
     """

@@ -258,9 +258,9 @@ def as_sympy(x: Any) -> Expr:
 # --- the value of an expression --------------------------------------------------------------------------------------
 
 _OF_ZERO = -(10**30)
-# Largest size of a power, and largest argument of a function in `_GROWING`. The size of a power is the exponent times
-# the number of bits of the base; it may be four times as large if the exponent is a multiple of 1/2. Larger values
-# would hide the other terms of a sum.
+# Largest argument of a function in `_GROWING`, and largest size of a power: the exponent times the number of bits of
+# the base. If the exponent is a multiple of 1/2, the size may be four times this number. Larger values would hide the
+# other terms of a sum.
 _LARGEST = 300
 _MOST = 60  # greatest number of bits of the integer part of a function's argument, and of an exponent
 _GROWING = {"exp", "sinh", "cosh", "tanh", "coth", "sech", "csch", "erf"}

@@ -299,8 +299,8 @@ class _Auditor:
         """Return the conditions before a display, in the same sentence, that are used in one of its rows: "with
         `r = l`, this becomes".
 
-        A condition such as `x = 0` is not used in a row that contains `x`, because the row is about other instants:
-        "the energy at `x = 0` is conserved"."""
+        A condition such as `x = 0` is not used in a row that contains `x`. In "the energy at `x = 0` is conserved", the
+        row is about other instants."""
         written = {each.identity for each in letters_in(claim.left, claim.right)}
         conditions = [self.claims[each] for each in self.known.sentence & self.known.conditions]
         return frozenset(each.number for each in conditions if written.isdisjoint(
@@ -819,7 +819,7 @@ class _Auditor:
     def of_missing_differential(self, claim: Claim, left_side: Node) -> Verdict | None:
         """Return a verdict if the right side lacks a differential; otherwise None.
 
-        The verdict is also None if no single change makes the claim right and `lacks_differential` is false.
+        The result is also None if no single change makes the claim right and `lacks_differential` is false.
         """
         assert claim.right is not None
         if not any(isinstance(each, Int) for each in claim.right.walk()):
@@ -975,13 +975,13 @@ class _Auditor:
         if claim.verdict.outcome is Outcome.HOLDS and not claim.verdict.given and not isinstance(left, Symbol):
             return  # an identity gives nothing new
         if not claim.row.block.display and isinstance(left, Symbol) and right.is_number and right != 0:
-            return  # a number in a sentence is only substituted, for example one for a drawing
+            return  # a number in a sentence, such as one for a drawing, is substituted only
         self.known.state(sympy.expand(left - right) if sympy.count_ops(left - right) < 600 else left - right, number)
 
 
 def lacks_differential(side: Node) -> bool:
-    """Whether a multiple integral with limits at each sign has fewer differentials than signs, but at least one.
-    Integrals with an element such as dA or dV do not count.
+    """Whether a multiple integral with limits at each integral sign has at least one differential, but fewer
+    differentials than integral signs. Integrals with an element such as dA or dV do not count.
     """
     for each in side.walk():
         if isinstance(each, Int):

@@ -46,8 +46,8 @@ SMALL = (Rational(1, 100), Rational(1, 1000))
 
 
 def same(left: Value, right: Value) -> bool:
-    """Whether two values are equal. If both contain ±, the upper sign of one must match the upper sign of the other
-    and the lower sign the lower, or the signs must match crosswise."""
+    """Whether two values are equal. If they contain ±, they must be equal for both signs, or become equal for both
+    signs after ± is reversed in one of them."""
     if isinstance(left, MatrixBase) != isinstance(right, MatrixBase):
         return False
     if isinstance(left, MatrixBase) and left.shape != right.shape:
@@ -77,7 +77,7 @@ class Decision:
     meaning: Meaning
     known: Known
     cues: frozenset[Cue]
-    thorough: bool = True  # whether earlier equations are also combined, which takes long
+    thorough: bool = True  # whether earlier equations are also combined, which takes a long time
 
     def verdict(self) -> Verdict:
         for test in (
@@ -349,7 +349,7 @@ class Decision:
                 return Verdict(Outcome.APPROXIMATES, "equal to the printed digits", used)
             if error <= 2 * self.tolerance:
                 return Verdict(
-                    Outcome.APPROXIMATES, "equal up to the last printed digit, as after rounding twice", used
+                    Outcome.APPROXIMATES, "equal except for the last printed digit, as after rounding twice", used
                 )
         return None
 
@@ -620,7 +620,8 @@ class Decision:
         """The formula for the left side in the row above, or before the display in the same sentence, if this row
         evaluates the formula; otherwise None.
 
-        A row evaluates a formula if it does not contain some letters of the formula, and one of these has a value.
+        A row evaluates a formula if some letters of the formula are missing in the row, and one of the missing letters
+        has a value.
         """
         if self.claim.is_step or not isinstance(self.left, Symbol) or not self.known.is_defined(self.left):
             return None
@@ -693,8 +694,8 @@ class Decision:
         return Verdict(Outcome.UNDECIDED, "an equation that does not follow from the rows before it")
 
     def has_negative_square(self, new: list[Symbol]) -> int | None:
-        """Return the number of the earlier equation of motion that would make the square of the only new letter
-        negative, such as w^2 in `x'' + w^2 x = 0`; None if there is no such equation."""
+        """Return the number of an earlier equation of motion that makes the square of the only new letter negative;
+        None if there is no such equation. In `x'' + w^2 x = 0`, the only new letter is w."""
         if len(new) != 1 or isinstance(self.difference, MatrixBase) or not new[0].is_positive:
             return None
         here = sympy.expand(self.difference)
@@ -714,8 +715,8 @@ class Decision:
         return None
 
     def is_lagrange_form(self, symbols: set[Symbol]) -> bool:
-        """Whether an equation looks like Lagrange's equation: its derivatives are of one letter only, by a coordinate
-        and by a rate."""
+        """Whether an equation looks like Lagrange's equation: its derivatives are of one letter only, with respect to a
+        coordinate and to a rate."""
         derivatives = [self.meaning.derivatives[each] for each in symbols if each in self.meaning.derivatives]
         letters = {letter.identity for letter, _, _ in derivatives}
         dots = {

@@ -97,7 +97,7 @@ class Known:
                 self.equations.append((each, claim))
 
     def with_slips(self) -> Known | None:
-        """Return the same knowledge with the values that wrong rows give; None if no row is wrong."""
+        """Return the same knowledge with the values that wrong rows give; None if no wrong row gives a value."""
         if not self.slips:
             return None
         believed = {symbol: [definition] for symbol, definition in self.slips.items()}

@@ -37,7 +37,7 @@ Shown = Callable[..., str]
 
 @dataclass
 class Nearness:
-    """Searches for one change of a side."""
+    """The search for one change of a side after which a claim would follow."""
 
     meaning: Meaning
     known: Known
@@ -137,7 +137,7 @@ class Nearness:
         wanted = expand(expanded(self.known, difference, sure=True)[0])
         count = len(Add_.make_args(wanted))
         if count < 2 or not any(map(self.known.is_rate, difference.free_symbols)):
-            return None  # the row may be about rest, where the terms with rates vanish
+            return None  # the row may describe an equilibrium, where the terms with rates vanish
         for each in equations_of(self.known, self.meaning, sure=True, written=self.written):
             terms = Add_.make_args(expand(each.value))
             if len(terms) != count + 1 or len(terms) > MOST_TERMS_OF_EQUATION:
@@ -230,7 +230,8 @@ def letters_in(*sides: Node | None) -> list[Letter]:
 
 
 def is_other_root(edit: Edit, side: Node) -> bool:
-    """Whether a change reverses the sign of a square root: either sign gives a root, and the text may choose one."""
+    """Whether a change reverses the sign of a square root: either sign may be right, because the text may choose one of
+    two solutions."""
     return edit.kind == "sign" and any(
         isinstance(each, Root) and edit.span.start <= each.span.start < edit.span.end for each in side.walk()
     )

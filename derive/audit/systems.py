@@ -480,7 +480,7 @@ class System:
         return False
 
     def value_of_letter(self) -> list[complex] | None:
-        """Return the numbers that the equations give to the letter asked for, or None if they do not determine it."""
+        """Return the values of `letter` at the points, or None if the equations do not determine them."""
         if self.of_wanted is None or self.letter is None or not self.polys:
             return None
         monom = tuple(int(each == self.letter) for each in self.unknowns)

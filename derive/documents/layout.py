@@ -1,9 +1,9 @@
 r"""The formulas of a document in their order: headings, sentences, displays with their rows, and their statements.
 
 A display is a block of rows. A row that begins with a relation continues the chain of the row before it. A row that
-begins with a sign after an alignment mark continues the last side of the row before it. So does a row after an open
-bracket, an operator or a relation. A statement is a chain of sides, such as `a = b = c`; words and commas separate the
-statements of a row.
+begins with a sign after an alignment mark continues the last side of the row before it. So does a row if the row before
+it ends with an operator or a relation, or has an open bracket. A statement is a chain of sides, such as `a = b = c`;
+words and commas separate the statements of a row.
 """
 
 from __future__ import annotations
@@ -347,7 +347,7 @@ class _Reading:
                 unclosed[closing] = reach  # no sign before this position closes a formula of this kind
                 continue
             if not display and _LINE_BREAK.search(self.text, position, close_at.start()):
-                continue  # a dollar sign that opens no formula
+                continue  # this dollar sign does not open a formula
             end, after = close_at.span()
             while opening["dollar"] and (more := _CARRIED_ON.match(self.text, end)):
                 end, after = more.end() - 1, more.end()
@@ -560,7 +560,7 @@ def _system_at(tokens: list[Token], at: int) -> tuple[list[Token], int] | None:
 
 
 def _bracket_at(tokens: list[Token], at: int) -> tuple[list[Token], int]:
-    """Return the tokens inside the bracket or the braces at a position, and the position behind the closing one."""
+    """Return the tokens inside the bracket or the braces at a position, and the position after the closing one."""
     if not tokens[at].is_mark("(", "["):
         return argument_at(tokens, at)
     for end, (token, depth) in enumerate(depths(tokens[at:])):
