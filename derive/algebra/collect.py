@@ -180,7 +180,7 @@ def _varies(term: Expr, moving: Collection[Symbol]) -> bool:
 
 
 def with_weights_in_front(value: Expr, moving: Sequence[Symbol], weights: Collection[Symbol]) -> Expr:
-    """Write a kinetic energy with weights in front of brackets: (1/2) m (r_dot^2 + r^2 phi_dot^2).
+    """Write a kinetic energy with common factors in front of brackets: (1/2) m (r_dot^2 + r^2 phi_dot^2).
 
     If a constant that is common to all terms contains a mass or a moment of inertia, the common number and constants
     of all terms are in front. Otherwise, terms with the same numerical factor and the same constants share a bracket.

@@ -975,7 +975,7 @@ class _Auditor:
         if claim.verdict.outcome is Outcome.HOLDS and not claim.verdict.given and not isinstance(left, Symbol):
             return  # an identity gives nothing new
         if not claim.row.block.display and isinstance(left, Symbol) and right.is_number and right != 0:
-            return  # a number in a sentence, such as one for a drawing, is substituted only
+            return  # a number in a sentence, such as `m = 2` for a drawing, is not used as an equation
         self.known.state(sympy.expand(left - right) if sympy.count_ops(left - right) < 600 else left - right, number)
 
 

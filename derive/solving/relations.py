@@ -106,7 +106,7 @@ def _solved(core: Expr, letter: Symbol) -> Relation | None:
 
 
 def border_of(condition: Relation) -> Relation | None:
-    """The equation `symbol = value` at the boundary of the condition; None if no symbol is isolated."""
+    """The equation `symbol = value` at the boundary of the condition; None if no symbol can be isolated."""
     left, right = condition.sides
     if isinstance(left, Symbol):
         return Relation(left, "=", right)

@@ -92,7 +92,7 @@ def meaning(unknown: Expr, value: Expr) -> dict[Symbol, Expr]:
 
 
 def with_unknown(expr: Expr, unknown: Expr, value: Expr) -> Expr:
-    """Substitute a value for the unknown, also where the unknown is not written.
+    """Substitute a value for the unknown, also in expressions that contain it only implicitly.
 
     A value of theta_dot^2 is substituted in theta_dot^4, a value of cos(theta) in sin(theta)^2, and a value of
     tan(theta) in sin(theta) = tan(theta) cos(theta).

@@ -125,7 +125,7 @@ def _apart(key: str, field: str, one: tuple[str, Any], other: tuple[str, Any]) -
     message = f"`{key}`: `{one[0]}` and `{other[0]}` {_TOGETHER[field]}"
     told = [called(value) for _, value in (one, other)]
     if told[0] != told[1] and all(told):
-        message += f", but they have {told[0]} and {told[1]}"
+        message += f", but the first has {told[0]} and the second has {told[1]}"
     return Rejected(Complaint("different-subjects", message))
 
 

@@ -94,7 +94,8 @@ class Blueprint:
 
     @cached_property
     def dependent(self) -> dict[int, int]:
-        """The index of each condition that expresses a coordinate by others -> the index of this coordinate."""
+        """The index of each condition that expresses a coordinate in terms of others -> the index of this
+        coordinate."""
         found = enumerate(each.expresses for each in self.of.conditions)
         return {row: self.coordinates.index(q) for row, q in found if q is not None}
 
