@@ -28,8 +28,8 @@ class Coefficient(NamedTuple):
     """The coefficient of one product of powers of the symbols.
 
     `whole()` returns the coefficient, and `terms` is the number of its terms. The coefficient may be a factor without
-    sines and cosines times a factor of sines and cosines only. Then `angles` is the second factor. If `other` is
-    another form of `angles`, `written(number, other)` returns `number` times the first factor times `other`, with
+    sines and cosines times a factor of sines and cosines only. Then `angles` is the second factor. If `other` is a
+    different form of `angles`, `written(number, other)` returns `number` times the first factor times `other`, with
     common factors in front. For any other coefficient, `written` is None.
     """
 

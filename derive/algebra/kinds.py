@@ -219,8 +219,8 @@ ANNOTATIONS: Mapping[str, Asked] = {
 
 
 def asked_by_annotation(annotation: Any) -> Asked | None:
-    """Return what a parameter's annotation asks for, or None if it is not an annotation of this module. The annotation
-    may be a string."""
+    """Return the quantities that a parameter's annotation asks for, or None if it is not an annotation of this module.
+    The annotation may be a string."""
     if isinstance(annotation, str):
         return ANNOTATIONS.get(annotation.strip().rpartition(".")[2])
     return DIRECTION if annotation is Direction else _asked(annotation)

@@ -206,7 +206,7 @@ class _Auditor:
         self.explained: set[int] = set()  # the numbers of claims that explain letters of the display before them
 
     def begin(self, scope: int) -> None:
-        """Begin a problem or section, and forget what the rows of earlier problems and sections gave."""
+        """Begin a problem or section, and forget the definitions and equations of earlier problems and sections."""
         self.scope = scope
         self.meaning.scope = scope
         self.known = self.scopes[scope] = self.assumptions()
@@ -476,7 +476,7 @@ class _Auditor:
             return  # a letter of an integrand may depend on the variable of integration
         in_sentence = not claim.is_step and not claim.row.block.display
         if verdict.outcome is Outcome.DEFINES and claim.values[0] in self.known.definitions:
-            # the letter may have another value in another part or case
+            # the letter may have a different value in another part or case
             self.doubt(verdict, self.change_of_value(claim))
             return
         strange = self.strange_letters(claim) if in_sentence else set()
@@ -600,7 +600,7 @@ class _Auditor:
         return found
 
     def known_without(self, earlier: Claim, claim: Claim) -> Known:
-        """Return what the rows up to `claim` give if the row `earlier` is left out."""
+        """Return the definitions and equations that the rows up to `claim` give without the row `earlier`."""
         kept, self.known = self.known, self.assumptions()
         try:
             for each in self.claims[: claim.number + 1]:
@@ -689,7 +689,7 @@ class _Auditor:
             if used or not of_same:
                 later = []
             if later:
-                because = f"line {claim.row.line} gives another value, and later rows follow only from that value"
+                because = f"line {claim.row.line} gives a different value, and later rows follow only from that value"
                 formula.verdict = replace(
                     verdict, because=because, suggestion="", span=None, or_lines=(claim.row.line,)
                 )
@@ -934,7 +934,7 @@ class _Auditor:
         return any(letter in equation.free_symbols for equation, _ in self.known.equations)
 
     def remember(self, claim: Claim, believed: bool = False) -> None:
-        """Remember what a claim gives to the rows that follow: definitions, an equation or a bound."""
+        """Remember the definitions, the equation or the bound that a claim gives for later rows."""
         if claim.values is None or claim.verdict is None:
             return
         if self.is_special_case(claim):

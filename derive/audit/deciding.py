@@ -1,4 +1,4 @@
-"""The verdict on one claim: whether its right side follows from its left side and from what earlier rows gave.
+"""The verdict on one claim: whether its right side follows from its left side and from earlier rows.
 
 A claim holds, for example, if its sides are equal after definitions are substituted, or if it follows from earlier
 equations. A claim differs, for example, if numbers show that its sides are not equal.
@@ -230,7 +230,7 @@ class Decision:
         return Verdict(Outcome.UNDECIDED, f"{_word(letter)} does not satisfy the earlier equation for {_word(plain)}")
 
     def other_name(self, letter: Symbol, value: Expr) -> Symbol | None:
-        """Return a letter with another index and the same value, or None."""
+        """Return a letter with a different index and the same value, or None."""
         named = self.meaning.symbols[letter]
         for symbol, definitions in self.known.definitions.items():
             other = self.meaning.symbols.get(symbol)
@@ -246,7 +246,7 @@ class Decision:
         if (found := self.together()) is not None:
             return found
         if self.claim.row.block.display and self.value_of_letter() is not None:
-            return Verdict(Outcome.UNDECIDED, f"earlier rows give another value of {_word(letter)}")
+            return Verdict(Outcome.UNDECIDED, f"earlier rows give a different value of {_word(letter)}")
         return None
 
     def value_of_letter(self) -> list[complex] | None:
@@ -568,7 +568,7 @@ class Decision:
         new = (right.free_symbols - left.free_symbols) & (self.right.free_symbols - self.left.free_symbols)
         new |= {each for each in right.free_symbols - left.free_symbols if each not in self.left.free_symbols}
         if above is not None and (lost := self.lost_letter(left, right)) is not None:
-            because = f"the formula before it gives another value of {_word(above.symbol)}"
+            because = f"the formula before it gives a different value of {_word(above.symbol)}"
             return Verdict(Outcome.DIFFERS, because, why_plausible=f"the term {_word(lost)} was lost in that formula")
         if new - self.left.free_symbols:
             return Verdict(Outcome.UNDECIDED, f"only the right side contains {', '.join(sorted(map(_word, new)))}")
@@ -592,7 +592,7 @@ class Decision:
         if not example:
             return Verdict(Outcome.UNDECIDED, "no numbers show whether the two sides are equal")
         if above is not None:
-            because = f"the formula before it gives another value of {_word(above.symbol)}"
+            because = f"the formula before it gives a different value of {_word(above.symbol)}"
             return Verdict(Outcome.DIFFERS, because, counterexample=example)
         return Verdict(Outcome.DIFFERS, "the two sides are not equal", counterexample=example)
 
@@ -675,13 +675,13 @@ class Decision:
         if isinstance(self.left, Symbol) and self.known.is_defined(self.left):
             before = self.known.definitions[self.left][-1]
             if Cue.REPEATED in self.cues:
-                because = f"another value of {_word(self.left)} than before"
+                because = f"this value of {_word(self.left)} differs from its earlier value"
                 return Verdict(Outcome.UNDECIDED, because, (before.claim,), repeated=before)
             if before.part not in (-1, self.claim.row.block.part):
-                return Verdict(Outcome.DEFINES, f"another value for {_word(self.left)} in another part")
+                return Verdict(Outcome.DEFINES, f"a different value for {_word(self.left)} in another part")
             if self.cues & {Cue.DEFINED, Cue.GIVEN}:
                 return Verdict(Outcome.DEFINES, f"a value for {_word(self.left)} in another case")
-            return Verdict(Outcome.UNDECIDED, f"another value of {_word(self.left)} than before")
+            return Verdict(Outcome.UNDECIDED, f"this value of {_word(self.left)} differs from its earlier value")
         if new := self.known.new_letters(symbols):
             if (number := self.has_negative_square(new)) is not None:
                 because = f"with an earlier equation of motion, the square of {_word(new[0])} is negative"

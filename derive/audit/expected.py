@@ -94,7 +94,7 @@ def compared(
     meaning_of: Callable[[int], Meaning],
     expected: Iterable[Expected],
 ) -> list[Compared]:
-    """Return what the document says about each answer. Claims that contradict an answer get a new verdict.
+    """Return, for each answer, whether the document contains it. Claims that contradict an answer get a new verdict.
 
     scopes       the scope of each claim
     known        the definitions, equations and numbers that the rows of each scope give
@@ -122,7 +122,8 @@ def compared(
 
 
 def _of(expected: Expected, sections: list[_Section]) -> Compared:
-    """Return where the sections state an answer; report rows that contradict the answer."""
+    """Return whether the sections state an answer, and the claim that states or contradicts it. Report the rows that
+    contradict it."""
     found = Compared(expected, Status.UNREAD if all(expected.key not in each.results for each in sections) else
                      Status.MISSING)  # fmt: skip
     for section in sections:

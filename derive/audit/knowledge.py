@@ -70,7 +70,8 @@ class Known:
                 del self.definitions[symbol]
 
     def forget_derivatives(self, symbol: Symbol) -> None:
-        """Forget what earlier parts state about the derivatives of a letter that gets another value."""
+        """Forget the values of the derivatives of a letter, and the equations that contain these derivatives. The letter
+        gets a different value in a new part."""
         letter = self.meaning.symbols.get(symbol)
         changed = {
             each

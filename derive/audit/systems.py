@@ -82,7 +82,7 @@ def _equations_of(known: Known, meaning: Meaning, without: Symbol | None, sure: 
         add(put_in, claims, name)
     for each in list(found[:6]):
         if sympy.count_ops(each.value) > LARGEST_CONSTRAINT or known.here & set(each.claims):
-            continue  # what holds at one instant has no rate
+            continue  # an equation that holds at one instant only cannot be differentiated
         for rate in rates(each.value, meaning, known):
             add(rate, each.claims, OF_RATES)
     return found[: 2 * MOST_EQUATIONS]

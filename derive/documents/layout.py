@@ -494,7 +494,7 @@ def _simplified(tokens: list[Token]) -> list[Token]:
             found += [*_environment_sign(token, "begin", name), *inner, *_environment_sign(token, "end", name)]
         elif token.is_command("eval") and at < len(tokens) and tokens[at].is_command("cdot"):
             while at < len(tokens) and not tokens[at].is_command(*ARROWS, "\\\\", "qc", "quad", "qquad"):
-                at += 1  # the note `| \cdot 2` says by what both sides are multiplied
+                at += 1  # the note `| \cdot 2` says that both sides are multiplied by 2
         elif token.is_command("hline", "midrule", "toprule", "bottomrule", "centering"):
             continue
         elif token.is_command("qq"):

@@ -100,7 +100,7 @@ class PhraseData:
     """Data for the sentence of a step, in addition to the chain, and data for judging the outcome.
 
     words         term of the phrase -> key of its word, such as "about" -> "corner"
-    formulas      role -> a formula that only the sentence contains, and the same formula by another route
+    formulas      role -> a formula that only the sentence contains, and the same formula by a different route
     named         role -> a symbol or a place that only the sentence contains, judged by a predicate
     points_to     role -> a quantity that the sentence mentions by its symbol or its number
     outcome_data  further data for judging the outcome
@@ -290,7 +290,7 @@ def _place_of_verb(frame: FrameType) -> str:
 
 
 def _check_told(key: str, told: Mapping[str, tuple[Any, Any]]) -> None:
-    """Check that each formula of the sentence equals the same formula by another route."""
+    """Check that each formula of the sentence equals the same formula by a different route."""
     for role, (formula, otherwise) in told.items():
         verdict = equal(formula, otherwise)
         if not verdict:

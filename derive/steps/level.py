@@ -38,7 +38,7 @@ class Display:
     told_along        whether the sentence of the step before may state the result of this step
     first_only        whether only the first of several steps of the same rule is shown
     only_explains     whether the step only explains the steps that use it, so that the author's words may replace it
-    result_again      the highest level at which a step directly after a step of the same kind shows only its result
+    result_again      the highest level at which a step directly after a similar step shows only its result
     each_worked_out   whether a step after a step of the same kind also shows all lines of the level. Otherwise it shows
                       only its result and its lines of the level `brief`
     abbreviates       whether later steps may write the symbol of the step in place of its value, a square root
