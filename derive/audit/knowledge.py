@@ -70,8 +70,8 @@ class Known:
                 del self.definitions[symbol]
 
     def forget_derivatives(self, symbol: Symbol) -> None:
-        """Forget the values of the derivatives of a letter, and the equations that contain these derivatives. The letter
-        gets a different value in a new part."""
+        """Forget the values of the derivatives of a letter, and the equations that contain these derivatives. A later
+        part gives the letter a different value."""
         letter = self.meaning.symbols.get(symbol)
         changed = {
             each

@@ -79,13 +79,13 @@ def _told(audit: Audit, claim: Claim, every: bool) -> str:
     if verdict.counterexample:
         notes.append(f"for example {verdict.counterexample}")
     if lines := _lines(audit, verdict):
-        notes.append(f"given line {', '.join(map(str, lines))}")
+        notes.append(f"uses line{'s' * (len(lines) > 1)} {', '.join(map(str, lines))}")
     if verdict.inherits is not None:
         notes.append(f"repeats the slip of line {audit.claims[verdict.inherits].row.line}")
     if carrying := [each.row.line for each in audit.claims if _verdict(each).inherits == claim.number]:
         notes.append(f"repeated in line {', '.join(map(str, dict.fromkeys(carrying)))}")
     if ASSUMED in verdict.given:
-        notes.append("given an assumption from the command line")
+        notes.append("uses an assumption from the command line")
     suggestion = f"probably {verdict.suggestion}: {verdict.why_plausible}" if verdict.suggestion else None
     if verdict.why_plausible and not suggestion:
         notes.append(verdict.why_plausible)
