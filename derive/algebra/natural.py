@@ -225,9 +225,9 @@ def _with(
 
 
 def compared(left: Expr, mark: str, right: Expr, takes_roots: bool = True) -> Relation:
-    """Divide both sides by positive common factors; exchange the sides if only the left side is a number. Write gamma <
-    omega_0, not 4 gamma^2 < 4 omega_0^2, if both sides are squares of positive expressions and `takes_roots` is
-    true."""
+    """Divide both sides by positive common factors; exchange the sides if only the left side is a number. If both sides
+    are squares of positive expressions and `takes_roots` is true, write gamma < omega_0, not 4 gamma^2 < 4 omega_0^2.
+    """
     shared = common_factor([left, right])
     if shared.is_positive:
         left, right = tidied(left / shared), tidied(right / shared)

@@ -119,7 +119,7 @@ def is_isochronous(f: Expr, q: Symbol, amplitude: Symbol, squared_frequency: Exp
 
 def quarter_swing(f: Expr, q: Symbol, amplitude: Symbol, order: int) -> Expr:
     """The integral of dq/sqrt(f) from 0 to A as a series in the amplitude A; `order` is the highest power. Raises
-    `NoExpansion` if they are not found."""
+    `NoExpansion` if the series is not found."""
     inside = reduced_square(f, q, amplitude, order)
     (leading, *rest) = inside
     if leading.has(ANGLE) or leading == 0:

@@ -172,7 +172,7 @@ def _as_one_fraction(value: Expr) -> Expr:
 
 
 def _with_term_in_common(value: Expr) -> Expr:
-    """Write 2 g (2 u + a v)/(4 u + b w) as g (u + a v/2)/(u + b w/4), so that both sums contain the same term. If the
+    """Write 2 g (2 u + a v)/(4 u + b w) as g (u + a v/2)/(u + b w/4), so that both sums contain the same term. If all
     terms of the denominator are single symbols, with or without a number, the value is unchanged."""
     above, below = fraction(value) if value.is_Mul else (value, Integer(1))
     number, factors = above.as_coeff_Mul()

@@ -107,8 +107,8 @@ class Meaning:
     decimals: list[tuple[Expr, int]] = field(default_factory=list)
     units: bool = False
     scope: int = -1
-    # Which letters are read as numbers, although they may be vectors. "" is for none. `unmarked` is for letters of
-    # vectors without an arrow or bold type, `all` for all letters of vectors, `tensors` also for letters of tensors.
+    # Which letters are read as numbers, although they may denote vectors: "" for none, `unmarked` for those without an
+    # arrow or bold type, `all` for all of them. `tensors` also includes the letters that denote tensors.
     plain: str = ""
     derivatives: dict[Symbol, tuple[Letter, tuple[tuple[Symbol, int], ...], bool]] = field(default_factory=dict)
     symbols: dict[Symbol, Letter] = field(default_factory=dict)

@@ -143,7 +143,7 @@ def residual_of(verb: str, equation: Quantity, or_value: bool = False) -> Expr:
                 "wrong-argument",
                 message,
                 help=Spelled(
-                    "give an equation of motion, a condition or a result of `let`",
+                    "give an equation of motion, a condition, or an equation made by `let`",
                     "name an equation of motion or a condition",
                 ),
             )

@@ -39,8 +39,8 @@ class Display:
     first_only        whether only the first of several steps of the same rule is shown
     only_explains     whether the step only explains the steps that use it, so that the author's words may replace it
     result_again      the highest level at which a step directly after a similar step shows only its result
-    each_worked_out   whether a step after a step of the same kind also shows all lines of the level. Otherwise it shows
-                      only its result and its lines of the level `brief`
+    each_worked_out   whether a step after a similar step also shows all lines of the level. Otherwise it shows only its
+                      result and its lines of the level `brief`
     abbreviates       whether later steps may write the symbol of the step in place of its value, a square root
     names_formula     whether the sentence names the formula, so that a line within a text needs no left side
     repeats           the key of the equation that the step repeats, if any

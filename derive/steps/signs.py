@@ -225,7 +225,7 @@ def undecided(value: Any) -> Doubt:
 
 
 def holds(number: Expr | int, mark: str) -> bool:
-    """Whether the relation between a number and zero with this relation sign is true, such as `number > 0`."""
+    """Whether the relation of a number to zero is true; `mark` is the relation sign, such as > in `number > 0`."""
     return (0 if number == 0 else 1 if number > 0 else -1) in SIGNS_OF[mark]
 
 

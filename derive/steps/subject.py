@@ -32,7 +32,7 @@ class Subject:
     mass      the mass that the value belongs to, in kg; it may be specified without a body
     point     the reference point of moments, momenta and torques
     axes      the axes of the components: by default those of the body
-    axis      for a moment of inertia about one axis: the axis of the body that is parallel to this axis
+    axis      for a moment of inertia or a radius of gyration: the body axis that is parallel to the reference axis
     rotation  the components of the angular velocity
     place     the components of the position of the centre of mass in space, in m
     """
