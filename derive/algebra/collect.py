@@ -56,7 +56,8 @@ def _shared(powers: Sequence[dict[Expr, Expr]]) -> dict[Expr, Expr]:
 
 
 def _powers(product: Expr) -> dict[Expr, Expr]:
-    """The bases of a product and their powers, without rational factors; a factor may itself be a product."""
+    """The bases of a product and their powers, without rational factors. A factor may be an unevaluated product, whose
+    bases are also included."""
     found: dict[Expr, Expr] = {}
     for factor in Mul.make_args(product):
         inner = _powers(factor) if factor.is_Mul else {} if factor.is_Rational else dict([factor.as_base_exp()])

@@ -45,7 +45,7 @@ DIGITS = 50
 WORKING = (60, 160, 420)  # precisions in digits, tried in this order until a comparison is decided and confirmed
 SPARE = 20  # working digits that may be lost by rounding, cancellation and large arguments
 
-NEGLIGIBLE = 1e-25  # an entry of a matrix that is smaller than this counts as a rounding error
+NEGLIGIBLE = 1e-25  # a matrix entry smaller than this counts as a rounding error
 RANKS_TRIED = 8  # greatest number of points that are drawn to find the rank of a matrix
 
 ORDINARY = (0,)

@@ -278,7 +278,7 @@ def _witnessed(quantity: Quantity, judged: Judged) -> Quantity:
 
 
 def _told_centre(words: Mapping[str, str], body: Any) -> Mapping[str, str]:
-    """Write "centre of mass" in full if the body has another centre."""
+    """Write "centre of mass" in full if another point of the body may be called "centre"."""
     is_unclear = words.get("about") == "centre" and bool(getattr(body, "other_centre", ""))
     return {**words, "about": "centre_of_mass"} if is_unclear else words
 

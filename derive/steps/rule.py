@@ -20,7 +20,7 @@ from derive.steps.level import Shown as Shown  # other modules import `Shown` fr
 from derive.steps.subject import NOTHING, Mixed, Subject
 
 GENERIC = "generic"  # the default outcome
-CENTRE_OF_MASS = "centre_of_mass"  # the word for the point "centre" of a body that also has another centre
+CENTRE_OF_MASS = "centre_of_mass"  # the word for a centre of mass if another point may be called "centre"
 ZERO = "zero"  # the outcome for a result that vanishes
 AXES = ("x", "y", "z")
 ROUTE, CHECK = Compared.ROUTE, Compared.CHECK
