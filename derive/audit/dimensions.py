@@ -121,7 +121,7 @@ def usual(equations: Sequence[Equation], meaning: Meaning) -> Iterator[Equation]
 
 
 def equations_of(claim: Claim, meaning: Meaning) -> Iterator[Equation]:
-    """Yield equations that give all terms of a claim the same dimension."""
+    """Yield the equations which state that all terms of a claim have the same dimension."""
     if claim.values is None or claim.relation not in ("=", ":=", "~", "<", ">", "<=", ">="):
         return
     left, right = claim.values

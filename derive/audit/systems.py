@@ -235,7 +235,8 @@ def motion_of(place: Value, value: Value, meaning: Meaning) -> dict[Symbol, Expr
 
 
 def equations_of_motion(place: Value, value: Value, meaning: Meaning, known: Known) -> list[tuple[Expr, int]]:
-    """Return earlier equations for the rates of the coordinate of a motion, without the rates of other coordinates."""
+    """Return the earlier equations that contain rates of the coordinate of a motion, but no rates of other
+    coordinates."""
     rates = set(list(motion_of(place, value, meaning))[1:])
     return [
         (each, number)

@@ -118,7 +118,8 @@ class Side:
 
 @dataclass
 class Statement:
-    """A chain of sides and the relations between them; `follows` is the statement whose last side it continues."""
+    """A chain of sides and the relations between them; `follows` is the statement whose last side this statement
+    continues."""
 
     sides: list[Side]
     relations: list[str]
@@ -156,8 +157,8 @@ class Block:
     sentence: str
     heading: int
     rows: list[Row] = field(default_factory=list)
-    part: int = 0  # how many headings, items and marks such as (a) come before it
-    near: str = ""  # the last characters of the text before it, with formulas
+    part: int = 0  # how many headings, items and marks such as (a) come before the block
+    near: str = ""  # the last characters of the text before the block, with formulas
 
     @cached_property
     def cues(self) -> frozenset[Cue]:

@@ -662,8 +662,8 @@ class Meaning:
         return value
 
     def along_variables(self, value: Any, variables: set[Symbol]) -> Any:
-        """Replace letters by their definitions in earlier rows if these contain a variable of integration, such as
-        r = R z/h in an integral over z."""
+        """Replace each letter by its definition in an earlier row if the definition contains a variable of integration,
+        such as r = R z/h in an integral over z."""
         found = {}
         for symbol in value.free_symbols - variables:
             definition = self.defined(symbol)

@@ -36,7 +36,7 @@ def mark_between(mark: str, sign: int | None) -> str | None:
 
 
 def isolated(expr: Expr, letter: Symbol) -> Isolated | None:
-    """The expression as a (x^n - v); None if it does not have this form."""
+    """The expression in the form a (x^n - v); None if it does not have this form."""
     above, below = expr.as_numer_denom()
     polynomial = above.as_poly(letter)
     terms = polynomial.terms() if polynomial is not None else []

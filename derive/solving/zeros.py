@@ -332,7 +332,8 @@ def _of_root(factor: Expr, roots: list[Expr], q: Symbol) -> list[Zero]:
 
 
 def _allowed(zero: Zero, sign: int | None, q: Symbol) -> list[Zero]:
-    """Return a zero with this sign if the coordinate can have this value; otherwise return nothing.
+    """Return a list with the zero if the coordinate can have this value; otherwise an empty list. `sign` is the sign of
+    the zero.
 
     If the sign is unknown, a zero of a positive coordinate gets the condition that its value is positive; raise
     `Unsolved` if it already has another condition. A value such as l^2 needs no condition: its symbols are assumed not
