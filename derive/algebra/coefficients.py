@@ -28,8 +28,8 @@ class Coefficient(NamedTuple):
     """The coefficient of one product of powers of the symbols.
 
     `whole()` returns the coefficient, and `terms` is the number of its terms. The coefficient may be a factor without
-    sines and cosines times a factor of sines and cosines only. Then `angles` is the second factor. If `other` is
-    another form of `angles`, `written(number, other)` returns `number` times the first factor times `other`, with
+    sines and cosines times a factor of sines and cosines only. Then `angles` is the second factor. If `other` is a
+    different form of `angles`, `written(number, other)` returns `number` times the first factor times `other`, with
     common factors in front. For any other coefficient, `written` is None.
     """
 
@@ -48,7 +48,8 @@ class Factored(NamedTuple):
 
 
 def coefficients(value: Expr, letters: Sequence[Symbol]) -> list[tuple[tuple[int, ...], Coefficient]]:
-    """The tuples of powers of these symbols that occur in the value, in descending order, each with its coefficient.
+    """For each product of powers of these symbols in the value: the tuple of the powers, and the coefficient. The
+    tuples are in descending order.
 
     Raises `Outside` if the value is not a polynomial of the ring `Expanded`, or is too large.
     """
@@ -136,7 +137,7 @@ class Expanded(Ring):
         return rest, turning
 
     def factored(self, terms: Terms, number: Rational, other: Expr = S.One) -> Factored:
-        """The product of the sum of `terms`, `number` and `other`, with the common factors of the terms in front."""
+        """The sum of `terms`, multiplied by `number` and `other`, with the common factors of the terms in front."""
         if number < 0:
             terms, number = {monomial: -coefficient for monomial, coefficient in terms.items()}, -number
         lowest, content, rest = _in_front(terms)

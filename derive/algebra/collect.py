@@ -26,8 +26,8 @@ def with_constants_in_front(value: Expr, moving: Sequence[Symbol]) -> Expr:
     """Write the common factors of a sum in front of it: (2/5) m a^2 (phi_ddot + psi_ddot cos(theta)).
 
     The common factors are a number, constants, sines and cosines. A sum such as m l^2 theta_ddot + m g l sin(theta) is
-    unchanged, because the common number and constants are not the whole coefficient of any term. It is also unchanged
-    if no constant is common and all coefficients are integers.
+    unchanged, because the common number and constants are not the whole coefficient of any term. A sum is also
+    unchanged if its terms have no constant in common and all numerical coefficients are integers.
     """
     terms = Add.make_args(value)
     if len(terms) < 2:
@@ -56,7 +56,8 @@ def _shared(powers: Sequence[dict[Expr, Expr]]) -> dict[Expr, Expr]:
 
 
 def _powers(product: Expr) -> dict[Expr, Expr]:
-    """The bases of a product and their powers, without rational factors; a factor may itself be a product."""
+    """The bases of a product and their powers, without rational factors. A factor may be an unevaluated product, whose
+    bases are also included."""
     found: dict[Expr, Expr] = {}
     for factor in Mul.make_args(product):
         inner = _powers(factor) if factor.is_Mul else {} if factor.is_Rational else dict([factor.as_base_exp()])
@@ -180,9 +181,10 @@ def _varies(term: Expr, moving: Collection[Symbol]) -> bool:
 
 
 def with_weights_in_front(value: Expr, moving: Sequence[Symbol], weights: Collection[Symbol]) -> Expr:
-    """Take the common number and constants of all terms of a kinetic energy to the front, (1/2) m (r_dot^2 +
-    r^2 phi_dot^2). If there is no common number, or if no common constant contains a mass or a moment of inertia, put
-    terms with the same numerical factor and the same constants in one bracket.
+    """Write a kinetic energy with common factors in front of brackets: (1/2) m (r_dot^2 + r^2 phi_dot^2).
+
+    If a constant that is common to all terms contains a mass or a moment of inertia, the common number and constants
+    of all terms are in front. Otherwise, terms with the same numerical factor and the same constants share a bracket.
     """
     letters = {*moving, *(rate(q) for q in moving), TIME}
     terms = [_apart(term, letters) for term in Add.make_args(value)]
@@ -294,7 +296,7 @@ def _with_its_rates(coefficient: Coefficient, rates: list[tuple[Symbol, int]], h
 
 
 def _with_one(product: Expr) -> Expr:
-    """Divide a sum by the denominator if one of its terms then has no denominator, and if this is not longer.
+    """Divide a sum by the denominator if one of its terms then has no denominator, and if the result is not longer.
 
     For example, (p^2 + r^2) r_dot^2/p^2 becomes (1 + r^2/p^2) r_dot^2.
     """
@@ -349,7 +351,7 @@ def _has_fractions_inside(value: Expr) -> bool:
 def _shorter_as_product(value: Expr) -> Expr:
     """The value or its factored form, whichever is shorter: (l + x)^2, not l^2 + 2 l x + x^2.
 
-    A long value is left unchanged, because factoring it may take long.
+    A long value is left unchanged, because factoring it may take a long time.
     """
     return value if length(value) > LONGEST_PRODUCT else min((value, factored(value)), key=length)
 

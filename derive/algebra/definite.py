@@ -26,8 +26,8 @@ def leading_minors(matrix: MatrixBase) -> Iterator[Expr]:
 def sign_of_form(matrix: MatrixBase, sign: Sign) -> int | None:
     """The least sign of the quadratic form away from the origin; None if this sign is unknown.
 
-    The sign is 1 for a positive definite form, 0 for a form that is never negative but vanishes in some direction, and
-    -1 if the form is negative in some direction.
+    The sign is 1 for a positive definite form, and -1 if the form is negative in some direction. It is 0 for a form
+    that is never negative but vanishes in some direction.
 
     To establish the sign 0, all principal minors are needed, not only the leading ones.
     """

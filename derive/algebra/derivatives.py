@@ -21,8 +21,8 @@ ZERO, ONE = Integer(0), Integer(1)
 
 
 def derivative(expr: Any, *by: Symbol | int) -> Any:
-    """The partial derivative with respect to each symbol in turn; a number after a symbol is the order of its
-    derivative. A matrix is differentiated entry by entry."""
+    """The partial derivative with respect to each symbol in turn; a number after a symbol is the order of the
+    derivative with respect to this symbol. A matrix is differentiated entry by entry."""
     if isinstance(expr, MatrixBase):
         return expr.applyfunc(lambda entry: derivative(entry, *by))
     for s in _in_turn(by):

@@ -1,5 +1,5 @@
-"""Encode an expression as nested lists, and decode the lists into the same expression: `["Mul", ["Rational", 13, 12],
-["Symbol", ...]]`.
+"""Encode an expression as nested lists, `["Mul", ["Rational", 13, 12], ["Symbol", ...]]`, and decode the lists into the
+same expression.
 
 Decoding builds only nodes and objects of the classes that this module lists; nothing is evaluated from text.
 """
@@ -64,8 +64,8 @@ def encoded(expr: Any, name: Callable[[Dummy], str] | None = None) -> list[Any]:
 
 @lru_cache(maxsize=4096)
 def _assumptions(symbol: Symbol) -> dict[str, bool]:
-    """Return assumptions that make an equal symbol. SymPy does not record the assumptions with which the symbol was
-    made."""
+    """Return assumptions with which `Symbol` makes an equal symbol. SymPy does not record those with which the symbol
+    was made."""
     usual: tuple[dict[str, bool], ...] = ({}, {"real": True}, {"positive": True}, {"nonnegative": True})
     for assumptions in usual:
         if Symbol(symbol.name, **assumptions) == symbol:
@@ -74,8 +74,8 @@ def _assumptions(symbol: Symbol) -> dict[str, bool]:
 
 
 def decoded(data: Any, named: Callable[[str], Dummy] | None = None) -> Any:
-    """Return the expression that `encoded` wrote; raises ValueError if the data is malformed, too large, or names an
-    unknown class."""
+    """Return the expression that `encoded` wrote; raises `ValueError` if the data is malformed or too large, or if it
+    names an unknown class."""
     left = [MAX_NODES]
 
     def made(tree: Any, depth: int) -> Any:

@@ -126,7 +126,7 @@ def equal(left: Any, right: Any, nonzero: Sequence[Expr] = ()) -> Verdict:
     """
     given: tuple[Any, Any] = (left, right)
     if not all(isinstance(value, Basic | MatrixBase | int) for value in given):
-        return Verdict(Grade.REFUTED, f"{_short(left)} against {_short(right)}, and one of them is not an expression")
+        return Verdict(Grade.REFUTED, f"{_short(left)} against {_short(right)}: one of them is not an expression")
     try:
         left, right = without_abs(explicit(left)), without_abs(explicit(right))
     except (TypeError, ValueError, AttributeError, NotImplementedError) as error:  # SymPy cannot integrate
@@ -161,11 +161,11 @@ def _equal_matrices(left: Any, right: Any) -> Verdict:
 
 def _equal_scalars(left: Expr, right: Expr) -> Verdict:
     if left.has(*UNDEFINED) or right.has(*UNDEFINED):
-        return Verdict(Grade.REFUTED, f"{_short(left)} against {_short(right)}, and one of them is undefined")
+        return Verdict(Grade.REFUTED, f"{_short(left)} against {_short(right)}: one of them is undefined")
     if left == right:
         return Verdict(Grade.PROVED, "identical")
     if not (isinstance(left, Expr) and isinstance(right, Expr) and left.is_commutative and right.is_commutative):
-        return Verdict(Grade.REFUTED, f"{_short(left)} against {_short(right)}, and one of them is not a number")
+        return Verdict(Grade.REFUTED, f"{_short(left)} against {_short(right)}: one of them is not a number")
     left, right = _stripped(left, right)
     if is_identity(left, right):
         return Verdict(Grade.PROVED, "polynomial normal form")
@@ -283,7 +283,7 @@ def _equivalent(left: Any, right: Any, nonzero: Sequence[Expr]) -> Verdict:
     if not (isinstance(left, Relation) and isinstance(right, Relation)):
         return Verdict(Grade.REFUTED, "a relation against a value")
     if left.has(*UNDEFINED) or right.has(*UNDEFINED):
-        return Verdict(Grade.REFUTED, f"{_short(left)} against {_short(right)}, and one of them is undefined")
+        return Verdict(Grade.REFUTED, f"{_short(left)} against {_short(right)}: one of them is undefined")
     if left == right:
         return Verdict(Grade.PROVED, "identical")
     if any(isinstance(side, MatrixBase) for side in (*left.sides, *right.sides)):
@@ -347,8 +347,8 @@ def _equivalent_by_entries(left: Relation, right: Relation) -> Verdict:
 
 
 def _cleared(left: Relation, right: Relation) -> tuple[Relation, Relation] | None:
-    """Rewrite strict inequalities n/d > 0 as n d > 0. The two inequalities are equivalent, because neither is true
-    where d vanishes. None if an inequality is not strict, or if no denominator has a symbol."""
+    """Rewrite strict inequalities n/d > 0 as n d > 0. Each new inequality is equivalent to the old one, because neither
+    is true where d vanishes. None if an inequality is not strict, or if no denominator has a symbol."""
     strict = {left.operator, right.operator} <= {"<", ">"}
     quotients = [relation.residual.as_numer_denom() for relation in (left, right)]
     if not strict or not any(d.free_symbols for _, d in quotients):
@@ -451,7 +451,7 @@ def _ratio_by_a_letter(above: Expr, below: Expr) -> Expr | None:
 
 
 def _by_cosines(expr: Expr) -> Expr:
-    """Write tangents and cotangents as quotients, and squares of sines with cosines, so that common factors are
+    """Write tangents and cotangents as quotients, and squares of sines in terms of cosines, so that common factors are
     visible."""
     expr = expr.replace(tan, lambda angle: sin(angle) / cos(angle))
     expr = expr.replace(cot, lambda angle: cos(angle) / sin(angle))

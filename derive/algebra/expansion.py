@@ -1,6 +1,6 @@
-"""Find the first terms of an expression for a symbol that is small, large, or near a value, by derivatives.
+"""Use derivatives to find the first terms of an expression in which a symbol is small, large, or near a value.
 
-    f = N/D: N and D are expanded in Taylor series in the small symbol, and the series are divided
+    f = N/D: N and D are expanded in Taylor series in the small quantity, and the series are divided
 
 The leading power may be negative or half-integer. Source: Abramowitz, Stegun, *Handbook of Mathematical Functions*,
 3.6.22 (quotient of power series).
@@ -52,7 +52,7 @@ class BeginsBeyond(NoExpansion):
 
 
 class Expansion(ScalarNode):
-    """The terms of f up to a power of the small quantity. Arguments: f, the symbol, its limit, the highest power.
+    """The first terms of f as a series in the small quantity. Arguments: f, the symbol, its limit, the highest power.
 
     The small quantity is x if x goes to 0, 1/x if x goes to infinity, -1/x if x goes to -infinity, and x - a near a.
     """
@@ -104,8 +104,8 @@ class FirstOrder(ScalarNode):
 
 
 def expanded(f: Expr, x: Symbol, to: Expr, power: Rational | None = None) -> Series:
-    """The terms up to this power of the small quantity, as power -> coefficient; only the leading term if no power is
-    given. Raises `NoExpansion` if none are found."""
+    """The terms in which the power of the small quantity is at most `power`, as power -> coefficient; by default only
+    the leading term. Raises `NoExpansion` if none are found."""
     written = in_small(f, x, to)
     if written.count_ops() > LARGEST:
         raise NoExpansion(f)

@@ -446,6 +446,6 @@ def with_known(value: Expr, known: Mapping[Symbol, Expr], moving: Sequence[Symbo
 
 
 def constant_ones(known: Mapping[Symbol, Expr], moving: Sequence[Symbol]) -> dict[Symbol, Expr]:
-    """Return the values that contain no coordinate and no rate."""
+    """Return the symbols in `known` whose values contain no coordinate and no rate, each with its value."""
     varying = {*moving, *map(rate, moving)}
     return {letter: each for letter, each in known.items() if varying.isdisjoint(each.free_symbols)}

@@ -24,7 +24,8 @@ MOST_PARTS = 12  # the highest power that is integrated by parts
 
 
 def definite(value: Expr, limits: Limits) -> Expr | None:
-    """The integral of an explicit expression, limits innermost first; None if a term is of an unknown kind."""
+    """The integral of an explicit expression; `limits` begins with the innermost limits. None if a term is of an
+    unknown kind."""
     return _definite(value, tuple(tuple(limit) for limit in limits))
 
 
@@ -39,7 +40,7 @@ def _definite(value: Expr, limits: Limits) -> Expr | None:
 
 
 def antiderivative(value: Expr, x: Symbol) -> Expr | None:
-    """A function whose derivative is the value, term by term; None if a term is of an unknown kind."""
+    """An antiderivative of the value, found term by term; None if a term is of an unknown kind."""
     found = [(outside, _antiderivative_of_factor(inside, x)) for outside, inside in _terms(value, x)]
     return None if any(whole is None for _, whole in found) else Add(*(outside * whole for outside, whole in found))
 
@@ -124,8 +125,8 @@ def _of_powers(c: Expr, n: Integer, half: Integer) -> Expr:
 
 
 def _powers_by_parts(inside: Expr, x: Symbol) -> Expr | None:
-    """The antiderivative of x^n f(m x + c), where f is a sine, a cosine or an exponential; None for any other
-    product."""
+    """The antiderivative of x^n f(m x + c), where f is a sine, a cosine or an exponential and n is at most
+    `MOST_PARTS`; None for any other product."""
     f, n = inside, 0
     for part in Mul.make_args(inside):
         base, exponent = part.as_base_exp()

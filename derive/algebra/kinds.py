@@ -127,7 +127,7 @@ class Inhomogeneous(Exception):
 
 
 def common(terms: Iterable[Any], of: Callable[[Any], Dimension | None]) -> Dimension | None:
-    """The dimension of all terms of a sum; raises `Inhomogeneous` with the first term of another dimension.
+    """The dimension of all terms of a sum; raises `Inhomogeneous` with the first term that has a different dimension.
 
     A term of unknown dimension, such as zero, fits any other term. None if all dimensions are unknown.
     """
@@ -219,8 +219,8 @@ ANNOTATIONS: Mapping[str, Asked] = {
 
 
 def asked_by_annotation(annotation: Any) -> Asked | None:
-    """Return what a parameter's annotation asks for, or None if it is not an annotation of this module. The annotation
-    may be a string."""
+    """Return the quantities that a parameter's annotation asks for, or None if it is not an annotation of this module.
+    The annotation may be a string."""
     if isinstance(annotation, str):
         return ANNOTATIONS.get(annotation.strip().rpartition(".")[2])
     return DIRECTION if annotation is Direction else _asked(annotation)

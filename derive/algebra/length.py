@@ -67,7 +67,8 @@ def _of_fraction(value: Expr) -> int:
 
 
 def _of_product(factors: list[Expr]) -> int:
-    """The length of a numerator or denominator. SymPy multiplies a number into a sum if it is the only other factor."""
+    """The length of a numerator or denominator. SymPy multiplies a number into a sum if the product has no other
+    factors."""
     is_put_in = len(factors) == 2 and factors[0].is_Rational and factors[1].is_Add
     return length(Mul(*factors)) if is_put_in else _of_factors(factors)
 

@@ -14,8 +14,13 @@ from derive.algebra.node import DimensionOf, MatrixNode, TextOf, Value, explicit
 class MassIntegral(MatrixNode):
     """The integral of f(r) dm over a body, where f is a vector or a tensor.
 
-    Arguments: f in terms of the vector name r; r; the density; the position as a function of the coordinates of the
-    region; the volume element divided by the differentials of these coordinates; the limits, innermost first.
+    Arguments, in this order:
+
+    - f, which contains the vector name r; and the name r;
+    - the density;
+    - the position as a function of the coordinates of the region;
+    - the volume element divided by the differentials of these coordinates;
+    - the limits, innermost first.
     """
 
     @property

@@ -203,7 +203,8 @@ def _order_of_root(value: Expr, symbol: Symbol) -> int:
 
 
 def _solved_together(choice: Sequence[tuple[Symbol, Expr]]) -> dict[Symbol, Expr] | None:
-    """Substitute the solutions in each other; None if a symbol then depends on itself."""
+    """Substitute the solutions in each other; None if two of them are for the same symbol, or if a symbol then depends
+    on itself."""
     found: dict[Symbol, Expr] = {}
     for symbol, value in choice:
         value = value.subs(found)
@@ -224,8 +225,9 @@ def _with(
 
 
 def compared(left: Expr, mark: str, right: Expr, takes_roots: bool = True) -> Relation:
-    """Divide both sides by common factors; exchange the sides if only the left side is a number. Write gamma < omega_0,
-    not 4 gamma^2 < 4 omega_0^2, if both sides are squares of positive expressions and `takes_roots` is true."""
+    """Divide both sides by positive common factors; exchange the sides if only the left side is a number. If both sides
+    are squares of positive expressions and `takes_roots` is true, write gamma < omega_0, not 4 gamma^2 < 4 omega_0^2.
+    """
     shared = common_factor([left, right])
     if shared.is_positive:
         left, right = tidied(left / shared), tidied(right / shared)

@@ -1,7 +1,7 @@
 """The base classes of the unevaluated forms of `derive.algebra.expressions`, and their evaluation.
 
 A node defines its value (`doit`), its dimension (`dimension`), and its equivalent in SymPy without these classes
-(`lowered`). `NODES` lists all nodes, so that they can be encoded as lists and decoded.
+(`lowered`). `NODES` lists all classes of nodes, so that nodes can be encoded as lists and decoded.
 """
 
 from __future__ import annotations

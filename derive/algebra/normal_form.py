@@ -42,7 +42,7 @@ from derive.algebra.samples import is_zero_everywhere
 from derive.algebra.sparse_polynomials import Outside
 from derive.algebra.trig_polynomials import asked
 
-LARGEST = 4000  # greatest number of operations of an expression that is rewritten in smaller angles
+LARGEST = 4000  # greatest number of operations of an expression that is rewritten in terms of smaller angles
 
 
 def vanishes(expr: Expr) -> bool:

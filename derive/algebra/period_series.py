@@ -118,8 +118,8 @@ def is_isochronous(f: Expr, q: Symbol, amplitude: Symbol, squared_frequency: Exp
 
 
 def quarter_swing(f: Expr, q: Symbol, amplitude: Symbol, order: int) -> Expr:
-    """The terms of the integral of dq/sqrt(f) from 0 to A, up to this power of the amplitude A. Raises `NoExpansion` if
-    they are not found."""
+    """The integral of dq/sqrt(f) from 0 to A as a series in the amplitude A; `order` is the highest power. Raises
+    `NoExpansion` if the series is not found."""
     inside = reduced_square(f, q, amplitude, order)
     (leading, *rest) = inside
     if leading.has(ANGLE) or leading == 0:

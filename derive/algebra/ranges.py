@@ -206,8 +206,8 @@ def _drawn_out(root: Pow) -> Expr | None:
 
 
 def sign_within(expr: Expr) -> int | None:
-    """The sign of an expression, 1 or -1, if it is known to be the same at all points that the ranges of the symbols
-    and the assumed relations allow; else None. The ends of the ranges are left out."""
+    """The sign of an expression, 1 or -1; None if it is not known. The sign must be the same at all points that the
+    ranges of the symbols and the assumed relations allow. The ends of the ranges are left out."""
     signs = [_sign_of_factor(factor) for factor in Mul.make_args(expr)]
     return None if None in signs else prod(sign for sign in signs if sign)
 

@@ -45,7 +45,7 @@ DIGITS = 50
 WORKING = (60, 160, 420)  # precisions in digits, tried in this order until a comparison is decided and confirmed
 SPARE = 20  # working digits that may be lost by rounding, cancellation and large arguments
 
-NEGLIGIBLE = 1e-25  # an entry of a matrix that is smaller than this counts as a rounding error
+NEGLIGIBLE = 1e-25  # a matrix entry smaller than this counts as a rounding error
 RANKS_TRIED = 8  # greatest number of points that are drawn to find the rank of a matrix
 
 ORDINARY = (0,)
@@ -258,9 +258,9 @@ def as_sympy(x: Any) -> Expr:
 # --- the value of an expression --------------------------------------------------------------------------------------
 
 _OF_ZERO = -(10**30)
-# Largest size of a power, and largest argument of a function in `_GROWING`. The size of a power is the exponent times
-# the number of bits of the base; it may be four times as large if the exponent is a multiple of 1/2. Larger values
-# would hide the other terms of a sum.
+# Largest argument of a function in `_GROWING`, and largest size of a power: the exponent times the number of bits of
+# the base. If the exponent is a multiple of 1/2, the size may be four times this number. Larger values would hide the
+# other terms of a sum.
 _LARGEST = 300
 _MOST = 60  # greatest number of bits of the integer part of a function's argument, and of an exponent
 _GROWING = {"exp", "sinh", "cosh", "tanh", "coth", "sech", "csch", "erf"}

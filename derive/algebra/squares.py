@@ -11,7 +11,8 @@ MOST_TERMS = 8  # a longer sum is not searched for squares
 
 
 def differences_of_squares(product: Expr) -> Expr:
-    """Replace two factors u + v and u - v of a product by u^2 - v^2, if u and v are symbols up to their signs."""
+    """Replace two factors u + v and u - v of a product by u^2 - v^2, if u and v are symbols, with or without a minus
+    sign."""
     factors = list(Mul.make_args(product))
     for one, other in combinations(factors, 2):
         if not (_is_pair_of_letters(one) and _is_pair_of_letters(other)):

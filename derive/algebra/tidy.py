@@ -172,8 +172,8 @@ def _as_one_fraction(value: Expr) -> Expr:
 
 
 def _with_term_in_common(value: Expr) -> Expr:
-    """Write 2 g (2 u + a v)/(4 u + b w) as g (u + a v/2)/(u + b w/4), so that both sums contain the same term. If the
-    terms of the denominator are single letters, the whole numbers stay."""
+    """Write 2 g (2 u + a v)/(4 u + b w) as g (u + a v/2)/(u + b w/4), so that both sums contain the same term. If all
+    terms of the denominator are single symbols, with or without a number, the value is unchanged."""
     above, below = fraction(value) if value.is_Mul else (value, Integer(1))
     number, factors = above.as_coeff_Mul()
     sums = [part for part in Mul.make_args(factors) if part.is_Add]
@@ -209,7 +209,8 @@ def _by_one_angle(value: Expr) -> list[Expr]:
 
 
 def _by_half_angle(value: Expr) -> list[Expr]:
-    """Write sin(2 a) as 2 sin a cos a next to sin a or cos a, with which it may have a common factor."""
+    """Write sin(2 a) as 2 sin a cos a if the value also contains sin a or cos a, because these may be common
+    factors."""
     angles = {function.args[0] for function in value.atoms(sin, cos)}
     doubled = [turn for turn in value.atoms(sin) if turn.args[0] / 2 in angles]
     halves = {turn: 2 * sin(turn.args[0] / 2) * cos(turn.args[0] / 2) for turn in doubled}

@@ -97,7 +97,7 @@ def _has_roots(expr: Expr) -> bool:
 
 
 def _is_in_angles(base: Expr) -> bool:
-    """Whether the base may occur in an angle, such as phi_dot t cos theta for a steady precession."""
+    """Whether the base of a power may occur in an angle, as phi_dot, t and cos theta occur in phi_dot t cos theta."""
     return base.is_Symbol or isinstance(base, sin | cos) and base.args[0].is_Symbol
 
 

@@ -86,7 +86,7 @@ def declared_letters(path: Path) -> dict[Identity, str]:
     except (yaml.YAMLError, UnicodeDecodeError) as error:
         raise Misused(Complaint("symbols", f"`{path}` is not a YAML file: {str(error).splitlines()[0]}")) from None
     if not isinstance(read, dict) or len(read) > MOST_SYMBOLS:
-        message = f"`{path}` must be a list of at most {MOST_SYMBOLS} letters with their kinds"
+        message = f"`{path}` must be a mapping of at most {MOST_SYMBOLS} letters, each with its kind"
         raise Misused(Complaint("symbols", message, help="such as `omega: vector`"))
     found: dict[Identity, str] = {}
     for name, kind in read.items():

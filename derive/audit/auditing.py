@@ -210,7 +210,7 @@ class _Auditor:
         self.explained: set[int] = set()  # the numbers of claims that explain letters of the display before them
 
     def begin(self, scope: int) -> None:
-        """Begin a problem or section, and forget what the rows of earlier problems and sections gave."""
+        """Begin a problem or section, and forget the definitions and equations of earlier problems and sections."""
         self.scope = scope
         self.meaning.scope = scope
         self.known = self.scopes[scope] = self.assumptions()
@@ -305,8 +305,8 @@ class _Auditor:
         """Return the conditions before a display, in the same sentence, that are used in one of its rows: "with
         `r = l`, this becomes".
 
-        A condition such as `x = 0` is not used in a row that contains `x`, because the row is about other instants:
-        "the energy at `x = 0` is conserved". Conditions of equilibrium hold in rows of the same part without rates.
+        A condition such as `x = 0` is not used in a row that contains `x`. In "the energy at `x = 0` is conserved", the
+        row is about other instants. Conditions of equilibrium hold in rows of the same part without rates.
         """
         written = {each.identity for each in letters_in(claim.left, claim.right)}
         conditions = [self.claims[each] for each in self.known.sentence & self.known.conditions - self.known.at_rest]
@@ -499,7 +499,7 @@ class _Auditor:
             return  # a letter of an integrand may depend on the variable of integration
         in_sentence = not claim.is_step and not claim.row.block.display and not self.is_general(claim)
         if verdict.outcome is Outcome.DEFINES and claim.values[0] in self.known.definitions:
-            # the letter may have another value in another part or case
+            # the letter may have a different value in another part or case
             self.doubt(verdict, self.change_of_value(claim))
             return
         strange = self.strange_letters(claim) if in_sentence else set()
@@ -656,7 +656,7 @@ class _Auditor:
         return found
 
     def known_without(self, earlier: Claim, claim: Claim) -> Known:
-        """Return what the rows up to `claim` give if the row `earlier` is left out."""
+        """Return the definitions and equations that the rows up to `claim` give without the row `earlier`."""
         kept, self.known = self.known, self.assumptions()
         try:
             for each in self.claims[: claim.number + 1]:
@@ -748,7 +748,7 @@ class _Auditor:
             if used or not of_same or formula.verdict.outcome is Outcome.HOLDS:
                 later = []
             if later:
-                because = f"line {claim.row.line} gives another value, and later rows follow only from that value"
+                because = f"line {claim.row.line} gives a different value, and later rows follow only from that value"
                 formula.verdict = replace(
                     verdict, because=because, suggestion="", span=None, or_lines=(claim.row.line,)
                 )
@@ -881,7 +881,7 @@ class _Auditor:
     def of_missing_differential(self, claim: Claim, left_side: Node) -> Verdict | None:
         """Return a verdict if the right side lacks a differential; otherwise None.
 
-        The verdict is also None if no single change makes the claim right and `lacks_differential` is false.
+        The result is also None if no single change makes the claim right and `lacks_differential` is false.
         """
         assert claim.right is not None
         if not any(isinstance(each, Int) for each in claim.right.walk()):
@@ -1032,7 +1032,7 @@ class _Auditor:
         return all(sympy.diff(value, each).is_number for each in moving)
 
     def remember(self, claim: Claim, believed: bool = False) -> None:
-        """Remember what a claim gives to the rows that follow: definitions, an equation or a bound."""
+        """Remember the definitions, the equation or the bound that a claim gives for later rows."""
         if claim.values is None or claim.verdict is None:
             return
         if self.is_special_case(claim):
@@ -1078,13 +1078,13 @@ class _Auditor:
         if claim.verdict.outcome is Outcome.HOLDS and not claim.verdict.given and not isinstance(left, Symbol):
             return  # an identity gives nothing new
         if not claim.row.block.display and isinstance(left, Symbol) and right.is_number and right != 0:
-            return  # a number in a sentence is only substituted, for example one for a drawing
+            return  # a number in a sentence, such as `m = 2` for a drawing, is not used as an equation
         self.known.state(sympy.expand(left - right) if sympy.count_ops(left - right) < 600 else left - right, number)
 
 
 def lacks_differential(side: Node) -> bool:
-    """Whether a multiple integral with limits at each sign has fewer differentials than signs, but at least one.
-    Integrals with an element such as dA or dV do not count.
+    """Whether a multiple integral with limits at each integral sign has at least one differential, but fewer
+    differentials than integral signs. Integrals with an element such as dA or dV do not count.
     """
     for each in side.walk():
         if isinstance(each, Int):

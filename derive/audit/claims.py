@@ -55,7 +55,7 @@ class Verdict:
     choices: tuple[Choice, ...] = ()
     span: Span | None = None
     repeated: Definition | None = None  # the earlier value that this row claims to repeat
-    contradicts: int | None = None  # the number of an earlier claim that gives another value
+    contradicts: int | None = None  # the number of an earlier claim that gives a different value
     or_lines: tuple[int, ...] = ()  # lines of earlier rows that may contain the slip instead
 
 

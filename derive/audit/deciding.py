@@ -1,4 +1,4 @@
-"""The verdict on one claim: whether its right side follows from its left side and from what earlier rows gave.
+"""The verdict on one claim: whether its right side follows from its left side and from earlier rows.
 
 A claim holds, for example, if its sides are equal after definitions are substituted, or if it follows from earlier
 equations. A claim differs, for example, if numbers show that its sides are not equal.
@@ -49,8 +49,8 @@ SMALL = (Rational(1, 100), Rational(1, 1000))
 
 
 def same(left: Value, right: Value) -> bool:
-    """Whether two values are equal. If both contain ±, the upper sign of one must match the upper sign of the other
-    and the lower sign the lower, or the signs must match crosswise."""
+    """Whether two values are equal. If they contain ±, they must be equal for both signs, or become equal for both
+    signs after ± is reversed in one of them."""
     if isinstance(left, MatrixBase) != isinstance(right, MatrixBase):
         return False
     if isinstance(left, MatrixBase) and left.shape != right.shape:
@@ -80,7 +80,7 @@ class Decision:
     meaning: Meaning
     known: Known
     cues: frozenset[Cue]
-    thorough: bool = True  # whether earlier equations are also combined, which takes long
+    thorough: bool = True  # whether earlier equations are also combined, which takes a long time
 
     def verdict(self) -> Verdict:
         for test in (
@@ -233,7 +233,7 @@ class Decision:
         return Verdict(Outcome.UNDECIDED, f"{_word(letter)} does not satisfy the earlier equation for {_word(plain)}")
 
     def other_name(self, letter: Symbol, value: Expr) -> Symbol | None:
-        """Return a letter with another index and the same value, or None."""
+        """Return a letter with a different index and the same value, or None."""
         named = self.meaning.symbols[letter]
         for symbol, definitions in self.known.definitions.items():
             other = self.meaning.symbols.get(symbol)
@@ -249,7 +249,7 @@ class Decision:
         if (found := self.together()) is not None:
             return found
         if self.claim.row.block.display and self.value_of_letter() is not None:
-            return Verdict(Outcome.UNDECIDED, f"earlier rows give another value of {_word(letter)}")
+            return Verdict(Outcome.UNDECIDED, f"earlier rows give a different value of {_word(letter)}")
         return None
 
     def value_of_letter(self) -> list[complex] | None:
@@ -364,7 +364,7 @@ class Decision:
                 return Verdict(Outcome.APPROXIMATES, "equal to the printed digits", used)
             if error <= 2 * self.tolerance:
                 return Verdict(
-                    Outcome.APPROXIMATES, "equal up to the last printed digit, as after rounding twice", used
+                    Outcome.APPROXIMATES, "equal except for the last printed digit, as after rounding twice", used
                 )
         return None
 
@@ -583,7 +583,7 @@ class Decision:
         new = (right.free_symbols - left.free_symbols) & (self.right.free_symbols - self.left.free_symbols)
         new |= {each for each in right.free_symbols - left.free_symbols if each not in self.left.free_symbols}
         if above is not None and (lost := self.lost_letter(left, right)) is not None:
-            because = f"the formula before it gives another value of {_word(above.symbol)}"
+            because = f"the formula before it gives a different value of {_word(above.symbol)}"
             return Verdict(Outcome.DIFFERS, because, why_plausible=f"the term {_word(lost)} was lost in that formula")
         if new - self.left.free_symbols:
             return Verdict(Outcome.UNDECIDED, f"only the right side contains {', '.join(sorted(map(_word, new)))}")
@@ -607,7 +607,7 @@ class Decision:
         if not example:
             return Verdict(Outcome.UNDECIDED, "no numbers show whether the two sides are equal")
         if above is not None:
-            because = f"the formula before it gives another value of {_word(above.symbol)}"
+            because = f"the formula before it gives a different value of {_word(above.symbol)}"
             return Verdict(Outcome.DIFFERS, because, counterexample=example)
         return Verdict(Outcome.DIFFERS, "the two sides are not equal", counterexample=example)
 
@@ -635,7 +635,8 @@ class Decision:
         """The formula for the left side in the row above, or before the display in the same sentence, if this row
         evaluates the formula; otherwise None.
 
-        A row evaluates a formula if it does not contain some letters of the formula, and one of these has a value.
+        A row evaluates a formula if some letters of the formula are missing in the row, and one of the missing letters
+        has a value.
         """
         if self.claim.is_step or not isinstance(self.left, Symbol) or not self.known.is_defined(self.left):
             return None
@@ -689,13 +690,13 @@ class Decision:
         if isinstance(self.left, Symbol) and self.known.is_defined(self.left):
             before = self.known.definitions[self.left][-1]
             if Cue.REPEATED in self.cues:
-                because = f"another value of {_word(self.left)} than before"
+                because = f"this value of {_word(self.left)} differs from its earlier value"
                 return Verdict(Outcome.UNDECIDED, because, (before.claim,), repeated=before)
             if before.part not in (-1, self.claim.row.block.part):
-                return Verdict(Outcome.DEFINES, f"another value for {_word(self.left)} in another part")
+                return Verdict(Outcome.DEFINES, f"a different value for {_word(self.left)} in another part")
             if self.cues & {Cue.DEFINED, Cue.GIVEN}:
                 return Verdict(Outcome.DEFINES, f"a value for {_word(self.left)} in another case")
-            return Verdict(Outcome.UNDECIDED, f"another value of {_word(self.left)} than before")
+            return Verdict(Outcome.UNDECIDED, f"this value of {_word(self.left)} differs from its earlier value")
         if new := self.known.new_letters(symbols):
             if (number := self.has_negative_square(new)) is not None:
                 because = f"with an earlier equation of motion, the square of {_word(new[0])} is negative"
@@ -708,8 +709,8 @@ class Decision:
         return Verdict(Outcome.UNDECIDED, "an equation that does not follow from the rows before it")
 
     def has_negative_square(self, new: list[Symbol]) -> int | None:
-        """Return the number of the earlier equation of motion that would make the square of the only new letter
-        negative, such as w^2 in `x'' + w^2 x = 0`; None if there is no such equation."""
+        """Return the number of an earlier equation of motion that makes the square of the only new letter negative;
+        None if there is no such equation. In `x'' + w^2 x = 0`, the only new letter is w."""
         if len(new) != 1 or isinstance(self.difference, MatrixBase) or not new[0].is_positive:
             return None
         here = sympy.expand(self.difference)
@@ -729,8 +730,8 @@ class Decision:
         return None
 
     def is_lagrange_form(self, symbols: set[Symbol]) -> bool:
-        """Whether an equation looks like Lagrange's equation: its derivatives are of one letter only, by a coordinate
-        and by a rate."""
+        """Whether an equation looks like Lagrange's equation: its derivatives are of one letter only, with respect to a
+        coordinate and to a rate."""
         derivatives = [self.meaning.derivatives[each] for each in symbols if each in self.meaning.derivatives]
         letters = {letter.identity for letter, _, _ in derivatives}
         dots = {

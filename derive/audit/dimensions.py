@@ -85,7 +85,7 @@ def odd_claim(claims: Sequence[Claim], meaning: Meaning) -> Claim | None:
     for letter in LESS_USUAL if conflicts else ():
         without = [each for each in equations if each.source != -1 or list(each.form) != [letter]]
         if not _conflicts(without):
-            return None  # the letter has another dimension here: `l` is an angular momentum
+            return None  # the letter has a different dimension here: `l` is an angular momentum
     if not conflicts:
         return None
     shared = set.intersection(*conflicts)
@@ -121,7 +121,7 @@ def usual(equations: Sequence[Equation], meaning: Meaning) -> Iterator[Equation]
 
 
 def equations_of(claim: Claim, meaning: Meaning) -> Iterator[Equation]:
-    """Yield equations that give all terms of a claim the same dimension."""
+    """Yield the equations which state that all terms of a claim have the same dimension."""
     if claim.values is None or claim.relation not in ("=", ":=", "~", "<", ">", "<=", ">="):
         return
     left, right = claim.values

@@ -27,13 +27,15 @@ from derive.documents.source import Format, source_of
 from derive.documents.syntax import Abs, Der, EvalBar, Fun, Letter, Node
 
 SECONDS = 5.0  # seconds of processor time for comparing one result with one section
-LEAST_SCORE = 3  # a further section is compared with the answers if it states at least this number of steps
+# The section that states most steps of a derivation is compared with the answers, and so are its neighbours if they
+# state any step. Other sections are compared if they state at least this number of steps.
+LEAST_SCORE = 3
 NAMED = (Letter, Abs, Der, EvalBar, Fun)
 
 
 @dataclass(frozen=True)
 class Expected:
-    """A result of a derivation; `asked` if it is an answer to a part of the problem."""
+    """A result of a derivation; `asked` is true if the result is an answer to a part of the problem."""
 
     problem: str
     key: str
@@ -92,10 +94,10 @@ def compared(
     meaning_of: Callable[[int], Meaning],
     expected: Iterable[Expected],
 ) -> list[Compared]:
-    """Return what the document says about each answer. Claims that contradict an answer get a new verdict.
+    """Return, for each answer, whether the document contains it. Claims that contradict an answer get a new verdict.
 
     scopes       the scope of each claim
-    known        what the rows of each scope gave
+    known        the definitions, equations and numbers that the rows of each scope give
     meaning_of   the meaning of letters in a scope
     """
     problems: dict[str, list[Expected]] = {}
@@ -120,7 +122,8 @@ def compared(
 
 
 def _of(expected: Expected, sections: list[_Section]) -> Compared:
-    """Return where the sections state an answer; report rows that contradict the answer."""
+    """Return whether the sections state an answer, and the claim that states or contradicts it. Report the rows that
+    contradict it."""
     found = Compared(expected, Status.UNREAD if all(expected.key not in each.results for each in sections) else
                      Status.MISSING)  # fmt: skip
     for section in sections:

@@ -83,7 +83,8 @@ class Known:
                 del self.definitions[symbol]
 
     def forget_derivatives(self, symbol: Symbol) -> None:
-        """Forget what earlier parts state about the derivatives of a letter that gets another value."""
+        """Forget the values of the derivatives of a letter, and the equations that contain these derivatives. A later
+        part gives the letter a different value."""
         letter = self.meaning.symbols.get(symbol)
         changed = {
             each
@@ -110,7 +111,7 @@ class Known:
                 self.equations.append((each, claim))
 
     def with_slips(self) -> Known | None:
-        """Return the same knowledge with the values that wrong rows give; None if no row is wrong."""
+        """Return the same knowledge with the values that wrong rows give; None if no wrong row gives a value."""
         if not self.slips:
             return None
         believed = {symbol: [definition] for symbol, definition in self.slips.items()}

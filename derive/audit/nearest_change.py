@@ -37,7 +37,7 @@ Shown = Callable[..., str]
 
 @dataclass
 class Nearness:
-    """Searches for one change of a side."""
+    """The search for one change of a side after which a claim would follow."""
 
     meaning: Meaning
     known: Known
@@ -224,7 +224,8 @@ def letters_in(*sides: Node | None) -> list[Letter]:
 
 
 def is_other_root(edit: Edit, side: Node) -> bool:
-    """Whether a change reverses the sign of a square root: either sign gives a root, and the text may choose one."""
+    """Whether a change reverses the sign of a square root: either sign may be right, because the text may choose one of
+    two solutions."""
     return edit.kind == "sign" and any(
         isinstance(each, Root) and edit.span.start <= each.span.start < edit.span.end for each in side.walk()
     )

@@ -36,7 +36,8 @@ def summary(audit: Audit) -> dict[str, int]:
 
 
 def as_text(audit: Audit, every: bool) -> str:
-    """Return the rows that differ or have a suggestion, each with its place; with `every`, return all rows."""
+    """Return the rows that differ or have a suggestion, each with its place, and a summary. With `every`, return all
+    rows and the summary."""
     shown = [_told(audit, claim, every) for claim in audit.claims if every or _is_noteworthy(_verdict(claim))]
     counted = summary(audit)
     parts = [f"{counted[str(outcome)]} {words}" for outcome, words in WORDS.items() if counted[str(outcome)]]
@@ -78,13 +79,13 @@ def _told(audit: Audit, claim: Claim, every: bool) -> str:
     if verdict.counterexample:
         notes.append(f"for example {verdict.counterexample}")
     if lines := _lines(audit, verdict):
-        notes.append(f"given line {', '.join(map(str, lines))}")
+        notes.append(f"uses line{'s' * (len(lines) > 1)} {', '.join(map(str, lines))}")
     if verdict.inherits is not None:
         notes.append(f"repeats the slip of line {audit.claims[verdict.inherits].row.line}")
     if carrying := [each.row.line for each in audit.claims if _verdict(each).inherits == claim.number]:
         notes.append(f"repeated in line {', '.join(map(str, dict.fromkeys(carrying)))}")
     if ASSUMED in verdict.given:
-        notes.append("given an assumption from the command line")
+        notes.append("uses an assumption from the command line")
     suggestion = f"probably {verdict.suggestion}: {verdict.why_plausible}" if verdict.suggestion else None
     if verdict.why_plausible and not suggestion:
         notes.append(verdict.why_plausible)
@@ -116,7 +117,7 @@ def _lines(audit: Audit, verdict: Verdict) -> list[int]:
 
 
 def as_data(audit: Audit) -> dict[str, Any]:
-    """Return the audit as data: the file, its rows with their verdicts, and the number of each verdict."""
+    """Return the audit as data: the file, its rows with their verdicts, and how often each verdict occurs."""
     answers = [
         {
             "problem": each.expected.problem,

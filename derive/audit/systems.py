@@ -82,7 +82,7 @@ def _equations_of(known: Known, meaning: Meaning, without: Symbol | None, sure: 
         add(put_in, claims, name)
     for each in list(found[:6]):
         if sympy.count_ops(each.value) > LARGEST_CONSTRAINT or known.here & set(each.claims):
-            continue  # what holds at one instant has no rate
+            continue  # an equation that holds at one instant only cannot be differentiated
         for rate in rates(each.value, meaning, known):
             add(rate, each.claims, OF_RATES)
     return found[: 2 * MOST_EQUATIONS]
@@ -302,7 +302,8 @@ def motion_of(place: Value, value: Value, meaning: Meaning) -> dict[Symbol, Expr
 
 
 def equations_of_motion(place: Value, value: Value, meaning: Meaning, known: Known) -> list[tuple[Expr, int]]:
-    """Return earlier equations for the rates of the coordinate of a motion, without the rates of other coordinates."""
+    """Return the earlier equations that contain rates of the coordinate of a motion, but no rates of other
+    coordinates."""
     rates = set(list(motion_of(place, value, meaning))[1:])
     return [
         (each, number)
@@ -551,7 +552,7 @@ class System:
         return False
 
     def value_of_letter(self) -> list[complex] | None:
-        """Return the numbers that the equations give to the letter asked for, or None if they do not determine it."""
+        """Return the values of `letter` at the points, or None if the equations do not determine them."""
         if self.of_wanted is None or self.letter is None or not self.polys:
             return None
         monom = tuple(int(each == self.letter) for each in self.unknowns)

@@ -12,5 +12,5 @@
 
     vocabulary  the commands of LaTeX, sorted by their meaning
 
-Every layer reads the text as it is; a slip of the author is neither rejected nor corrected here.
+No layer rejects or corrects a slip of the author.
 """

@@ -1,4 +1,4 @@
-"""The alternative of each `Open` node that the facts of the document select, and the rule behind each choice."""
+"""For each `Open` node, the alternative that the facts of the document select, and the rule behind this choice."""
 
 from __future__ import annotations
 

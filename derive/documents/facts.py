@@ -32,7 +32,7 @@ from derive.documents.syntax import (
 )
 
 Identity = tuple[str, str, frozenset[str], int, str]
-UNKNOWN: Identity = ("?", "", frozenset(), 0, "")  # the variable of a function where only its value is written: V(q_r)
+UNKNOWN: Identity = ("?", "", frozenset(), 0, "")  # the variable of a function of which only a value is written: V(q_r)
 VARIABLES = frozenset({"t", "x", "y", "z", "r", "s", "theta", "phi", "q", "u", "tau"})
 KINDS = ("positive", "real", "integer", "constant", "changes", "vector", "tensor")
 TENSORS = ("I", "J", "Theta")

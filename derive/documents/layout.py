@@ -1,9 +1,9 @@
 r"""The formulas of a document in their order: headings, sentences, displays with their rows, and their statements.
 
 A display is a block of rows. A row that begins with a relation continues the chain of the row before it. A row that
-begins with a sign after an alignment mark continues the last side of the row before it. So does a row after an open
-bracket, an operator or a relation. A statement is a chain of sides, such as `a = b = c`; words and commas separate the
-statements of a row.
+begins with a sign after an alignment mark continues the last side of the row before it. So does a row if the row before
+it ends with an operator or a relation, or has an open bracket. A statement is a chain of sides, such as `a = b = c`;
+words and commas separate the statements of a row.
 """
 
 from __future__ import annotations
@@ -118,7 +118,8 @@ class Side:
 
 @dataclass
 class Statement:
-    """A chain of sides and the relations between them; `follows` is the statement whose last side it continues."""
+    """A chain of sides and the relations between them; `follows` is the statement whose last side this statement
+    continues."""
 
     sides: list[Side]
     relations: list[str]
@@ -156,8 +157,8 @@ class Block:
     sentence: str
     heading: int
     rows: list[Row] = field(default_factory=list)
-    part: int = 0  # how many headings, items and marks such as (a) come before it
-    near: str = ""  # the last characters of the text before it, with formulas
+    part: int = 0  # how many headings, items and marks such as (a) come before the block
+    near: str = ""  # the last characters of the text before the block, with formulas
 
     @cached_property
     def cues(self) -> frozenset[Cue]:
@@ -347,7 +348,7 @@ class _Reading:
                 unclosed[closing] = reach  # no sign before this position closes a formula of this kind
                 continue
             if not display and _LINE_BREAK.search(self.text, position, close_at.start()):
-                continue  # a dollar sign that opens no formula
+                continue  # this dollar sign does not open a formula
             end, after = close_at.span()
             while opening["dollar"] and (more := _CARRIED_ON.match(self.text, end)):
                 end, after = more.end() - 1, more.end()
@@ -494,7 +495,7 @@ def _simplified(tokens: list[Token]) -> list[Token]:
             found += [*_environment_sign(token, "begin", name), *inner, *_environment_sign(token, "end", name)]
         elif token.is_command("eval") and at < len(tokens) and tokens[at].is_command("cdot"):
             while at < len(tokens) and not tokens[at].is_command(*ARROWS, "\\\\", "qc", "quad", "qquad"):
-                at += 1  # the note `| \cdot 2` says by what both sides are multiplied
+                at += 1  # the note `| \cdot 2` says that both sides are multiplied by 2
         elif token.is_command("hline", "midrule", "toprule", "bottomrule", "centering"):
             continue
         elif token.is_command("qq"):
@@ -560,7 +561,7 @@ def _system_at(tokens: list[Token], at: int) -> tuple[list[Token], int] | None:
 
 
 def _bracket_at(tokens: list[Token], at: int) -> tuple[list[Token], int]:
-    """Return the tokens inside the bracket or the braces at a position, and the position behind the closing one."""
+    """Return the tokens inside the bracket or the braces at a position, and the position after the closing one."""
     if not tokens[at].is_mark("(", "["):
         return argument_at(tokens, at)
     for end, (token, depth) in enumerate(depths(tokens[at:])):

@@ -107,8 +107,8 @@ class Meaning:
     decimals: list[tuple[Expr, int]] = field(default_factory=list)
     units: bool = False
     scope: int = -1
-    # which letters of vectors are read as numbers: "" for none, `unmarked` for those without an arrow or bold type,
-    # `all` for all of them, `tensors` for all of them and for the letters of tensors
+    # Which letters are read as numbers, although they may denote vectors: "" for none, `unmarked` for those without an
+    # arrow or bold type, `all` for all of them. `tensors` also includes the letters that denote tensors.
     plain: str = ""
     derivatives: dict[Symbol, tuple[Letter, tuple[tuple[Symbol, int], ...], bool]] = field(default_factory=dict)
     symbols: dict[Symbol, Letter] = field(default_factory=dict)
@@ -563,8 +563,8 @@ class Meaning:
         return sympy.diff(term.xreplace(put_in), by)
 
     def rate_of(self, symbol: Symbol, by: Symbol, partial: bool) -> Expr:
-        """Return the derivative of a letter with respect to another letter: a rate, a symbol for the derivative, or
-        zero if the first letter is not known to depend on the second."""
+        """Return the derivative of a letter with respect to another letter. It is zero if the first letter is not known
+        to depend on the second. Otherwise it is, for example, a rate or a symbol for the derivative."""
         if symbol in self.sums:
             term, index, bounds = self.sums[symbol]
             if self.has_index(by, index):
@@ -662,8 +662,8 @@ class Meaning:
         return value
 
     def along_variables(self, value: Any, variables: set[Symbol]) -> Any:
-        """Replace letters by their definitions in earlier rows if these contain a variable of integration, such as
-        r = R z/h in an integral over z."""
+        """Replace each letter by its definition in an earlier row if the definition contains a variable of integration,
+        such as r = R z/h in an integral over z."""
         found = {}
         for symbol in value.free_symbols - variables:
             definition = self.defined(symbol)
@@ -802,7 +802,8 @@ class Meaning:
         return "" if letter is not None and letter.base in ("N", "n", "d", "s") else str(self._of(bound))
 
     def summed(self, value: Any, index: Symbol, bounds: str) -> Any:
-        """Return a sum over an index: factors without the index are taken out of it, and each term is a symbol."""
+        """Return a sum over an index: factors without the index are taken out of it, and the sum of the other factors
+        is a symbol."""
         if isinstance(value, MatrixBase):
             return value.applyfunc(lambda each: self.summed(each, index, bounds))
         total: Expr = Integer(0)

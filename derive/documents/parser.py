@@ -103,7 +103,7 @@ class _Reader:
                 self.at += 1
             elif token.text in IGNORED_WITH_ARGUMENT:
                 self.at = argument_at(self.tokens, self.at + 1)[1]
-            elif token.text == "rule":  # \rule[-1em]{0pt}{2em}, which makes a row high
+            elif token.text == "rule":  # \rule[-1em]{0pt}{2em}, which increases the height of a row
                 self.at += 1
                 if self.next_is_mark("["):
                     close = next((i for i in range(self.at, len(self.tokens)) if self.tokens[i].is_mark("]")), self.at)
@@ -1135,10 +1135,10 @@ class _Reader:
             node = self.factor()
             if (
                 isinstance(node, Pow) and run and isinstance(run[0], Letter)
-            ):  # `\sin\theta r^2`: the sine ends before the power
+            ):  # `\sin\theta r^2`: the argument ends before the power
                 self.at = begins
                 break
-            if _is_product_with_bracket(node):  # `\sin\theta (a + b)`: it ends before the bracket
+            if _is_product_with_bracket(node):  # `\sin\theta (a + b)`: the argument ends before the bracket
                 self.at = begins
                 node = self.scripted(self.atom())
                 run.append(node)

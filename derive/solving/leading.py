@@ -63,10 +63,11 @@ def beginnings(of: Quantity, value: Any, x: Symbol, place: Expr, order: int | No
 
 
 def expansion_of(of: Quantity, value: Expr, x: Symbol, place: Expr, order: int | None, is_one: bool = True) -> Series:
-    """The terms up to an order, by default the leading term only. Rejects a value without an expansion in powers.
+    """The terms whose order is at most `order`; by default the leading term only. Rejects a value without an expansion
+    in powers.
 
-    is_one   whether the value is a scalar result. For an entry of a vector or tensor, a series without a term up to
-             the order is not an error
+    is_one   whether the value is a scalar result. For an entry of a vector or tensor, a series that begins above
+             `order` is not an error
     """
     try:
         return expanded(value, x, place, None if order is None else Rational(order))

@@ -135,7 +135,7 @@ class CharacteristicRoot:
     """A root of the characteristic equation.
 
     value     for a conservative system, lambda = omega^2; for a gyroscopic system, the frequency or the rate of growth.
-              For a damped system, the rate of decay: b/2a for a quadratic factor and b/a for a linear factor
+              For a damped system, the rate of decay: b/(2 a) for a quadratic factor and b/a for a linear factor
     sign      1 if the motion oscillates, 0 if omega = 0, -1 if it grows; None if this is unknown. For a damped system:
               1 if the motion is underdamped, 0 if critically damped, -1 if overdamped; the sign of b/a for a linear
               factor
@@ -510,7 +510,8 @@ class Gyroscopic(LinearSystem):
         return self._mirrored(factor) if factor.mirrored else self._by_squares(factor)
 
     def _mirrored(self, factor: Factor) -> list[CharacteristicRoot]:
-        """The frequencies |omega| of the roots omega = (b +- sqrt(b^2 - 4 a c))/2a of a omega^2 - b omega + c = 0."""
+        """The frequencies |omega|, where omega is a root of the polynomial a omega^2 - b omega + c:
+        omega = (b +- sqrt(b^2 - 4 a c))/(2 a)."""
         a, minus_b, c = factor.coefficients
         real, both_ways = self._is_real(factor), self.sign(tidied(c))
         middle, root = tidied(-minus_b), sqrt(factor.discriminant)
@@ -548,7 +549,7 @@ class Gyroscopic(LinearSystem):
         return [CharacteristicRoot(root_of(-square if sign == -1 else square), sign, factor) for square, sign in both]
 
     def _sign_of_square(self, square: Expr, factor: Factor) -> int | None:
-        """The sign of `square`, a root of a z^2 + b z + c with z = omega^2; None if the sign is unknown.
+        """The sign of `square`, a root of the polynomial a z^2 + b z + c with z = omega^2; None if the sign is unknown.
 
         Both roots are positive if all `needs` are positive; exactly one root is positive if a c < 0.
         """
@@ -608,7 +609,7 @@ def _tidy_ratio(ratio: Expr) -> Expr:
 class Damped(LinearSystem):
     """A damped system: its matrix is M s^2 + (G + C) s + K.
 
-    A factor a s^2 + b s + c of the determinant has the roots -b/2a +- i omega, with omega^2 = c/a - b^2/4a^2.
+    The factor a s^2 + b s + c of the determinant has the roots -b/(2 a) +- i omega, with omega^2 = c/a - b^2/(4 a^2).
     """
 
     @cached_property

@@ -218,7 +218,7 @@ def _added(terms: Iterable[tuple[Expr, Expr]]) -> Expr:
 
 
 def as_one_root(value: Expr) -> Expr:
-    """Write sqrt(k/m - b^2/(2 m^2)), not sqrt(2) sqrt(2 k m - b^2)/(2 m). A value of another form is returned
+    """Write sqrt(k/m - b^2/(2 m^2)), not sqrt(2) sqrt(2 k m - b^2)/(2 m). A value of a different form is returned
     unchanged."""
     factors = Mul.make_args(value)
     outside = Mul(*(f for f in factors if not (f.is_Pow and f.base.is_Add)))

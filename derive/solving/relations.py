@@ -36,7 +36,7 @@ def mark_between(mark: str, sign: int | None) -> str | None:
 
 
 def isolated(expr: Expr, letter: Symbol) -> Isolated | None:
-    """The expression as a (x^n - v); None if it does not have this form."""
+    """The expression in the form a (x^n - v); None if it does not have this form."""
     above, below = expr.as_numer_denom()
     polynomial = above.as_poly(letter)
     terms = polynomial.terms() if polynomial is not None else []
@@ -106,7 +106,7 @@ def _solved(core: Expr, letter: Symbol) -> Relation | None:
 
 
 def border_of(condition: Relation) -> Relation | None:
-    """The equation `symbol = value` at the boundary of the condition; None if no symbol is isolated."""
+    """The equation `symbol = value` at the boundary of the condition; None if no symbol can be isolated."""
     left, right = condition.sides
     if isinstance(left, Symbol):
         return Relation(left, "=", right)

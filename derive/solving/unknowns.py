@@ -45,8 +45,8 @@ INVERSE = {cos: acos, sin: asin, tan: atan}
 
 @dataclass(frozen=True)
 class ValueOf(Fact):
-    """For a root of an equation, the unknown of this equation. The root can replace this unknown even if the symbol of
-    the root is different."""
+    """The unknown of the equation of which a quantity is a root. The root can replace this unknown even if the symbol
+    of the root is different."""
 
     missing = "is not a root of an equation"
     unknown: Expr
@@ -92,7 +92,7 @@ def meaning(unknown: Expr, value: Expr) -> dict[Symbol, Expr]:
 
 
 def with_unknown(expr: Expr, unknown: Expr, value: Expr) -> Expr:
-    """Substitute a value for the unknown, also where the unknown is not written.
+    """Substitute a value for the unknown, also in expressions that contain it only implicitly.
 
     A value of theta_dot^2 is substituted in theta_dot^4, a value of cos(theta) in sin(theta)^2, and a value of
     tan(theta) in sin(theta) = tan(theta) cos(theta).
@@ -143,7 +143,7 @@ def residual_of(verb: str, equation: Quantity, or_value: bool = False) -> Expr:
                 "wrong-argument",
                 message,
                 help=Spelled(
-                    "give an equation of motion, a condition or a result of `let`",
+                    "give an equation of motion, a condition, or an equation made by `let`",
                     "name an equation of motion or a condition",
                 ),
             )

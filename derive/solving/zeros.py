@@ -77,7 +77,8 @@ def zeros_of(force: Expr, q: Symbol) -> list[Zero]:
 
 
 def zeros_nearby(value: Expr, x: Symbol) -> list[Zero]:
-    """Real zeros of a function; of a periodic factor, only a few. Raises `Unsolved` if a factor cannot be solved."""
+    """Real zeros of a function; for a periodic factor, only a few of its zeros. Raises `Unsolved` if a factor cannot be
+    solved."""
     numerator = value.as_numer_denom()[0]
     for form in (numerator, tidied(TR8(numerator.expand()))):
         factors = [base for f in Mul.make_args(form) if (base := f.as_base_exp()[0]).has(x)]
@@ -150,7 +151,7 @@ def _factors_or_none(value: Expr) -> list[Expr]:
 
 
 def _part(angles: set[Expr], q: Symbol) -> Expr:
-    """The largest fraction q/n such that each angle is an integer multiple of q/n, up to an added constant."""
+    """The largest fraction q/n such that each angle is an integer multiple of q/n plus a constant."""
     numbers = [angle.coeff(q) for angle in (expand(angle) for angle in angles)]
     if not all(number.is_Rational and number != 0 for number in numbers):
         raise Unsolved(next(iter(angles)))
@@ -211,7 +212,8 @@ def _with_sine(value: Expr) -> list[Zero]:
 
 
 def _sure_roots(factor: Expr, x: Expr) -> list[Expr]:
-    """The roots of a polynomial in a cosine or a sine; raise `Unsolved` if a root is real only under a condition."""
+    """The roots of a polynomial in a cosine or a sine; raise `Unsolved` if a root is real only under a condition, or if
+    the degree is too high."""
     if (values := _of_one_power(factor, x)) is not None:
         return values
     found = [root for root, _ in _roots(factor, x)]
@@ -281,7 +283,8 @@ def _exponent(product: Expr, q: Symbol) -> Expr:
 
 
 def _of_one_power(factor: Expr, x: Expr) -> list[Expr] | None:
-    """The real roots of A x^n + B, with n > 2; None for any other polynomial."""
+    """The real roots of A x^n + B, with n > 2; None for any other polynomial. Raises `Unsolved` if the degree is above
+    `HIGHEST`, or if the sign of -B/A is unknown."""
     polynomial = factor.as_poly(x)
     if polynomial is None or polynomial.degree() > HIGHEST:
         raise Unsolved(factor)
@@ -329,7 +332,8 @@ def _of_root(factor: Expr, roots: list[Expr], q: Symbol) -> list[Zero]:
 
 
 def _allowed(zero: Zero, sign: int | None, q: Symbol) -> list[Zero]:
-    """Return a zero with this sign if the coordinate can have this value; otherwise return nothing.
+    """Return a list with the zero if the coordinate can have this value; otherwise an empty list. `sign` is the sign of
+    the zero.
 
     If the sign is unknown, a zero of a positive coordinate gets the condition that its value is positive; raise
     `Unsolved` if it already has another condition. A value such as l^2 needs no condition: its symbols are assumed not

@@ -197,8 +197,8 @@ def given_as_the_condition_has_it(facts: Judged, outcome: str) -> bool:
 
 
 def not_negative(facts: Judged, outcome: str) -> bool:
-    """Return False if a period, a frequency or an amplitude is known to be negative, or is negative for all trial
-    numbers; otherwise True."""
+    """Return True unless the result, such as a period, a frequency or an amplitude, is known to be negative, or is
+    negative for all trial numbers."""
     return not is_negative(facts.result)
 
 

@@ -100,7 +100,7 @@ class PhraseData:
     """Data for the sentence of a step, in addition to the chain, and data for judging the outcome.
 
     words         term of the phrase -> key of its word, such as "about" -> "corner"
-    formulas      role -> a formula that only the sentence contains, and the same formula by another route
+    formulas      role -> a formula that only the sentence contains, and the same formula by a different route
     named         role -> a symbol or a place that only the sentence contains, judged by a predicate
     points_to     role -> a quantity that the sentence mentions by its symbol or its number
     outcome_data  further data for judging the outcome
@@ -171,8 +171,8 @@ def establish(
     facts       facts that the quantity carries in addition to its value
     proposals   quantities that are usual in the field; the result may be written in their symbols
 
-    Raises `Unverified` if a line differs from the line before it, if a route or a check gives another result, or if a
-    statement in the sentence of the step is not confirmed.
+    Raises `Unverified` if a line differs from the line before it, or if a route or a check gives a different result. It
+    is also raised if a statement in the sentence of the step is not confirmed.
     """
     key = key or rule.key
     quantities = {role: q for role, q in inputs.items() if isinstance(q, Quantity)}
@@ -278,7 +278,7 @@ def _witnessed(quantity: Quantity, judged: Judged) -> Quantity:
 
 
 def _told_centre(words: Mapping[str, str], body: Any) -> Mapping[str, str]:
-    """Write "centre of mass" in full if the body has another centre."""
+    """Write "centre of mass" in full if another point of the body may be called "centre"."""
     is_unclear = words.get("about") == "centre" and bool(getattr(body, "other_centre", ""))
     return {**words, "about": "centre_of_mass"} if is_unclear else words
 
@@ -290,7 +290,7 @@ def _place_of_verb(frame: FrameType) -> str:
 
 
 def _check_told(key: str, told: Mapping[str, tuple[Any, Any]]) -> None:
-    """Check that each formula of the sentence equals the same formula by another route."""
+    """Check that each formula of the sentence equals the same formula by a different route."""
     for role, (formula, otherwise) in told.items():
         verdict = equal(formula, otherwise)
         if not verdict:

@@ -38,15 +38,15 @@ class Display:
     told_along        whether the sentence of the step before may state the result of this step
     first_only        whether only the first of several steps of the same rule is shown
     only_explains     whether the step only explains the steps that use it, so that the author's words may replace it
-    result_again      up to this level, a step directly after a step of the same kind shows only its result
-    each_worked_out   whether a step that follows another step of the same kind also shows all lines of the level;
-                      otherwise it shows only its lines of the level `brief` and its result
+    result_again      the highest level at which a step directly after a similar step shows only its result
+    each_worked_out   whether a step after a similar step also shows all lines of the level. Otherwise it shows only its
+                      result and its lines of the level `brief`
     abbreviates       whether later steps may write the symbol of the step in place of its value, a square root
     names_formula     whether the sentence names the formula, so that a line within a text needs no left side
     repeats           the key of the equation that the step repeats, if any
     result_in         names of rules; if such a rule made an input, the lines of this input may already contain the
                       result, and the sentence may then point to these lines
-    conditions        roles of the conditions in the sentence that are part of the answer
+    conditions        roles of those conditions in the sentence that are part of the answer
     quoted            whether only the result is shown, unless a part asks for the step or the level is `full`
     verdict           whether the answer is the sentence, and the formula only its reason
     """

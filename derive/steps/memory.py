@@ -35,8 +35,8 @@ class Store(Protocol):
 
 @dataclass(frozen=True)
 class _Asked:
-    """The data with which a call is looked up: a digest, the names of the objects that it describes, and their cached
-    properties that contain steps."""
+    """The data with which a call is looked up: a digest of the call, the names of the objects that the call contains,
+    and those cached properties of these objects that contain steps."""
 
     key: str
     objects: list[str]
@@ -121,7 +121,7 @@ class Memory:
         return "\n".join([*lines, json.dumps([data, data_found])])
 
     def _recalled(self, key: str) -> tuple[Any, ...] | None:
-        """Read the result of a call, and what it added to the record; None if this is not possible."""
+        """Read the result of a call, and its additions to the record, from the store; None if this is not possible."""
         kept = self.store.get(key)
         if kept is None:
             return None

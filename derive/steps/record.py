@@ -55,7 +55,7 @@ class Run:
     drawings      the drawings of the page
     defined       the quantities that the problem defines under `define:`
     defined_at    the place in a file where each quantity of `define:` is written, by its name
-    is_natural    whether results may be written with quantities of `define:` and usual ones such as omega_0
+    is_natural    whether results may contain quantities of `define:` and usual quantities such as omega_0
     numbers       the numbers that the problem gives for its symbols
     places        the place in a file where each given value is written
     letters       the symbols of given values, coordinates, forces and definitions; results must not use these symbols
@@ -319,7 +319,7 @@ def _is_its_value(defined: Quantity, symbol: Any, value: Any) -> bool:
 
 @question
 def may_use_quantities() -> bool:
-    """Whether results may be written in quantities under `define:` and usual ones such as omega_0."""
+    """Whether results may contain quantities under `define:` and usual quantities such as omega_0."""
     run = current_run.get()
     return run is None or run.is_natural
 
@@ -417,7 +417,7 @@ def changes(value: Any, coordinates: Iterable[Symbol] = ()) -> Symbol | None:
 
 
 def called_if_changing(moving: Symbol) -> str:
-    """Return what an error calls a symbol that changes with time."""
+    """Return the words by which an error names a symbol that changes with time."""
     if moving == TIME:
         return "the time t"
     return f"{moving.name}, a function of the time" if isinstance(moving, Prescribed) else moving.name

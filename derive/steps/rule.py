@@ -4,8 +4,8 @@ A verb chooses an outcome, such as "zero", "unstable" or "slow", and a page choo
 each outcome the rule has a predicate that must be true of the result. `establish` evaluates the predicate.
 
 Predicates are in the files `claims.py` of the folders of verbs, or in `derive/steps/claims.py`. They may use the facts
-of a result and the descriptions of bodies and systems. The files in the folders of verbs import no module of
-`derive/mechanics` that defines a rule, except the module for coordinates as functions of the time.
+of a result and the descriptions of bodies and systems. The files `claims.py` in the folders of verbs import no module
+of `derive/mechanics` that defines a rule, except the module for coordinates as functions of the time.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from derive.steps.level import Shown as Shown  # other modules import `Shown` fr
 from derive.steps.subject import NOTHING, Mixed, Subject
 
 GENERIC = "generic"  # the default outcome
-CENTRE_OF_MASS = "centre_of_mass"  # the word for the point "centre" of a body that also has another centre
+CENTRE_OF_MASS = "centre_of_mass"  # the word for a centre of mass if another point may be called "centre"
 ZERO = "zero"  # the outcome for a result that vanishes
 AXES = ("x", "y", "z")
 ROUTE, CHECK = Compared.ROUTE, Compared.CHECK

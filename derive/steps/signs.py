@@ -137,7 +137,8 @@ def _difference_of_powers(value: Expr) -> Expr | None:
 
 
 def _is_square_that_lasts(base: Expr, power: Expr) -> bool:
-    """Whether a factor is an even power of a real symbol that is in a denominator or is assumed not to vanish."""
+    """Whether a factor is an even power of a real symbol, and either the power is negative or the symbol is assumed not
+    to vanish."""
     lasts = power.is_negative or Relation(base, "!=", Integer(0)) in assumed()
     return bool(base.is_Symbol and base.is_real and power.is_even and lasts)
 
@@ -224,7 +225,7 @@ def undecided(value: Any) -> Doubt:
 
 
 def holds(number: Expr | int, mark: str) -> bool:
-    """Whether a number and zero satisfy the relation with this sign, such as `number > 0`."""
+    """Whether the relation of a number to zero is true; `mark` is the relation sign, such as > in `number > 0`."""
     return (0 if number == 0 else 1 if number > 0 else -1) in SIGNS_OF[mark]
 
 

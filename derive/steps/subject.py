@@ -32,7 +32,7 @@ class Subject:
     mass      the mass that the value belongs to, in kg; it may be specified without a body
     point     the reference point of moments, momenta and torques
     axes      the axes of the components: by default those of the body
-    axis      for a moment about one axis: the axis of the body that is parallel to this axis
+    axis      for a moment of inertia or a radius of gyration: the body axis that is parallel to the reference axis
     rotation  the components of the angular velocity
     place     the components of the position of the centre of mass in space, in m
     """
@@ -125,7 +125,7 @@ def _apart(key: str, field: str, one: tuple[str, Any], other: tuple[str, Any]) -
     message = f"`{key}`: `{one[0]}` and `{other[0]}` {_TOGETHER[field]}"
     told = [called(value) for _, value in (one, other)]
     if told[0] != told[1] and all(told):
-        message += f", but they have {told[0]} and {told[1]}"
+        message += f", but the first has {told[0]} and the second has {told[1]}"
     return Rejected(Complaint("different-subjects", message))
 
 

@@ -93,7 +93,8 @@ class Condition:
     """A formula that is zero during the motion; it contains coordinates and time, or is linear in the rates.
 
     multiplier   the symbol of the constraint force; None if this force has no symbol
-    expresses    the coordinate that the condition expresses by others, so that it has no momentum of its own; or None
+    expresses    the coordinate that the condition expresses in terms of others; this coordinate has no momentum of
+                 its own. None if the condition does not express a coordinate
     """
 
     residual: Expr

@@ -40,7 +40,7 @@ from derive.witness.geometry import (
 from derive.witness.tape import Compiled, Tape
 
 NEAR = 1e-4  # greatest step for second derivatives of a given Lagrangian, which may be singular at a nearby speed
-LEAST = 1e-12  # a row of the equations whose entries are all smaller counts as zero
+LEAST = 1e-12  # an equation whose coefficients are all smaller than this counts as zero
 RANK = 1e-9  # singular values below this number, for entries of order one, count as zero
 Found = TypeVar("Found")
 
@@ -94,7 +94,8 @@ class Blueprint:
 
     @cached_property
     def dependent(self) -> dict[int, int]:
-        """The index of each condition that expresses a coordinate by others -> the index of this coordinate."""
+        """The index of each condition that expresses a coordinate in terms of others -> the index of this
+        coordinate."""
         found = enumerate(each.expresses for each in self.of.conditions)
         return {row: self.coordinates.index(q) for row, q in found if q is not None}
 

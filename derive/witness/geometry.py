@@ -21,9 +21,10 @@ from derive.witness.tape import Compiled, Numbers
 Reals: TypeAlias = NDArray[np.float64]
 
 STEP = 1e-30  # size of a complex step; it is never added to the real part, so no digits are lost
-PATH = 0.004  # limit of the spacing of points along the motion; `State.reach` makes it smaller for fast motions
+PATH = 0.004  # upper limit of the spacing of points along the motion; `State.reach` makes it smaller for fast motions
 AROUND = np.array([-3.0, -2.0, -1.0, 1.0, 2.0, 3.0])
-WEIGHTS = np.array([-1.0, 9.0, -45.0, 45.0, -9.0, 1.0]) / 60  # weights of a first derivative, to sixth order
+# weights of the values at the points `AROUND` in a first derivative, which is accurate to sixth order
+WEIGHTS = np.array([-1.0, 9.0, -45.0, 45.0, -9.0, 1.0]) / 60
 
 
 @dataclass(frozen=True)

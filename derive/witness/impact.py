@@ -88,8 +88,9 @@ def _given_share(of: Impact, trial: Trial, state: State) -> Reals:
 def _equations(of: Impact, trial: Trial, state: State) -> tuple[Reals, Reals, Reals, Reals, list[Symbol]]:
     """The mass matrix, and four arrays with an entry for each unknown impulse.
 
-    The entries are the change of the momenta per unit of the impulse, the factors of the rates in the speed along the
-    impulse, the required speed after the impact, and the symbol of the impulse. The first two arrays are equal.
+    The entries of the first array are the changes of the momenta per unit of the impulse. The second array is equal to
+    the first; its entries are also the factors of the rates in the speed along the impulse. The last two arrays have
+    the required speed after the impact, and the symbol of the impulse.
     """
     matrix, _ = trial.dynamics.inertia(state)
     at = trial.dynamics.placed(state)

@@ -228,7 +228,7 @@ SLIPS_ALONG = ("slips", "slips_squared")
 
 
 def _can_start(claim: Claim, trial: Trial, unknown: Expr, at: Expr) -> bool:
-    """Whether there is a state of the motion with this value of the unknown."""
+    """Whether there is a state of the system with this value of the unknown."""
     try:
         trial.state(_without_repeats([*claim.states_given, Given(unknown, at)]))
     except Contradiction:
@@ -249,8 +249,8 @@ def _towards(trial: Trial, unknown: Expr, state: State, sign: float) -> State:
 
 # --- free flight after the constraint has ended ---
 
-# The motion before a flight begins at this fraction of the way from its given start to the place where contact is lost.
-# The given start itself may be an equilibrium.
+# The simulated motion that leads to a flight begins at this fraction of the way from its given start to the place where
+# contact is lost. The given start itself may be an equilibrium.
 BEGUN = 0.03
 FLIGHTS = 3  # number of sets of numbers with which a flight is simulated
 # The greatest difference between a formula for a position and a simulated flight, relative to 1 plus the size of the

@@ -30,8 +30,8 @@ SMALL = 1e-3  # step of the finite differences for the derivatives; their error 
 # Re s counts as zero below this fraction of the largest |s|; |s|**2 counts as zero below this fraction of its largest
 # value.
 SURE = 1e-3
-FREQUENCY = 1e-5  # relative accuracy of squared frequencies
-STAYS = 1e-7  # accuracy of an acceleration if all numbers are of order one
+FREQUENCY = 1e-5  # relative accuracy of squared frequencies and of motions; ten times this error is allowed
+STAYS = 1e-7  # accuracy of an acceleration if all numbers are of order one; ten times this error is allowed
 DOUBLE = 1e-4  # relative accuracy of eigenvalues s, which is low for two nearly equal eigenvalues
 SHORT, MOMENTS = 2.0, 6  # duration of a simulated small motion, and number of times at which it is tested
 ZERO = Integer(0)

@@ -100,7 +100,7 @@ class Trial:
 
     number    the index of the trial; the random numbers depend on it
     assumed   relations that the numbers and the states must satisfy
-    fixed     numbers for some of the symbols, in place of random ones
+    fixed     numbers for some of the symbols, in place of random numbers
     letters   given values of constants, such as `m = 2 M`
     momenta   the symbols of momenta, each with its coordinate
     """

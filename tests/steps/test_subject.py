@@ -35,9 +35,17 @@ def test_values_that_are_equal_in_another_form_are_about_one_thing() -> None:
 @pytest.mark.parametrize(
     ("one", "other", "message"),
     [
-        (Subject(body=ROD), Subject(body=DISC), "must belong to one body, but they have the upper rod and the disc"),
-        (Subject(point="apex"), Subject(point="base"), "must be about one point, but they have apex and base"),
-        (Subject(mass=a), Subject(mass=b), "must belong to one mass, but they have a and b"),
+        (
+            Subject(body=ROD),
+            Subject(body=DISC),
+            "one body, but the first has the upper rod and the second has the disc",
+        ),
+        (
+            Subject(point="apex"),
+            Subject(point="base"),
+            "must be about one point, but the first has apex and the second has base",
+        ),
+        (Subject(mass=a), Subject(mass=b), "must belong to one mass, but the first has a and the second has b"),
         (Subject(rotation=(a,)), Subject(rotation=(b,)), "must belong to one rotation"),
     ],
 )
@@ -50,7 +58,7 @@ def test_two_different_things_are_refused_with_both(one: Subject, other: Subject
 def test_a_law_about_two_things_is_about_several_and_that_fits_no_other() -> None:
     several = together(Subject(point="apex"), Subject(point="base"), differ={"point"})
     assert several == Subject(point=Mixed.SEVERAL)
-    with pytest.raises(Rejected, match="must be about one point, but they have several and apex"):
+    with pytest.raises(Rejected, match="must be about one point, but the first has several and the second has apex"):
         together(several, Subject(point="apex"))
     assert together(several, several, differ=EVERYTHING).point is Mixed.SEVERAL
 
