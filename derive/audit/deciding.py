@@ -40,7 +40,7 @@ from derive.documents.meaning import Meaning, Meaningless, Value
 PLUS_MINUS = Symbol("±", real=True)
 POINTS = 4
 CLOSE = Rational(1, 10**9)
-MOST_COMBINED = 6  # number of the last equations that are combined
+MOST_COMBINED = 6  # at most this many of the most recent equations are combined
 LARGEST_GOAL = 400  # equations with more operations are not compared after substitution
 MOST_SIGNS = 3  # number of absolute values whose signs are tried
 STRICT = ("<", ">", "<<", ">>", "!=")

@@ -27,8 +27,8 @@ from derive.documents.source import Format, source_of
 from derive.documents.syntax import Abs, Der, EvalBar, Fun, Letter, Node
 
 SECONDS = 5.0  # seconds of processor time for comparing one result with one section
-# The section that states most steps of a derivation is compared with the answers, and so are its neighbours if they
-# state any step. Other sections are compared if they state at least this number of steps.
+# The section that states the greatest number of steps of a derivation is compared with the answers, and so are its
+# neighbours if they state any step. Other sections are compared if they state at least this number of steps.
 LEAST_SCORE = 3
 NAMED = (Letter, Abs, Der, EvalBar, Fun)
 

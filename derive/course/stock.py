@@ -192,7 +192,8 @@ class InLetters:
         return found
 
     def constant(self, node: Tree, name: str, kind: str, of: int = 1, in_time: bool = False) -> Expr:
-        """Read an expression of a kind. Functions of the time are allowed only with `in_time`."""
+        """Read an expression of the given kind. It may depend on the time only with `in_time`, and never on a
+        coordinate."""
         found = self.of_kind(node, name, kind, of)
         coordinates = (letter for letter in self.letters if f"{letter}_dot" in self.letters)
         moving = {TIME.name, *(f"{q}{order}" for q in coordinates for order in ("", *RATES[1:]))}

@@ -81,7 +81,7 @@ class Facts:
         return Counter({each: count for each, count in found.items() if each != UNKNOWN}) if UNKNOWN in found else found
 
     def is_variable(self, letter: Letter) -> bool:
-        """Whether derivatives with respect to a letter or its rate occur: y in the partial derivative of F(y, y')."""
+        """Whether the document differentiates with respect to a letter or its rate: y in dF/dy and in dF/dy'."""
         return _unprimed(letter) in self.differentiated_by
 
     def changes(self, letter: Letter) -> bool:

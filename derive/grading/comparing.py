@@ -184,7 +184,7 @@ class _Comparison:
     def turned(self, value: Expr, right: Expr) -> Verdict | None:
         """Judge a formula that would be equal if one or two coordinates were positive in the opposite sense.
 
-        This is a convention for an angle if only its sense relative to another coordinate matters. Otherwise the
+        The sense of an angle is a convention if it matters only relative to another coordinate. Otherwise the
         problem fixes the sense, and the answer has wrong signs.
         """
         moving = sorted(self.key.coordinates & {_without_dots(each) for each in right.free_symbols}, key=str)[:4]

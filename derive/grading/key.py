@@ -255,7 +255,7 @@ class _Making:
         coordinates = {q for step in self.derivation.steps for q, _ in step.coordinates}
         rates = {rate(q) for q in coordinates}
         for moving in coordinates:
-            for symbol in (moving, rate(moving), rate(moving, 2)):  # a motion does not define its coordinate
+            for symbol in (moving, rate(moving), rate(moving, 2)):  # x(t) = ... does not define x or its rates
                 value = self.definitions.pop(symbol, None)
                 if value is not None and symbol == moving and value.free_symbols & rates:
                     self.momenta[symbol] = value

@@ -1,4 +1,4 @@
-"""No-break spaces between numbers and their units in running text; a percent sign has no plain space before it."""
+"""Put no-break spaces between numbers and their units in running text, and remove spaces before a percent sign."""
 
 from __future__ import annotations
 

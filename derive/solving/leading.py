@@ -122,7 +122,7 @@ def terms_by_arithmetic(value: Any, series: Sequence[Series], x: Symbol, place: 
 
 
 def to_that_order(found: Any, again: Any, whole: bool) -> Verdict:
-    """Compare two sets of terms. Equal terms of a truncated series are an approximation; equal limits are not."""
+    """Compare two sets of terms. Equal terms have the grade APPROXIMATION, unless `whole` is true, as for a limit."""
     verdict = equal(found, again)
     if whole or verdict.grade is Grade.REFUTED:
         return verdict

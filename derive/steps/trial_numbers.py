@@ -35,7 +35,7 @@ SMALL = Rational(1, 10**20)  # a ratio of imaginary to real part below this numb
 
 
 def trial_points(letters: Iterable[Any], *conditions: Relation, tried: int = TRIED) -> list[Point]:
-    """Return points at which the conditions hold. A point has a number for each of these symbols and each symbol of the
+    """Return points at which the conditions hold. A point has a number for each symbol in `letters` and in the
     conditions; without symbols, there is one empty point."""
     chosen = sorted({*letters, *(s for each in conditions for s in letters_of(explicit(each.residual)))}, key=str)
     drawn = islice(_drawn(chosen), DRAWN) if chosen else iter([{}])

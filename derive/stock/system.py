@@ -393,7 +393,11 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
 
     @answer
     def frequency(self) -> tuple[Quantity, ...]:
-        return tuple(q for q in self.normal_modes if q.key.partition("_")[0] == "frequency")
+        found = tuple(q for q in self.normal_modes if q.key.partition("_")[0] == "frequency")
+        if not found:
+            help_line = "ask for `normal_modes`, which give the rates of decay"
+            raise Rejected(Complaint("no-oscillation", "the damped motion does not oscillate", help=help_line))
+        return found
 
     @answer
     def period(self) -> Quantity:

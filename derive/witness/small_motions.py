@@ -261,10 +261,13 @@ def damped(claim: Claim) -> Verdict | None:
         stated, decay = (each.complex_at(near.state) for each in formulas)
         if growth is None or not np.isfinite(stated):
             continue
-        size = DOUBLE * max(float(np.max(np.abs(growth))), 1e-3)
-        if claim.outcome == PAIR:  # the mean of two eigenvalues s is minus the stated value
-            found = (growth[:, None] + growth[None, :])[~np.eye(len(growth), dtype=bool)] / 2
-            wanted = -stated
+        scale = max(float(np.max(np.abs(growth))), 1e-3)
+        size = DOUBLE * scale
+        if claim.outcome in (PAIR, CRITICAL):  # the mean of two eigenvalues s is minus the stated value
+            one, other = (growth[index] for index in np.triu_indices(len(growth), 1))
+            found, wanted = (one + other) / 2, -stated
+            if claim.outcome == CRITICAL:  # rounding errors split a double eigenvalue by about their square root
+                found = found[np.abs(one - other) <= np.sqrt(DOUBLE) * scale]
         else:
             found, wanted = (
                 growth,
@@ -278,7 +281,7 @@ def damped(claim: Claim) -> Verdict | None:
     return seen(count, "equilibria")
 
 
-PAIR, DECAYS, GROWS, OVERDAMPED = "oscillator", "decay", "growth", "overdamped"
+PAIR, CRITICAL, DECAYS, GROWS, OVERDAMPED = "oscillator", "critical", "decay", "growth", "overdamped"
 
 
 def motion(claim: Claim) -> Verdict | None:

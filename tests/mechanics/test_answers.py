@@ -11,6 +11,8 @@ from sympy import Abs, Eq, Expr, Integer, Rational, cos, exp, log, oo, pi, sin, 
 from derive.algebra.equality import Grade, equal
 from derive.algebra.expressions import TIME as t
 from derive.algebra.expressions import Relation
+from derive.algebra.ranges import Range
+from derive.algebra.ranges import within as declared
 from derive.errors import Rejected, Unverified
 from derive.mechanics import (
     Coordinate,
@@ -406,6 +408,15 @@ def test_an_extremum_beyond_half_a_turn_is_found() -> None:
     assert equal(tan(highest.value), M / m)
     assert equal(lowest.value, highest.value + pi)
     assert equal(least.value, -sqrt(m**2 + M**2))
+
+
+def test_an_extremum_outside_a_range_that_is_bounded_on_one_side_is_refused() -> None:
+    hill = given(4 * c - (c - 1) ** 2, "hill")  # greatest at c = 3
+    with declared({c: Range(Integer(2), oo)}):
+        assert maximum(hill, c)[0].value == 3
+    for outside in (Range(Integer(4), oo), Range(-oo, Integer(2))):
+        with declared({c: outside}), pytest.raises(Rejected, match="not stationary for any allowed c"):
+            maximum(hill, c)
 
 
 def test_what_has_no_extremum_or_the_other_one_is_refused() -> None:

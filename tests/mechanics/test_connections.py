@@ -257,7 +257,7 @@ parts:
         (
             "{through: [0, 0], along: [1, 0]}",
             "{through: [0, 0], along: [1, 0], side: inside}",
-            "a plane has no `inside`",
+            "a plane has no side `inside`",
         ),
         ("centre: [x, y]", "centre: [x, a]", "keep the body on the surface"),
         (
@@ -475,7 +475,7 @@ SLIDING = ("normal: N}", "normal: N, friction: {sliding: mu, direction: right}}"
         ([("x**2/(2*b)", "x**2/(2*b) + y/7")], "contains y, but a curve has a constant shape"),
         ([("x**2/(2*b)}", "x**2/(2*b), side: inside}")], "no side `inside`"),
         ([("x**2/(2*b)}", "x**2/(2*b), radius: b}")], "`radius` does not belong to a curve"),
-        ([("x**2/(2*b)}", "x**2/(2*b), velocity: [V, 0]}")], "a curve needs a plane of motion; it moves only"),
+        ([("x**2/(2*b)}", "x**2/(2*b), velocity: [V, 0]}")], "a curve is allowed only for motion in a plane"),
         ([("x**2/(2*b)}", "x**2/(2*b), through: [y, 0]}")], "moves with y, but no body carries it"),
         ([("at: [x, y]", "at: [x, x**2/(2*b)]")], "keep the body on the surface"),
         ([("x**2/(2*b)}", "x**2/(2*b), side: both}"), SLIDING], "may have either sign"),

@@ -42,7 +42,7 @@ def test_the_rate_of_a_kind_is_a_kind(kind: str, faster: str) -> None:
 
 
 def test_a_rate_that_has_no_name_is_refused() -> None:
-    with pytest.raises(Rejected, match="the rate of a quantity of the kind `volume` has no name"):
+    with pytest.raises(Rejected, match="is the rate of a quantity of the kind `volume`"):
         kind_of_rate("volume")
 
 

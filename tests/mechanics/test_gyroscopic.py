@@ -212,6 +212,13 @@ def test_a_damped_pendulum_and_a_ball_in_a_medium() -> None:
     assert free.key == "exponent_0" and equal(dying.value, b / m) and dying.step.outcome == "decay"
 
 
+def test_two_equal_roots_are_critical_damping_and_have_no_frequency() -> None:
+    x = coordinate("x", "length")
+    spring = potential(k * x.symbol**2 / 2)
+    (rate,) = normal_modes(small(Particle(m, point(x, 0)), spring, damping(2 * sqrt(k * m), x)))
+    assert rate.step.outcome == "critical" and equal(rate.value, sqrt(k / m))
+
+
 def test_drag_beside_turning_is_said_to_be_too_much_for_a_verdict() -> None:
     x, y = plane()
     at = point(x, y)

@@ -131,7 +131,7 @@ def test_a_cylinder_that_the_coordinates_make_roll_needs_no_condition(tmp_path: 
             "{from: cart, to: bob, length: l, force: S}",
             "so the force `S` does not appear",
         ),
-        (SWINGS, "side: both", "side: inside", "a plane has no `inside`"),
+        (SWINGS, "side: both", "side: inside", "a plane has no side `inside`"),
         (SWINGS, "  gravity: g", "  wires: [bob]\n  gravity: g", "must have one coordinate, but this particle has 2"),
         (SWINGS, "  gravity: g", "  wires: [cart, cart]\n  gravity: g", "`cart` is on a wire twice"),
         (HANGS, "[-R, -x]", "[-R/2, -x]", "no horizontal or vertical piece of string that is tangent"),

@@ -277,3 +277,22 @@ def test_a_rod_on_a_peg_rests_where_the_cube_of_the_sine_has_a_value(tmp_path: P
     assert equal(sin(found["rest"].value) ** 3, 2 * a / l)
     assert dict(found["rest"].step.words)["seen"] == "any", "a range of an angle is not a side of a distance"
     assert found["stability"].step.outcome == "unstable"
+
+
+def test_critical_damping_has_a_rate_and_no_frequency(tmp_path: Path) -> None:
+    text = """\
+title: A cart with drag
+solve: system
+symbols: {m: mass, w: angular speed}
+given:
+  coordinates: {x: length}
+  particles: {one: {mass: m, at: [x, 0]}}
+  potential: m*w**2*x**2/2
+  damping: {constant: 2*m*w, at: [x, 0]}
+statement: A cart with drag.
+parts:
+  - {ask: Describe the motion., answer: frequency}
+"""
+    assert "the damped motion does not oscillate" in messages(tmp_path, text)[0]
+    steps = solved(tmp_path, edited(text, ("frequency}", "normal_modes}")))
+    assert steps["decay"].step.outcome == "critical" and "frequency" not in steps

@@ -209,17 +209,25 @@ def _conditions(real: Relation | None, room: Sequence[Relation]) -> dict[str, Re
 def _inside(place: Expr, real: Relation | None, within: Within | None, x: Symbol) -> list[Relation] | None:
     """Return the conditions for the place to lie between the ends of the interval. The list is empty if the place
     always lies between them; return None if it never does, or does not for the given numbers."""
-    if within is None and (real is not None or not x.is_positive):  # every real place is allowed
+    low, high = within or _ends_of_range(x)
+    if real is not None and low in (None, 0) and high is None:  # every real place is allowed
         return []
-    low, high = within or (Integer(0), None)
     found = []
-    for ahead in (place - low, *([] if high is None else [high - place])):
-        sure = _sign_of_distance(ahead, Integer(1) if high is None else high - low)
+    for ahead in (*([] if low is None else [place - low]), *([] if high is None else [high - place])):
+        sure = _sign_of_distance(ahead, Integer(1) if low is None or high is None else high - low)
         if sure in (0, -1) or sure is None and sign_known(ahead) in (0, -1):
             return None
         if sure is None:
             found.append(positive(ahead))
     return found
+
+
+def _ends_of_range(x: Symbol) -> tuple[Expr | None, Expr | None]:
+    """Return the ends of the declared range of a symbol, None for an end at infinity. A positive symbol begins at 0."""
+    known = range_of(x)
+    if known is None:
+        return Integer(0) if x.is_positive else None, None
+    return known.least if known.least.is_finite else None, known.greatest if known.greatest.is_finite else None
 
 
 def _sign_of_distance(ahead: Expr, width: Expr) -> int | None:

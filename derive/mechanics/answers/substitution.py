@@ -95,9 +95,9 @@ def put_in(
     this earlier result.
     If the motion reaches a place only after turning back, a rate from conservation of energy changes its sign there.
     If the motion reaches the place only under a condition, the sentence states this condition.
-    Outcomes: results (with results), values (with values only), zero (with values only, and the result is zero),
-    identity (an equation that always holds after the substitution), again (an earlier result is reproduced), turned (a
-    rate that has changed its sign).
+    Outcomes: results (at least one result is substituted), values (only values are substituted), zero (only values are
+    substituted, and the expression becomes zero), identity (an equation that always holds after the substitution),
+    again (an earlier result is reproduced), turned (a rate that has changed its sign).
     Errors: there is nothing to replace; a prescribed function with a value that contains a coordinate; an equation that
     is not solved for a letter; an equation that cannot hold; a place that the motion does not reach.
     Source: none needed: substitution.

@@ -166,7 +166,8 @@ def kind_of_rate(kind: str) -> str:
         return "torque" if kind == "angular momentum" else "angular speed"
     faster = kind_of_dimension(dimension_of_kind(kind) / dimension_of_kind("time"))
     if faster is None:
-        raise Rejected(Complaint("no-such-kind", f"the rate of a quantity of the kind `{kind}` has no name"))
+        message = f"no known kind of quantity is the rate of a quantity of the kind `{kind}`"
+        raise Rejected(Complaint("no-such-kind", message))
     return faster
 
 

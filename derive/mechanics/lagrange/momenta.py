@@ -52,7 +52,8 @@ def conjugate(of: Coordinate) -> Coordinate:
     """
     kind = kind_of_momentum(of.kind)
     if kind is None:
-        raise Rejected(Complaint("no-such-kind", f"the momentum of a quantity of the kind `{of.kind}` has no name"))
+        message = f"no known kind of quantity is the momentum of a coordinate of the kind `{of.kind}`"
+        raise Rejected(Complaint("no-such-kind", message))
     return coordinate(letter_of_momentum(of).name, kind)
 
 

@@ -310,7 +310,7 @@ def curve(
     if not isinstance(letter, Symbol):
         raise Rejected(Complaint("wrong-argument", f"`curve` needs a symbol for x, not {letter}"))
     if len(through.components) != 2 or moves is not None:
-        message = "a curve needs a plane of motion; it moves only with the place `through` or the body that carries it"
+        message = "a curve is allowed only for motion in a plane; it moves only with its place `through` or its body"
         help_line = "in a plane, give `through` as a function of time, or `of`; in space, use a plane or a sphere"
         raise Rejected(Complaint("wrong-argument", message, help=help_line))
     moving = [s.name for s in {**coordinates_in(formula), TIME: ""} if s != letter and formula.has(s)]

@@ -731,7 +731,7 @@ def _time_back(known: InFlight) -> Expr | None:
     if not orbit.inside and sign in (0, 1):
         return None
     message = "`lands`: it is not known on which side of the circle the particle flies"
-    help_line = "give the flight a symbol `at` with a range, such as `theta_1: 'angle in (pi/2, pi)'`"
+    help_line = "set `at` of the flight to a symbol declared with a range, such as `theta_1: 'angle in (pi/2, pi)'`"
     raise Rejected(Complaint("not-decided", message, help=help_line))
 
 
@@ -1038,7 +1038,7 @@ def _passes_through(first: Quantity, second: Quantity, through: Sequence[Any], k
     time = tidied((X - known.path[0].xreplace({TIME: ZERO})) / v)
     if sign_known(time) != 1:
         message = f"`passes`: it is not known that the place is ahead of the particle, since {time} may be negative"
-        help_line = "give the flight a symbol `at` with a range, such as `theta_1: 'angle in (pi/2, pi)'`"
+        help_line = "set `at` of the flight to a symbol declared with a range, such as `theta_1: 'angle in (pi/2, pi)'`"
         raise Rejected(Complaint("not-decided", message, help=help_line))
     above = tidied(known.path[1].xreplace({TIME: time}) - Y)
     core = presented(without_positive(factored(above.as_numer_denom()[0]), in_equation=True), in_sums=False)

@@ -221,7 +221,7 @@ def always(sign: int) -> Predicate:
 
 
 def runs_away(facts: Judged) -> bool:
-    """Whether, for all trial numbers for which the energy falls in some direction, some displacement grows.
+    """Whether a displacement grows for every set of trial numbers with which the energy falls in some direction.
 
     This must be checked because gyroscopic forces could stabilise the equilibrium. If the mass points and forces are
     unknown, the result is true.

@@ -82,7 +82,7 @@ def inertia_tensor(
     through the point are normal to the axes, steps derive only the moments. For a composite body, the tensors of its
     parts are added instead.
     Second route: the moment about any axis n is the sum of m |n x r|^2 over equimomental particles. For a body defined
-    by a position map, the sum is numerical, over the cells of the body.
+    by a position map, a check takes the place of this route: a numerical sum over the cells of the body.
     Checks: these particles or cells have the centre of mass of the body. Unless a position map defines the body, the
     tensor is also equal to the integral that defines it.
     Outcomes: isotropic (the same about every axis), two_equal (diagonal, two moments equal), diagonal, generic; round
@@ -146,8 +146,8 @@ def moment_of_inertia(
     axis    "x", "y" or "z": the moment is about an axis parallel to this body axis
     about   a named point of the body on the axis of the moment
 
-    Second route: the sum of m d^2 over equimomental particles; for a body defined by a position map, a numerical sum
-    over its cells.
+    Second route: the sum of m d^2 over equimomental particles. Check: for a body defined by a position map, a numerical
+    sum over its cells takes the place of the second route.
     The moment of a composite body is derived from its parts.
     Errors: there is no such axis; the body has no such point.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, section 7.3.

@@ -306,7 +306,8 @@ def kinetic_energy(
 
 def _energy_by_components(inertia: Any, omega: Any) -> list[Form]:
     """Return a list with the kinetic energy as an explicit sum, such as
-    (1/2) w^2/14 (M a^2/12) (13 1^2 + 10 2^2 + 5 3^2) for a block.
+    (1/2) (w^2/14) (M a^2/12) (13*1^2 + 10*2^2 + 5*3^2) for a block
+    with the edges a, 2a and 3a that rotates about its diagonal.
 
     The list is empty unless the axes are principal axes and the ratios of all moments and of all components are
     numbers. It is also empty if all moments are equal, or if the angular velocity is along one of the axes.

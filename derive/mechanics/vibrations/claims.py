@@ -249,13 +249,21 @@ MATRICES = ("stiffness", "turning", "mass")
 
 def _roots(facts: Judged, point: Point) -> list[complex]:
     """Return all distinct exponents s at a trial point."""
-    return _roots_of(*(ImmutableDenseMatrix(facts.inputs[role].xreplace(dict(point))) for role in MATRICES))
+    return _roots_of(_exponents(facts, point))
+
+
+def _exponents(facts: Judged, point: Point) -> Poly:
+    """Return the polynomial in s whose roots are the exponents at a trial point."""
+    return _polynomial_of(*(ImmutableDenseMatrix(facts.inputs[role].xreplace(dict(point))) for role in MATRICES))
 
 
 @lru_cache(maxsize=128)
-def _roots_of(stiffness: MatrixBase, turning: MatrixBase, mass: MatrixBase) -> list[complex]:
+def _polynomial_of(stiffness: MatrixBase, turning: MatrixBase, mass: MatrixBase) -> Poly:
     k, g, m = (each.applyfunc(as_rational) for each in (stiffness, turning, mass))
-    return roots_of(Poly(determinant_of(ImmutableDenseMatrix(k + S * g + S**2 * m)), S))
+    return Poly(determinant_of(ImmutableDenseMatrix(k + S * g + S**2 * m)), S)
+
+
+_roots_of = lru_cache(maxsize=128)(roots_of)
 
 
 def _is_among(value: complex, roots: list[complex]) -> bool:
@@ -373,14 +381,17 @@ def damped(sign: int | None) -> Predicate:
 
 
 def gyroscopic_rate(kind: str) -> Predicate:
-    """Judge whether minus the result is an exponent s; a `decay` must be positive, a `growth` negative. For an
-    `oscillator`, minus the result must be half the sum of two exponents."""
+    """Judge whether minus the result is an exponent s; a `decay` must be positive, a `growth` negative. For `critical`,
+    minus the result must be a multiple root. For an `oscillator`, minus the result must be half the sum of two
+    exponents."""
 
     def is_so(facts: Judged) -> bool:
         def is_so_at(point: Point) -> bool:
             value, roots = complex(value_at(explicit(facts.result), point)), _roots(facts, point)
             if kind == "oscillator":
                 return _is_among(-value, [(a + b) / 2 for i, a in enumerate(roots) for b in roots[:i]])
+            if kind == "critical":
+                return _is_among(-value, roots) and _is_among(-value, roots_of(_exponents(facts, point).diff(S)))
             return _is_among(-value, roots) and (value.real > 0) == (kind == "decay")
 
         return everywhere(_points(facts), is_so_at)

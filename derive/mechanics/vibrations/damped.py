@@ -34,7 +34,8 @@ class DampedModes(Equations[Damped]):
 
     def found(self) -> tuple[Quantity, ...]:
         """Return the steps for each factor of the determinant. A zero exponent gives one step. Any other factor gives
-        the decay rate, the frequency if the factor is quadratic, and the shape if there are several coordinates."""
+        the decay rate, the frequency if the factor is quadratic and its roots differ, and the shape if there are
+        several coordinates."""
         roots, characteristic = self.system.roots, _characteristic(self)
         found: list[Quantity] = []
         number = self.before
@@ -46,7 +47,7 @@ class DampedModes(Equations[Damped]):
             index = f"_{number}" if len(roots) > 1 or not self.is_whole else ""
             own = _rate(self, characteristic, root, index)
             found.append(own)
-            if root.factor.degree == 2:
+            if root.factor.degree == 2 and root.sign != 0:
                 found.append(_frequency(self, own, root, index))
             column = self.system.column(root) if len(self.linear) > 1 else None
             if column is not None:
@@ -125,7 +126,7 @@ def _left(characteristic: Quantity) -> Expr:
 DAMPED_RATE = Rule(
     "vibrations.damped_rate",
     source="Goldstein, Poole, Safko, *Classical Mechanics*, section 6.5; Landau, Lifshitz, *Mechanics*, section 25",
-    outcomes={kind: claims.gyroscopic_rate(kind) for kind in ("oscillator", "decay", "growth")},
+    outcomes={kind: claims.gyroscopic_rate(kind) for kind in ("oscillator", "critical", "decay", "growth")},
     evidence={"put_back": CHECK},
 )
 
@@ -133,10 +134,12 @@ DAMPED_RATE = Rule(
 def _rate(equations: DampedModes, characteristic: Quantity, root: CharacteristicRoot, number: str) -> Quantity:
     """Decay rate.
 
-    Outcomes: oscillator (the factor is quadratic); for a linear factor: decay, or growth (the rate is negative).
+    Outcomes, for a quadratic factor of the characteristic polynomial: oscillator, or critical (its roots are equal, so
+    the factor may be the square of a linear one); for a linear factor: decay, or growth (the rate is negative).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.5; Landau, Lifshitz, *Mechanics*, section 25.
     """
     a, _, *rest = root.factor.coefficients
+    has_equal_roots = root.sign == 0 if rest else root.times == 2 and len(equations.linear) == 1
 
     def put_back(found: Expr) -> tuple[Expr, Expr]:
         """Substitute the exponents of the motion into the determinant: s = -beta +- sqrt(beta^2 - c/a) for a quadratic
@@ -151,7 +154,7 @@ def _rate(equations: DampedModes, characteristic: Quantity, root: Characteristic
         {},
         lines=Lines(put_in=None, result=False, arranged=explicit),
         routes={"put_back": put_back},
-        outcome="oscillator" if rest else "growth" if root.sign == -1 else "decay",
+        outcome="critical" if has_equal_roots else "oscillator" if rest else "growth" if root.sign == -1 else "decay",
         phrase_data=PhraseData(points_to={"characteristic": characteristic}, outcome_data=equations.judged_by()),
         key=f"{equations.start}decay{number}",
         kind="angular speed",

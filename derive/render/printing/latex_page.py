@@ -81,7 +81,7 @@ class Passage:
     after: tuple[Blocks, ...] = ()
 
 
-NO_WORDS = r"\hyphenation{}"  # marks the place for the divided words of a document that is not in English
+NO_WORDS = r"\hyphenation{}"  # marks the place for the hyphenated words of a document that is not in English
 NOT_TYPESET = Fragments(*[Tex("")] * 5)
 
 

@@ -365,7 +365,7 @@ class Bodies:
                 rejected("symbol", f"`{name}` is not a valid symbol for a variable of `position`", name.place)
             kind, (lower, upper) = known.ends(name, ends)
             if (upper - lower).is_nonpositive:
-                message = f"nothing lies between the limits of `{name}`, {lower} and {upper}"
+                message = f"the limits of `{name}` are {lower} and {upper}, but the first must be less than the second"
                 rejected("limits", message, name.place, "write two different limits, the lower one first")
             letter = scalar(str(name))
             limits[letter] = (lower, upper)

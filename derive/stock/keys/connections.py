@@ -138,7 +138,7 @@ class SurfaceKeys(Record):
             if allowed:
                 message = f"this surface has no side `{self.side}`"
                 rejected("unused-key", message, self.places["side"], f"write {' or '.join([*allowed, 'both'])}")
-            message = f"a plane has no `{self.side}`; its free side follows from `along` or `normal`"
+            message = f"a plane has no side `{self.side}`; its free side follows from `along` or `normal`"
             rejected("unused-key", message, self.places["side"], "leave it out")
 
     def _curve(self, written: Tree, places: Places, letters: InLetters) -> tuple[Any, ...]:
