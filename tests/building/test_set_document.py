@@ -318,7 +318,7 @@ def test_a_caption_may_refer_to_a_later_equation_in_every_format(tmp_path: Path)
     assert "<<eq sleeping_spin>>" in text.partition("drawings:")[2]
     solution = rendered_once(ROOT, "hw9/top")
     (well,) = [each for each in json.loads(solution.texts["json"])["drawings"] if each["key"] == "well"]
-    assert "the critical one, (29)." in well["caption"]
+    assert "the critical spin of (29)." in well["caption"]
 
 
 def test_the_sheet_is_the_same_however_much_is_derived(tmp_path: Path) -> None:

@@ -137,7 +137,7 @@ def test_components_that_are_given() -> None:
 @pytest.mark.parametrize(
     ("question", "message"),
     [
-        (lambda: linearised_rotation(equations((A, B, C)), "w", omega), 'about "x", "y" or "z"'),
+        (lambda: linearised_rotation(equations((A, B, C)), "w", omega), 'must be "x", "y" or "z"'),
         (lambda: linearised_rotation(equations((A, B, C), (M, 0 * M, 0 * M)), "z", omega), "does not satisfy"),
         (lambda: linearised_rotation(equations((A, B, C))[:2], "z", omega), "all three Euler equations"),
         (lambda: body_cone_rate(equations((A, B, C))), "are equal"),

@@ -233,7 +233,7 @@ def test_two_bodies_of_one_shape_are_two_by_their_names() -> None:
         assert [q.key for q in tensors] == ["upper_rod_inertia_tensor", "lower_rod_inertia_tensor"]
         assert [q.symbol.name for q in tensors] == ["I_upper", "I_lower"]
         turning = spin(omega, along=upper.direction(Direction("x")))
-        with pytest.raises(DeriveError, match="the upper rod and the lower rod"):
+        with pytest.raises(DeriveError, match="the upper rod and the second has the lower rod"):
             kinetic_energy(tensors[1], turning)
 
 

@@ -38,7 +38,7 @@ def test_values_that_are_equal_in_another_form_are_about_one_thing() -> None:
         (
             Subject(body=ROD),
             Subject(body=DISC),
-            "one body, but the first has the upper rod and the second has the disc",
+            "must belong to one body, but the first has the upper rod and the second has the disc",
         ),
         (
             Subject(point="apex"),
