@@ -20,7 +20,7 @@ from pathlib import Path
 import pytest
 
 LIST = Path(__file__).with_name("covered.txt")
-SLOW, RATE = 0.1, 16
+SLOW, RATE = 0.1, 20
 PROCESSES = ("tests/building/", "tests/preview/", "tests/cli/", "tests/tools/", "tests/test_i")  # isolated, interrupted
 MEASURED = 300
 HEAD = "# Slow tests that run few lines of their own: written by `python -P -m tests.covered`.\n"
