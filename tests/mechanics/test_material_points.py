@@ -127,7 +127,7 @@ def test_the_end_of_a_rod_that_is_hit_is_a_particle_of_the_rod(tmp_path: Path) -
     assert equal(steps["x_dot_after"].value, 2 * m * v / (M + 4 * m))
     assert equal(steps["phi_dot_after"].value, -12 * m * v / ((M + 4 * m) * l))
     (said,) = messages(tmp_path, edited(HIT, (", of: [p, rod]", "")))
-    assert "no body or particle" in said
+    assert "no particle or body" in said
     (said,) = messages(tmp_path, edited(HIT, ("of: [p, rod]", "of: rod")))
     assert "two names" in said
 

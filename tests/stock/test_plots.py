@@ -374,7 +374,10 @@ def test_a_phase_portrait_has_a_coordinate_its_momentum_and_values(tmp_path: Pat
 def test_a_phase_portrait_is_described(tmp_path: Path) -> None:
     page = " ".join(rendered(course_with(tmp_path, SWING), "trial/one", only=("html",)).html.split())
     assert "A phase portrait, with θ from −180° to 180° on the horizontal axis." in page
-    assert "from −9 kg m^2/s to 9 kg m^2/s, and the curves have the values −5 J, 9.8 J and 15 J" in page
+    assert (
+        "from −9 kg m^2/s to 9 kg m^2/s on the vertical axis, and the curves have the values −5 J, 9.8 J and 15 J"
+        in page
+    )
     assert "the thick curve has the value m g l" in page
 
 

@@ -7,7 +7,19 @@ from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import Any
 
-from sympy import Add, Dummy, Expr, Function, ImmutableDenseMatrix, Integer, Matrix, Pow, Rational, Symbol, sqrt
+from sympy import (
+    Add,
+    Dummy,
+    Expr,
+    Function,
+    ImmutableDenseMatrix,
+    Integer,
+    Matrix,
+    Pow,
+    Rational,
+    Symbol,
+    sqrt,
+)
 from sympy.core.symbol import Str
 from sympy.polys.matrices import DomainMatrix
 from sympy.polys.matrices.exceptions import DMError
@@ -16,6 +28,7 @@ from derive.algebra.collect import by_accelerations
 from derive.algebra.derivatives import derivative
 from derive.algebra.expressions import (
     Factors,
+    Prescribed,
     Relation,
     Terms,
     TimeRate,
@@ -831,8 +844,9 @@ def _check_short(solved: Matrix, names: Mapping[Expr, Dummy]) -> None:
 
 
 def _in_a_field(matrix: ImmutableDenseMatrix) -> tuple[DomainMatrix, dict[Expr, Dummy]]:
-    """Return the matrix with symbols in place of sines, cosines and roots, and the symbol of each replaced function."""
-    found = sorted(matrix.atoms(Function), key=str)
+    """Return the matrix with symbols in place of sines, cosines, roots, and prescribed functions of time and their
+    rates. Also return the symbol of each replaced function."""
+    found = sorted(matrix.atoms(Function, Prescribed), key=str)
     powers = sorted((p for p in matrix.atoms(Pow) if not p.exp.is_Integer), key=str)
     bases: dict[Expr, Expr] = {}  # expanded base -> the form of this base in all roots
     roots = {
