@@ -47,11 +47,36 @@ def test_the_friction_that_rocking_needs_is_a_fraction_of_the_weight() -> None:
     assert simplify(F - M * g * tilt * (I + M * a * R / 2) / (I + M * a**2 / 4)) == 0
 
 
-def test_the_rotation_about_the_axis_is_slower_than_the_spin_in_both_precessions() -> None:
-    """The rates are 15.13 and 939.5 rpm; the fast one is 1.04 times the spin."""
-    cosine, spin = cos(pi / 4), 900.0
-    assert 939.5 / spin == pytest.approx(1.04, abs=0.005)
-    assert [float(spin - rate * cosine) for rate in (15.13, 939.5)] == pytest.approx([889, 236], abs=0.5)
+def test_in_the_fast_precession_the_socket_pushes_with_35_times_the_weight() -> None:
+    """The centre of mass moves uniformly on a horizontal circle."""
+    _, solved = solved_once(ROOT, "hw9/top")
+    rate = explicit(solved.derivation.step("fast_precession").result)
+    found = float(rate.subs({letter(rate, "S"): 30 * pi, letter(rate, "g"): 9.8, letter(rate, "a"): 0.1}))
+    across = found**2 * NUMBERS["l"] * float(cos(pi / 4))
+    assert across == pytest.approx(342, abs=0.5) and across / NUMBERS["g"] == pytest.approx(35, abs=0.2)
+
+
+def test_the_multipliers_give_the_equation_of_motion_as_the_page_says() -> None:
+    _, solved = solved_once(ROOT, "hw9/slab")
+    turning, *forces = (
+        explicit(solved.derivation.step(key).result) for key in ("motion_theta", "lambda_x", "lambda_y")
+    )
+    right = turning.right.expand()
+    arms = [right.coeff(letter(right, name)) for name in ("lambda_x", "lambda_y")]
+    R, a, theta = (letter(right, name) for name in ("R", "a", "theta"))
+    M, rate = letter(forces[0], "M"), letter(forces[0], "theta_dot")
+    assert simplify(arms[0] ** 2 + arms[1] ** 2 - R**2 * theta**2 - a**2 / 4) == 0
+    squared = sum(arm * force.expand().coeff(rate, 2) for arm, force in zip(arms, forces, strict=True))
+    assert simplify(squared + M * R**2 * theta) == 0
+
+
+@pytest.mark.parametrize(("one", "other", "sign"), [("x", "y", 1), ("y", "x", -1)])
+def test_a_symmetric_body_precesses_freely_at_the_stated_rate(one: str, other: str, sign: int) -> None:
+    _, solved = solved_once(ROOT, "hw9/euler")
+    left = explicit(solved.derivation.step(f"euler_{one}").result).left
+    I_x, I_y, I_z, z = (letter(left, name) for name in ("I_x", "I_y", "I_z", "omega_z"))
+    rate, across = letter(left, f"omega_{one}_dot"), letter(left, f"omega_{other}")
+    assert simplify((left - I_x * rate - sign * (I_z - I_x) * z * across).subs(I_y, I_x)) == 0
 
 
 def test_the_slab_slips_long_before_its_potential_energy_is_greatest() -> None:

@@ -382,8 +382,8 @@ def damped(sign: int | None) -> Predicate:
 
 def gyroscopic_rate(kind: str) -> Predicate:
     """Judge whether minus the result is an exponent s; a `decay` must be positive, a `growth` negative. For `critical`,
-    minus the result must be a multiple root. For an `oscillator`, minus the result must be half the sum of two
-    exponents."""
+    the result must be positive, and minus the result must be a multiple root. For an `oscillator`, minus the result
+    must be half the sum of two exponents."""
 
     def is_so(facts: Judged) -> bool:
         def is_so_at(point: Point) -> bool:
@@ -391,7 +391,8 @@ def gyroscopic_rate(kind: str) -> Predicate:
             if kind == "oscillator":
                 return _is_among(-value, [(a + b) / 2 for i, a in enumerate(roots) for b in roots[:i]])
             if kind == "critical":
-                return _is_among(-value, roots) and _is_among(-value, roots_of(_exponents(facts, point).diff(S)))
+                again = roots_of(_exponents(facts, point).diff(S))
+                return value.real > 0 and _is_among(-value, roots) and _is_among(-value, again)
             return _is_among(-value, roots) and (value.real > 0) == (kind == "decay")
 
         return everywhere(_points(facts), is_so_at)
