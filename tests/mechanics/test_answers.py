@@ -44,7 +44,7 @@ from derive.mechanics import (
 )
 from derive.mechanics.answers import roots as roots_module
 from derive.solving.zeros import Zero
-from derive.steps.record import Run, recorded
+from derive.steps.record import Run, assume, recorded
 from derive.steps.step import Quantity
 
 m, M, g, l, k, R, h, b, F = symbols("m M g l k R h b F", positive=True)
@@ -417,6 +417,13 @@ def test_an_extremum_outside_a_range_that_is_bounded_on_one_side_is_refused() ->
     for outside in (Range(Integer(4), oo), Range(-oo, Integer(2))):
         with declared({c: outside}), pytest.raises(Rejected, match="not stationary for any allowed c"):
             maximum(hill, c)
+
+
+def test_an_extremum_that_an_assumed_relation_excludes_is_refused() -> None:
+    with recorded():
+        assume(Relation(c, ">", 4))
+        with pytest.raises(Rejected, match="not stationary for any allowed c"):
+            maximum(given(4 * c - (c - 1) ** 2, "hill"), c)
 
 
 def test_what_has_no_extremum_or_the_other_one_is_refused() -> None:

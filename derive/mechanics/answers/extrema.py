@@ -184,21 +184,28 @@ def _not_one(of: Quantity, x: Symbol, verb: str, count: int, elsewhere: bool) ->
 
 
 def _range_as_interval(x: Symbol) -> Within | None:
-    """Return the interval of values of the symbol, from numerical bounds or from assumed relations such as b < l.
-
-    A positive symbol without a lower bound has the lower bound 0. Return None if the symbol has no bounded range and
-    the relations do not give exactly one lower and one upper bound.
-    """
+    """Return the interval of values of the symbol, if its declared range, or the assumed relations such as b < l, give
+    exactly one lower and one upper bound; otherwise None."""
     known = range_of(x)
     if known is not None and known.least.is_finite and known.greatest.is_finite:
         return known.least, known.greatest
+    below, above = _bounds(x)
+    return (below[0], above[0]) if len(below) == len(above) == 1 else None
+
+
+def _bounds(x: Symbol) -> tuple[list[Expr], list[Expr]]:
+    """Return all lower and all upper bounds of the symbol, from its declared range and from assumed relations. A
+    positive symbol without a lower bound has the lower bound 0."""
     bounds = [(each.operator[0], *each.sides) for each in assumed()]
-    above = [high for mark, low, high in bounds if low == x and mark == "<"]
-    above += [high for mark, high, low in bounds if low == x and mark == ">"]
     below = [low for mark, low, high in bounds if high == x and mark == "<"]
     below += [low for mark, high, low in bounds if high == x and mark == ">"]
-    below += [Integer(0)] if x.is_positive and not below else []
-    return (below[0], above[0]) if len(below) == len(above) == 1 else None
+    above = [high for mark, low, high in bounds if low == x and mark == "<"]
+    above += [high for mark, high, low in bounds if low == x and mark == ">"]
+    known = range_of(x)
+    if known is not None:
+        below += [known.least] if known.least.is_finite and (known.least != 0 or not below) else []
+        above += [known.greatest] if known.greatest.is_finite else []
+    return below or ([Integer(0)] if x.is_positive else []), above
 
 
 def _conditions(real: Relation | None, room: Sequence[Relation]) -> dict[str, Relation]:
@@ -209,25 +216,18 @@ def _conditions(real: Relation | None, room: Sequence[Relation]) -> dict[str, Re
 def _inside(place: Expr, real: Relation | None, within: Within | None, x: Symbol) -> list[Relation] | None:
     """Return the conditions for the place to lie between the ends of the interval. The list is empty if the place
     always lies between them; return None if it never does, or does not for the given numbers."""
-    low, high = within or _ends_of_range(x)
-    if real is not None and low in (None, 0) and high is None:  # every real place is allowed
+    below, above = ([within[0]], [within[1]]) if within else _bounds(x)
+    if real is not None and below in ([], [0]) and not above:  # every real place is allowed
         return []
     found = []
-    for ahead in (*([] if low is None else [place - low]), *([] if high is None else [high - place])):
-        sure = _sign_of_distance(ahead, Integer(1) if low is None or high is None else high - low)
+    width = above[0] - below[0] if len(below) == len(above) == 1 else Integer(1)
+    for ahead in (*(place - low for low in below), *(high - place for high in above)):
+        sure = _sign_of_distance(ahead, width)
         if sure in (0, -1) or sure is None and sign_known(ahead) in (0, -1):
             return None
         if sure is None:
             found.append(positive(ahead))
     return found
-
-
-def _ends_of_range(x: Symbol) -> tuple[Expr | None, Expr | None]:
-    """Return the ends of the declared range of a symbol, None for an end at infinity. A positive symbol begins at 0."""
-    known = range_of(x)
-    if known is None:
-        return Integer(0) if x.is_positive else None, None
-    return known.least if known.least.is_finite else None, known.greatest if known.greatest.is_finite else None
 
 
 def _sign_of_distance(ahead: Expr, width: Expr) -> int | None:
