@@ -90,6 +90,13 @@ def test_text_of_letters_is_left_as_it_is_and_greek_is_set_as_mathematics() -> N
     assert r"\omega" in escaped("ω")
 
 
+def test_a_letter_may_have_accents_above_and_below() -> None:
+    assert escaped("Nguyễn") == r"Nguy{\~{\^{e}}}n"
+    assert escaped("Việt") == r"Vi{\d{\^{e}}}t"
+    assert escaped("Ionuț") == r"Ionu{\textcommabelow{t}}"
+    assert unprintable("Dương") == 1  # the fonts have no horn
+
+
 def test_what_the_fonts_do_not_have_is_told_by_its_place() -> None:
     assert unprintable("a block ω") is None
     assert unprintable("ab\u4e2dc") == 2

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import re
+import unicodedata
 from functools import cache
 
-from pylatexenc.latexencode import UnicodeToLatexEncoder
+from pylatexenc.latexencode import RULE_CALLABLE, UnicodeToLatexConversionRule, UnicodeToLatexEncoder
 
 from derive.algebra.dimensions import Dimension
 from derive.errors import Complaint, Rejected
@@ -393,9 +394,37 @@ def _unit(text: str) -> str:
     return text.replace("*", r"\,").replace("·", r"\,").replace(" ", r"\,").replace("%", r"\%")
 
 
+ACCENTS = {  # those below a letter come last: TeX sets an accent above only over a letter or over another accent above
+    "GRAVE ACCENT": "`",
+    "ACUTE ACCENT": "'",
+    "CIRCUMFLEX ACCENT": "^",
+    "TILDE": "~",
+    "MACRON": "=",
+    "BREVE": "u",
+    "DOT ABOVE": ".",
+    "DIAERESIS": '"',
+    "CARON": "v",
+    "DOT BELOW": "d",
+    "COMMA BELOW": "textcommabelow",
+}
+
+
+def _with_accents(text: str, at: int) -> tuple[int, str] | None:
+    """Return a letter with any number of accents as nested commands, for the encoder, which knows few such letters."""
+    letter, *marks = unicodedata.normalize("NFD", text[at])
+    names = [unicodedata.name(mark, "").removeprefix("COMBINING ") for mark in marks]
+    if not marks or not letter.isascii() or not all(name in ACCENTS for name in names):
+        return None
+    written = letter
+    for name in sorted(names, key=lambda name: name.endswith("BELOW")):
+        written = rf"\{ACCENTS[name]}{{{written}}}"
+    return 1, written
+
+
 @cache
 def _encoder() -> UnicodeToLatexEncoder:
     return UnicodeToLatexEncoder(
+        conversion_rules=["defaults", UnicodeToLatexConversionRule(RULE_CALLABLE, _with_accents)],
         non_ascii_only=False,
         replacement_latex_protection="braces-all",
         unknown_char_policy="fail",
