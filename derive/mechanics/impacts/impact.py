@@ -285,8 +285,8 @@ class Impact:
         return explicit(value).subs(self.at, simultaneous=True)
 
     def shown_there(self, value: Any, holds: Any) -> Any:
-        """Return the value in the notation of the page, with "at q = q_0" for each coordinate q in the expression
-        `holds` whose value at the impact is given."""
+        """Return the value in the notation of the page, with "at q = q_0" for each coordinate q that has a given value
+        at the impact and occurs in the expression `holds`."""
         for q, place in self.at.items():
             if explicit(holds).has(q) and q != place:
                 value = At(value, q, place)

@@ -48,7 +48,8 @@ class Contact(Connection):
     of       the body or particle; None for a fixed corner that a body touches
     at       the place of contact
     surface  the surface that the body touches
-    gap      the distance between the body and the surface, or the height of a particle above a curve, m
+    gap      the distance between the body and the surface, m; for a particle or a point of a body at a curve, the
+             vertical distance from the curve
     normal   the unit vector normal to the surface, towards the body
     gradient  the length of the gradient of `gap` on the surface
     """

@@ -409,7 +409,7 @@ def _positive(length: Expr) -> Expr:
 
 
 def help_to_sign(length: Expr, changing: Sequence[Symbol]) -> str:
-    """Return the help for an unknown sign: a range for a coordinate, a positive function, or a relation to assume."""
+    """Return the help for an unknown sign: a range, a declaration as positive, other sizes, or a relation to assume."""
     if not changing:
         more, less = sides_without_minus(length)
         return f"{DECIDES} {less} < {more}"
