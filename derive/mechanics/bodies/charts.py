@@ -158,7 +158,7 @@ def _determinant(m: Sequence[Sequence[float]]) -> float:
 
 
 def draws(letters: set[Symbol], limits: Sequence[Bounds]) -> Iterator[dict[Symbol, Expr]]:
-    """Random values of the symbols for which each lower limit is below its upper limit.
+    """Random values of the symbols, with each lower limit below its upper limit.
 
     If the problem states a number for a symbol, the symbol has this value.
     """

@@ -223,7 +223,7 @@ def _placed(body: Any, turned: Any, point: Point, at: Any, across: str | None) -
 
 
 def _check_turns(body: Any, number: int, angle: Expr) -> None:
-    """Reject the rotation of a body about an axis without moment of inertia, such as a rod about its line."""
+    """Reject a rotation without moment of inertia, such as the rotation of a rod about its own axis."""
     spread = central_second_moments(body)
     j, k = (number + 1) % 3, (number + 2) % 3
     if coordinates_in(angle) and tidied(spread[j, j] + spread[k, k]) == 0:

@@ -185,7 +185,7 @@ def contact(
 
 
 def point_of_contact(of: Any, on: Any) -> PointOfBody:
-    """The particle of a body that touches a surface; `of` and `on` as in `contact`."""
+    """The material point at which a body touches a surface; `of` and `on` as in `contact`."""
     touch = _contact(of, on)
     return PointOfBody(touch.at.components, body=touch.of)
 

@@ -42,7 +42,7 @@ class _AtPlace(Part):
 
     at: Vector
     of: Any
-    verb: ClassVar[str]  # the function of a script that creates the force
+    verb: ClassVar[str]  # the function with which a script creates the force
     what: ClassVar[str]  # the name of the force in messages
 
     def moved(self, known: Mapping[Symbol, Expr]) -> Self:

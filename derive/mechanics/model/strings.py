@@ -275,7 +275,7 @@ def _check_rope(line: Any, particle: Any, tension: str) -> None:
         raise Rejected(Complaint("wrong-argument", message, help=help_line))
     first, last, own = (velocity_at(each, line.places[0]) for each in (line.places[0], line.places[-1], particle))
     if any(not is_zero(tidied(dot(v, v) - dot(own, own))) for v in (first, last)):
-        message = "the speed of the rope differs from the speed of the particle that has its mass"
+        message = "the speed of the rope differs from the speed of the particle that has the mass of the rope"
         raise Rejected(Complaint("which-body", message, help=BESIDE_THE_ROPE))
     if not is_zero(own.components[-1]):
         message = "the particle that has the mass of the rope must stay at a constant height, but it moves up or down"

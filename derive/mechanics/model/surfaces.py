@@ -42,7 +42,7 @@ Ground: TypeAlias = Location | Axes | PlacedBody
 class Surface(ABC):
     """A surface; the bodies that touch it are on its free side.
 
-    of      the body or particle of the system that carries the surface; None if the system has no such body
+    of      the body or particle that carries the surface; None if no part of the system carries it
     moves   if `of` is None, the motion of the material along the surface. A turntable has axes in which the material is
             at rest; a belt has a place that moves with the material. None without such a motion
     is_two_sided   whether the surface can push bodies to both sides, like a rail; the normal force may have either sign
