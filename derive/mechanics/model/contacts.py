@@ -238,7 +238,7 @@ def _check_moves_with_its_material(surface: Surface) -> None:
     help_line = (
         f"{what}`along: [cos(theta), sin(theta)]`; the place `through` must move with them"
         if isinstance(surface, Plane)
-        else "its centre must be a place that moves with the body, such as a point of the body"
+        else "its centre must move with the axes, or with the body that carries it, like a point of this body"
     )
     raise Rejected(Complaint("which-body", f"the surface does not move with {who}", help=help_line))
 
