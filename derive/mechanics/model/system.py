@@ -493,8 +493,8 @@ def _with_branches(system: System) -> tuple[Part, ...]:
 
 
 def _near_rest(each: Central) -> Central | None:
-    """The potential with the branch that is positive where all coordinates are zero. None if there is no such branch, or
-    if the distance contains no coordinate.
+    """The potential with the branch that is positive where all coordinates are zero. None if there is no such branch,
+    or if the distance contains no coordinate.
 
     If the line between the two places has no fixed direction, the potential is unchanged.
     """
