@@ -20,7 +20,7 @@ FURTHER, MOST = 12, 48
 SCALES = (Rational(1, 60), Rational(1, 8), Integer(1), Integer(8), Integer(60))
 NEAR = 160  # number of sampled points of a body; Newton's method starts at the points closest to the sought place
 STARTS, TURNS = 10, 30  # number of starts of Newton's method; greatest number of iterations from each start
-FAR = 1e6  # an iteration stops when a variable exceeds this multiple of (1 + the largest start value)
+FAR = 1e6  # an iteration stops when |variable| exceeds this multiple of (1 + the largest |start value|)
 BEYOND = 0.1  # a body may extend beyond the sampled points by this fraction of its width
 CLOSE = 1e-9
 

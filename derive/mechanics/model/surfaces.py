@@ -197,7 +197,7 @@ class Curve(Surface):
         return dot(normal, at - self.point((at - self.through).components[0]))
 
     def point(self, x: Expr) -> Location:
-        """The place of the curve at the horizontal distance x."""
+        """The place of the curve at the horizontal distance x from `through`."""
         return self.through + Location((x, self.formula.xreplace({self.letter: x})))
 
     def foot(self, at: Location, normal: Location) -> Location:
