@@ -15,7 +15,7 @@ from derive.algebra.ranges import rational_in_range
 from derive.mechanics.bodies.regions import Bounds
 from derive.steps.known_numbers import with_numbers
 
-DRAWS = 3  # number of sets of random numbers for one symbol; each other symbol adds FURTHER sets, up to MOST in all
+DRAWS = 3  # number of sets of random numbers for one symbol; each other symbol adds FURTHER sets, at most MOST in all
 FURTHER, MOST = 12, 48
 SCALES = (Rational(1, 60), Rational(1, 8), Integer(1), Integer(8), Integer(60))
 NEAR = 160  # number of sampled points of a body; Newton's method starts at the points closest to the sought place

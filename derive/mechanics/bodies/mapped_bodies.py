@@ -430,7 +430,6 @@ def _cells(body: GeneralBody) -> list[Quantity]:
 
 
 def _variables_of(body: GeneralBody) -> dict[Symbol, str]:
-    """The variables of a body with their kinds."""
     position, limits = body.map()
     angles = {s for f in position.atoms(sin, cos) for s in f.free_symbols}
     kinds = {}

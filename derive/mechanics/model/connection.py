@@ -61,7 +61,8 @@ class Connection(Part):
 
 
 def end_of(given: Any) -> tuple[Location, Any]:
-    """Return a place, and the body or particle to which it belongs; None if it belongs to no body or particle."""
+    """Return a place, and the body or particle to which it belongs. The second item is None for a place that belongs to
+    no body or particle."""
     if isinstance(given, PointOfBody):
         return Location(given.components), given.body
     if isinstance(given, PlacedBody):
