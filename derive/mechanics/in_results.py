@@ -3,7 +3,7 @@
     @in_results("limit", "the limiting case", of="limit", letter="for: a letter", to="to: a value or `infinity`")
     def limiting_case(of: Quantity, letter: Letter, to: Value = 0, ...) -> Quantity: ...
 
-The decorator gives arguments their keys, and the description of each key in the manual. The signature gives the rest:
+The decorator gives each argument its key, and each key its description in the manual. The signature gives the rest:
 the annotation of an argument is the kind of value of its key. An argument without a default is a required key, unless
 `one_of` contains this key. The decorator and the signature are used to parse the keys, and to write the schema for
 editors, the manual and the error messages.

@@ -131,10 +131,10 @@ Boundary: TypeAlias = Round | Faces | Segment | Rim | Extruded | Ellipsoidal | T
 
 
 def of_map(place: ImmutableMatrix, limits: Bounds) -> Boundary | None:
-    """The boundary of a position map if this boundary is a straight line, the closed edge of a flat body in the plane
-    of x and y, or an ellipsoid.
+    """The boundary of a position map, if it can be found from the form of the map. It is then a straight line, the
+    closed edge of a flat body in the plane of x and y, or an ellipsoid.
 
-    Return None for every other map.
+    Return None for every other map, for example if the limits of a flat body are not constant.
     """
     if len(limits) == 1 and is_zero(place.diff(limits[0][0], 2)):
         u, *ends = limits[0]

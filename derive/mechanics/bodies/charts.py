@@ -15,12 +15,12 @@ from derive.algebra.ranges import rational_in_range
 from derive.mechanics.bodies.regions import Bounds
 from derive.steps.known_numbers import with_numbers
 
-DRAWS = 3  # number of sets of random numbers for one symbol; FURTHER more for each further symbol, at most MOST in all
+DRAWS = 3  # number of sets of random numbers for one symbol; each other symbol adds FURTHER sets, at most MOST in all
 FURTHER, MOST = 12, 48
 SCALES = (Rational(1, 60), Rational(1, 8), Integer(1), Integer(8), Integer(60))
 NEAR = 160  # number of sampled points of a body; Newton's method starts at the points closest to the sought place
 STARTS, TURNS = 10, 30  # number of starts of Newton's method; greatest number of iterations from each start
-FAR = 1e6  # an iteration stops when a variable exceeds this multiple of (1 + the largest start value)
+FAR = 1e6  # an iteration stops when |variable| exceeds this multiple of (1 + the largest |start value|)
 BEYOND = 0.1  # a body may extend beyond the sampled points by this fraction of its width
 CLOSE = 1e-9
 
@@ -158,7 +158,7 @@ def _determinant(m: Sequence[Sequence[float]]) -> float:
 
 
 def draws(letters: set[Symbol], limits: Sequence[Bounds]) -> Iterator[dict[Symbol, Expr]]:
-    """Random values of the symbols for which each lower limit is below its upper limit.
+    """Random values of the symbols, with each lower limit below its upper limit.
 
     If the problem states a number for a symbol, the symbol has this value.
     """

@@ -218,8 +218,8 @@ class Triangle(Cornered):
 
     @property
     def edges(self) -> tuple[tuple[Expr, tuple[tuple[int, int], ...]], ...]:
-        """The sides whose length is a multiple of a symbol. If sides have different multiples of one symbol, only the
-        sides with the first of these multiples are listed."""
+        """The sides whose length is a rational multiple of a symbol. If sides have different multiples of one symbol,
+        only the sides with the first of these multiples are listed."""
         found: dict[Expr, tuple[Expr, list[tuple[int, int]]]] = {}
         for i, k in ((0, 1), (0, 2), (1, 2)):
             x, y, _ = self.corners[k] - self.corners[i]

@@ -5,9 +5,9 @@ variable if the limits are constant, nested integrals if a limit depends on an o
 separated integrals, the innermost antiderivatives in brackets, the values of these brackets, and so on outwards. Then
 a line shows the product of the values. The last line groups density times volume, which is the mass, in a bracket.
 
-If the radius of a solid of revolution varies with the height, or if the coordinates are Cartesian, the integral is
-first over the disc at each height, then along the axis. In Cartesian coordinates the integral over the disc is along
-its chords.
+Suppose that the radius of a solid of revolution varies with its height, or that the coordinates for this solid are
+Cartesian. The integral is then first over the disc at each height, then along the axis. In Cartesian coordinates the
+integral over the disc is along the chords of the disc.
 """
 
 from __future__ import annotations

@@ -58,7 +58,7 @@ __all__ = [
 
 ORIGIN = Point("origin", ZERO)
 VARIABLES = {"length": 1, "area": 2, "volume": 3}  # what the mass fills -> the number of variables
-LETTERS = {"length": "l", "area": "A", "volume": "V"}  # what the mass fills -> its symbol
+LETTERS = {"length": "l", "area": "A", "volume": "V"}  # what the mass fills -> symbol of the size
 
 
 def variables(*names: str) -> tuple[Symbol, ...]:
@@ -388,7 +388,7 @@ def mass_by_integration(body: GeneralBody, key: str = "mass") -> Quantity:
 
 
 def _without_last(forms: list[Form]) -> list[Form]:
-    """The lines of an integral without the line that collects the mass, because the mass is unknown."""
+    """The lines of an integral, except the line that collects the mass: the mass is still unknown."""
     return [form for form in forms if form.because != "mass_collected"]
 
 
@@ -430,7 +430,6 @@ def _cells(body: GeneralBody) -> list[Quantity]:
 
 
 def _variables_of(body: GeneralBody) -> dict[Symbol, str]:
-    """The variables of a body with their kinds."""
     position, limits = body.map()
     angles = {s for f in position.atoms(sin, cos) for s in f.free_symbols}
     kinds = {}

@@ -101,7 +101,7 @@ def from_point(point: Point, position: ImmutableMatrix, limits: Bounds, weight: 
 def cell(position: ImmutableMatrix, limits: Bounds, positive: tuple[Expr, ...] = ()) -> Expr:
     """The factor that turns the product of the differentials of the variables into a length, an area or a volume.
 
-    positive   sizes that are positive: random values of the symbols for which a size is not positive are left out
+    positive   sizes that must be positive for the random values of the symbols
     """
     tangents = tangents_of(position, [x for x, _, _ in limits])
     known = (*limits, *((Dummy("size"), Integer(0), size) for size in positive))
@@ -153,7 +153,7 @@ def inside(limits: Bounds, others: Any = (), looks: int = LOOKS) -> Iterator[dic
 
 
 def letters_in_order(limits: Bounds, letters: Sequence[Symbol], source: Random) -> dict[Symbol, Expr]:
-    """Random values of the symbols for which each lower limit is below the upper limit."""
+    """Random values of the symbols, with each lower limit below its upper limit."""
     for _ in range(TRIES):
         at: dict[Symbol, Expr] = {letter: Rational(source.randint(40, 160), 97) for letter in letters}
         known = dict(at)

@@ -35,8 +35,8 @@ class PlacedBody:
 
     body     an object with a mass, a centre of mass and moments of inertia
     turned   the axes of the body; for a motion in a plane, the angle
-    point    the point of the body whose place is known
-    at       the place of this point of the body
+    point    a point of the body
+    at       the place of this point
     across   for a motion in a plane, the index of the body axis perpendicular to the plane
     rim      for a motion in a plane, the centre and the radius of the circle that bounds a body of unknown shape
     """
@@ -99,7 +99,7 @@ class PlacedBody:
 
     @property
     def is_held(self) -> bool:
-        """Whether the point whose place is known is at rest."""
+        """Whether the place `at` is at rest."""
         here = ImmutableDenseMatrix(self.at.components)
         return not coordinates_in(here) and not depends_on_time(here)
 
@@ -173,7 +173,7 @@ class Placeable:
         """Return the body with its centre of mass at a place. Axes give the orientation in space; an angle gives the
         orientation in a plane.
 
-        across   the body axis perpendicular to the plane of motion; needed if the shape does not determine this axis
+        across   the body axis perpendicular to the plane of motion; needed only if this axis is ambiguous
         """
         own: Any = self
         return _placed(own, turned, own.middle, centre, across)
@@ -223,7 +223,7 @@ def _placed(body: Any, turned: Any, point: Point, at: Any, across: str | None) -
 
 
 def _check_turns(body: Any, number: int, angle: Expr) -> None:
-    """Reject the rotation of a body about an axis without moment of inertia, such as a rod about its line."""
+    """Reject a rotation without moment of inertia, such as the rotation of a rod about its own axis."""
     spread = central_second_moments(body)
     j, k = (number + 1) % 3, (number + 2) % 3
     if coordinates_in(angle) and tidied(spread[j, j] + spread[k, k]) == 0:

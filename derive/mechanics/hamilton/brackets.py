@@ -166,7 +166,7 @@ def _function(of: Any, pairs: Pairs) -> Any:
 
 
 def _derivatives(f: Expr, g: Expr, pairs: Pairs) -> list[tuple[Integer, Symbol, Symbol]]:
-    """Return the products +-df/du dg/dv of the bracket that do not vanish, each as its sign, u and v."""
+    """Return those products +-df/du dg/dv in the bracket that are not zero, each as its sign, u and v."""
     found: list[tuple[Integer, Symbol, Symbol]] = []
     for q, p in pairs:
         for sign, u, v in ((Integer(1), q, p), (Integer(-1), p, q)):

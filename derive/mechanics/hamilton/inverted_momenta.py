@@ -1,4 +1,4 @@
-"""Invert momenta p that are not linear in the rates v, for a Lagrangian L that contains v in one quadratic form only.
+"""Invert momenta p that are not linear in the rates v; L contains v in one quadratic form, otherwise only linearly.
 
 Then p_i - b_i = g(s) (A v)_i with s = v . A v, where b is the value of p at v = 0. So v has the direction of
 w = A^-1 (p - b), and v = u w. The factor u follows from g(u^2 S) u = 1 with S = w . A w. For a relativistic particle
@@ -22,8 +22,8 @@ MOST_OPERATIONS = 300  # greatest number of operations in the equation for u
 
 
 def by_quadratic_form(momenta_of: Mapping[Symbol, Expr], rates: Sequence[Symbol]) -> dict[Symbol, Expr] | None:
-    """Return each rate with its expression in the momenta. Return None if L contains rates outside one quadratic
-    form with diagonal A, or if u is not found."""
+    """Return each rate with its expression in the momenta. Return None if L contains the rates in any way other than in
+    one quadratic form with diagonal A and in linear terms, or if u is not found."""
     at_rest = dict.fromkeys(rates, 0 * rates[0])
     values = [explicit(p) for p in momenta_of.values()]
     beside = [bound(p, at_rest) for p in values]

@@ -37,7 +37,8 @@ class Impulse:
 
     components   the components of the impulse; an `Impact` substitutes the coordinates at its instant
     at           the components of the place, or the angle as the only component
-    of           the body or particle on which the impulse acts; None if it is neither stated nor known from the place
+    of           the body or particle on which the impulse acts, or "massless"; None if it is neither stated nor known
+                 from the place
     given        the components as the author gave them, for a second route
     """
 
@@ -73,8 +74,8 @@ class Collision:
 def impulse(components: Any, at: Location, of: Any = None) -> Impulse:
     """A given impulse at a place, N s: the integral of a force over the short time of an impact.
 
-    of   the body or particle on which the impulse acts; needed if the place moves, but no body or particle moves with
-         it
+    of   the body or particle on which the impulse acts, or "massless"; needed if the place moves, but no body or
+         particle moves with it
     """
     if not isinstance(at, Location) or len(components) != len(at.components):
         message = "`impulse` needs a place, and as many components as the place has"
@@ -285,8 +286,8 @@ class Impact:
         return explicit(value).subs(self.at, simultaneous=True)
 
     def shown_there(self, value: Any, holds: Any) -> Any:
-        """Return the value in the notation of the page, with "at q = q_0" for each coordinate q in the expression
-        `holds` whose value at the impact is given."""
+        """Return the value in the notation of the page, with "at q = q_0" for each coordinate q that has a given value
+        at the impact and occurs in the expression `holds`."""
         for q, place in self.at.items():
             if explicit(holds).has(q) and q != place:
                 value = At(value, q, place)

@@ -265,8 +265,8 @@ def _impulses(impact: Impact, rates: Mapping[Symbol, Expr], wanted: Sequence[Sym
 
 
 def _with_its_sign(value: Expr) -> Expr:
-    """Write a negative factor with a minus sign in front, which shows the loss: -(1 - e^2) m v^2/2, not
-    (e^2 - 1) m v^2/2."""
+    """Write the minus sign of a negative factor in front of the product, so that the loss is visible:
+    -(1 - e^2) m v^2/2, not (e^2 - 1) m v^2/2."""
     factors = Mul.make_args(value)
     turned = [f for f in factors if f.is_Add and sign_within(f) == -1]
     if len(turned) != 1 or len(factors) < 3:

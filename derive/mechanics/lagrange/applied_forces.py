@@ -362,7 +362,7 @@ def _functions_told(constraints: Sequence[Constraint]) -> dict[str, tuple[Relati
 
     The index of f is the index of a multiplier such as lambda_x, otherwise the number of the constraint; a single f has
     no number. If the gradient of f does not have the length 1, the multiplier that belongs to the force N is also
-    stated, lambda = N/sqrt(1 + x^2/b^2).
+    stated, for example lambda = N/sqrt(1 + x^2/b^2).
     """
     found = {}
     for i, each in enumerate(constraints, 1):

@@ -293,7 +293,7 @@ def positions_kept(motion: Quantity) -> KeptPositions:
 
 
 def _fixed(of: Constraint, moving: Sequence[Symbol]) -> Relation | None:
-    """Return y = a for a constraint that gives one coordinate a constant value, such as a - y = 0; otherwise None."""
+    """Return y = a for a constraint y - a = 0 or a - y = 0 with a coordinate y and a constant a; otherwise None."""
     contained = [q for q in moving if of.residual.has(q, rate(q))]
     if len(contained) != 1 or of.in_rates or depends_on_time(of.residual):
         return None

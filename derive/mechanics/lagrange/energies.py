@@ -332,8 +332,8 @@ def _made_of(system: System, moved: Sequence[Mover], turnings: Sequence[Turning]
 def _lines_of_kinetic_energy(
     law: Callable[..., Expr], inputs: Mapping[str, Any], turnings: list[Turning], arranged: Callable[[Expr], Expr]
 ) -> Lines:
-    """Return the lines of a kinetic energy. The line with substituted values is left out if it is already the
-    result."""
+    """Return the lines of a kinetic energy. If the line with substituted values is already the result, this line
+    appears only once."""
     level = _level_of_values(turnings)
     values = explicit(law(*(value_behind(each) for each in inputs.values()))) if level else ZERO
     if level is Level.STANDARD and (result := arranged(values)) == values:

@@ -85,7 +85,7 @@ def kinetic_first(value: Expr, names: Sequence[Symbol]) -> list[Form]:
 
 
 def part_of_degree(value: Expr, rates: Sequence[Symbol], degree: int) -> Expr:
-    """Return the part of a quadratic expression that is homogeneous of degree 0, 1 or 2 in the rates."""
+    """Return the part of this degree in the rates, 0, 1 or 2; the expression must be quadratic in the rates."""
     u = Dummy("u")
     scaled = bound(explicit(value), {v: u * v for v in rates})
     halved = Rational(1, 2) if degree == 2 else Integer(1)

@@ -41,7 +41,7 @@ class KeptMomentum(Fact):
 
 @dataclass(frozen=True)
 class WithMomenta(Fact):
-    """The Lagrangian of an equation of motion, and the conserved values of momenta that the equation contains."""
+    """The Lagrangian of an equation of motion, and the conserved momenta whose values the equation contains."""
 
     missing = "is not an equation of motion with substituted values of conserved momenta"
     lagrangian: Quantity

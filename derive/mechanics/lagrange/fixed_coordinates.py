@@ -21,7 +21,7 @@ from derive.steps.signs import sign_known
 from derive.steps.step import is_zero
 
 ZERO = Integer(0)
-MOST = 4  # greatest number of constraints that are examined
+MOST = 4  # if there are more constraints than this, none of them is examined
 
 
 @dataclass(frozen=True)

@@ -22,7 +22,8 @@ def of_a_centre(facts: Judged) -> bool:
 
 
 def of_a_spring(facts: Judged, several: bool) -> bool:
-    """Whether the result is the length of the only spring of the system; if `several`, of one of several springs."""
+    """Whether the result is the length of the only spring of the system; if `several`, the length of one of several
+    springs."""
     springs = [each for each in facts.subject.body.between if each.is_spring]
     return (len(springs) > 1) == several and any(is_zero(each.length - facts.result) for each in springs)
 

@@ -27,7 +27,7 @@ class PointForce:
 
     size   the symbol of a constraint force; for sliding friction, `size` is 1 and `direction` contains the factor mu N
     at     the place where the force acts
-    of     the body or particle on which the force acts; None for the ground
+    of     the body or particle on which the force acts; None for the ground or a massless pulley
     """
 
     size: Expr
@@ -61,7 +61,8 @@ class Connection(Part):
 
 
 def end_of(given: Any) -> tuple[Location, Any]:
-    """Return a place, and the body or particle to which it belongs; for a place in space, the second item is None."""
+    """Return a place, and the body or particle to which it belongs. The second item is None for a place that belongs to
+    no body or particle."""
     if isinstance(given, PointOfBody):
         return Location(given.components), given.body
     if isinstance(given, PlacedBody):

@@ -83,7 +83,7 @@ class Constraint(Part):
 
     @property
     def acting(self) -> list[PointForce]:
-        """The forces on bodies and particles; the reaction on the ground is left out."""
+        """The forces on bodies and particles; forces on the ground and on massless pulleys are left out."""
         return [each for each in self.forces if each.of is not None]
 
     def sense(self, side: int) -> str:

@@ -53,8 +53,8 @@ def _foot(placed: PlacedBody, curve: Curve) -> tuple[Location, Expr]:
     message = f"the place where {placed.body.name} touches the curve is unknown: a coordinate must describe this place"
     help_line = (
         "use a coordinate x for the horizontal distance of the point of contact from the origin of the curve; the "
-        "centre of a body above the curve is then at [x - R*f'/sqrt(1 + f'**2), f + R/sqrt(1 + f'**2)]; for a normal "
-        "force, write a positive length h instead of R"
+        "centre of a body above the curve is then at [x - R*f'/sqrt(1 + f'**2), f + R/sqrt(1 + f'**2)]; if a "
+        "normal force is needed, write a positive length h instead of R"
     )
     raise Rejected(Complaint("no-contact", message, help=help_line))
 

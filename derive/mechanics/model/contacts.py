@@ -48,7 +48,8 @@ class Contact(Connection):
     of       the body or particle; None for a fixed corner that a body touches
     at       the place of contact
     surface  the surface that the body touches
-    gap      the distance between the body and the surface, or the height of a particle above a curve, m
+    gap      the distance between the body and the surface, m; for a particle or a point of a body at a curve, the
+             vertical distance from the curve
     normal   the unit vector normal to the surface, towards the body
     gradient  the length of the gradient of `gap` on the surface
     """
@@ -184,7 +185,7 @@ def contact(
 
 
 def point_of_contact(of: Any, on: Any) -> PointOfBody:
-    """The particle of a body that touches a surface; `of` and `on` as in `contact`."""
+    """The material point at which a body touches a surface; `of` and `on` as in `contact`."""
     touch = _contact(of, on)
     return PointOfBody(touch.at.components, body=touch.of)
 
@@ -237,7 +238,7 @@ def _check_moves_with_its_material(surface: Surface) -> None:
     help_line = (
         f"{what}`along: [cos(theta), sin(theta)]`; the place `through` must move with them"
         if isinstance(surface, Plane)
-        else "its centre must be a place that moves with the body, such as a point of the body"
+        else "its centre must move with the axes, or with the body that carries it, like a point of this body"
     )
     raise Rejected(Complaint("which-body", f"the surface does not move with {who}", help=help_line))
 

@@ -75,7 +75,7 @@ def described(
     """Return the description that the witness uses: particles, bodies and forces, or a given Lagrangian and forces.
 
     bodies      those parts of the system that are bodies
-    expressed   conditions that express a coordinate by others: the coordinate and its formula
+    expressed   for each condition that expresses a coordinate by others: the coordinate and its formula
     """
     first = dict(reversed([(q, i) for i, (q, _) in enumerate(expressed)]))  # coordinate -> index of its first condition
     conditions = [

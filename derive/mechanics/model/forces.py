@@ -36,12 +36,13 @@ class _AtPlace(Part):
     """A force at a place, or along a coordinate.
 
     at   the components of the place; for a force along a coordinate or an angle, this quantity as the only component
-    of   the body or particle on which the force acts, or "massless"; None if the script does not state the body
+    of   the body or particle on which the force acts, or "massless"; None if it is neither stated nor known from the
+         place
     """
 
     at: Vector
     of: Any
-    verb: ClassVar[str]  # the function of a script that creates the force
+    verb: ClassVar[str]  # the function with which a script creates the force
     what: ClassVar[str]  # the name of the force in messages
 
     def moved(self, known: Mapping[Symbol, Expr]) -> Self:
@@ -74,7 +75,8 @@ class GivenForce(_AtPlace):
     """A force at a place, N; or a generalized force Q along a coordinate q, with the work Q dq.
 
     Q is a torque if q is an angle.
-    of   the body or particle on which the force acts, or "massless"; None if the script does not state the body
+    of   the body or particle on which the force acts, or "massless"; None if it is neither stated nor known from the
+         place
     by   the body or particle that exerts the force, or "ground"; the opposite force acts on this body or particle
     """
 

@@ -128,7 +128,7 @@ def motor(on: Any, turns: Any, torque: str = "M") -> tuple[Motor, Constraint]:
 class DragAlong(Damper):
     """Drag -c d_dot along a distance d. Second routes use the forces on the material points at both ends.
 
-    ends   for each end, the place, and the body or particle there (None for the ground)
+    ends   for each end, the place, and the body or particle there (None for the ground or a massless joint)
     """
 
     ends: tuple[tuple[Location, Any], tuple[Location, Any]] = ((Location(()), None), (Location(()), None))

@@ -1,4 +1,4 @@
-"""Material points: the particle of a body that is at a given place, and the motion of this particle.
+"""Material points: the particle at a given place of a body, and the motion of this particle.
 
 A place need not move with a particle: the point of contact of a rolling ball moves along the floor, but no particle of
 the ball does. A force on a body acts on the particle that is at the place of the force.

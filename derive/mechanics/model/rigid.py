@@ -12,7 +12,7 @@ from sympy.simplify.fu import TR5, TR6
 from derive.algebra.expressions import TimeRate, as_expr, column, explicit, scaled, vector
 from derive.algebra.length import length
 from derive.algebra.tidy import tidied
-from derive.errors import Complaint, Rejected
+from derive.errors import Complaint, Rejected, Spelled
 from derive.mechanics.bodies.placed import XYZ, PlacedBody, after
 from derive.mechanics.kinematics.coordinates import by_functions_of_time
 from derive.mechanics.kinematics.places import Axes, space
@@ -195,7 +195,10 @@ def _check_moments(placed: PlacedBody) -> None:
     if body.about == "fixed_point" and any(body.centre) and not is_about_the_point(placed):
         where = "moves freely" if not placed.is_held else f"is held at its {placed.point.name}"
         message = f"the moments of {body.name} are about its pivot, but the body {where}"
-        help_line = 'give the moments about the centre of mass, with `about="centre_of_mass"`'
+        help_line = Spelled(
+            'give the moments about the centre of mass, with `about="centre_of_mass"`',
+            "give the moments about the centre of mass, and leave `middle` out",
+        )
         raise Rejected(Complaint("wrong-point", message, help=help_line))
     if body.about == "fixed_point" and any(body.centre):
         for found in established():

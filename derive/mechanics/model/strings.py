@@ -95,8 +95,9 @@ class Line(Connection):
         return replace(line, pieces=pieces, lengths=lengths)
 
     def drawn_on(self, of: Any) -> list[tuple[Location, Location]]:
-        """Return the pieces of the line that pull a body, a particle or a pulley, for its force diagram. Each item
-        contains the two ends of a piece: the end that pulls, then the other end."""
+        """Return the pieces of the line that pull a body, a particle or a pulley, for its force diagram; none for a
+        rope with mass, or without `drawn`. Each item contains the two ends of a piece: the end that pulls, then the
+        other end."""
         if self.drawn is None or self.rope is not None:
             return []
         ends = [(piece.start, piece.end) for piece in self.pieces], [(piece.end, piece.start) for piece in self.pieces]
@@ -274,7 +275,7 @@ def _check_rope(line: Any, particle: Any, tension: str) -> None:
         raise Rejected(Complaint("wrong-argument", message, help=help_line))
     first, last, own = (velocity_at(each, line.places[0]) for each in (line.places[0], line.places[-1], particle))
     if any(not is_zero(tidied(dot(v, v) - dot(own, own))) for v in (first, last)):
-        message = "the speed of the rope differs from the speed of the particle that has its mass"
+        message = "the speed of the rope differs from the speed of the particle that has the mass of the rope"
         raise Rejected(Complaint("which-body", message, help=BESIDE_THE_ROPE))
     if not is_zero(own.components[-1]):
         message = "the particle that has the mass of the rope must stay at a constant height, but it moves up or down"
@@ -374,8 +375,8 @@ def _pieces(ends: Sequence[Any]) -> list[Piece]:
 
 
 def _owner(each: Any) -> Any:
-    """Return the body or particle that a piece of string pulls at one end; None for a massless pulley
-    or a place in space."""
+    """Return the body or particle that a piece of string pulls at one end; None for a massless pulley, or for a place
+    that belongs to no body or particle."""
     if isinstance(each, Pulley):
         return each.of if isinstance(each, Rim) else None
     return end_of(each)[1]
@@ -466,7 +467,7 @@ def _require_kept(verb: str, kept: Expr | None, whole: Expr | None) -> None:
         raise Rejected(Complaint("missing-key", message, help=f"give its `length`, and the symbol of its `{key}`"))
     if whole is None and depends_on_time(kept):
         message = f"the length {kept} of the {what} changes with the time, but a {what} is inextensible by default"
-        help_line = f"if the {what} changes its length in a given way, give this `length`"
+        help_line = f"if the length of the {what} is a given function of the time, give this function as `length`"
         raise Rejected(Complaint("missing-key", message, help=help_line))
     if whole is not None and not is_zero(kept - whole):
         message = f"with these coordinates the {what} has the length {kept}, but its `length` is given as {whole}"
@@ -489,7 +490,7 @@ def wound_string(end: Any, on: Any, tension: str = "T", over: Sequence[Any] = ()
     other = (*over,) if end is None else (end, *over)
     flat = all(isinstance(each, PlacedBody) and each.is_plane for each in rims)
     if not flat or len(rims) != 1 + (end is None):
-        message = "`wound_string` is for motion in a plane, with an end and one round body or two round bodies"
+        message = "`wound_string` is for motion in a plane, with an end and one round body, or with two round bodies"
         raise Rejected(Complaint("wrong-argument", message))
     if not all(is_end(each) or isinstance(each, Pulley) and each in over for each in other):
         message = (

@@ -42,7 +42,7 @@ Ground: TypeAlias = Location | Axes | PlacedBody
 class Surface(ABC):
     """A surface; the bodies that touch it are on its free side.
 
-    of      the body or particle of the system that carries the surface; None if the system has no such body
+    of      the body or particle that carries the surface; None if no part of the system carries it
     moves   if `of` is None, the motion of the material along the surface. A turntable has axes in which the material is
             at rest; a belt has a place that moves with the material. None without such a motion
     is_two_sided   whether the surface can push bodies to both sides, like a rail; the normal force may have either sign
@@ -197,7 +197,7 @@ class Curve(Surface):
         return dot(normal, at - self.point((at - self.through).components[0]))
 
     def point(self, x: Expr) -> Location:
-        """The place of the curve at the horizontal distance x."""
+        """The place of the curve at the horizontal distance x from `through`."""
         return self.through + Location((x, self.formula.xreplace({self.letter: x})))
 
     def foot(self, at: Location, normal: Location) -> Location:
@@ -409,7 +409,7 @@ def _positive(length: Expr) -> Expr:
 
 
 def help_to_sign(length: Expr, changing: Sequence[Symbol]) -> str:
-    """Return the help for an unknown sign: a range for a coordinate, a positive function, or a relation to assume."""
+    """Return the help for an unknown sign: a range, a declaration as positive, other sizes, or a relation to assume."""
     if not changing:
         more, less = sides_without_minus(length)
         return f"{DECIDES} {less} < {more}"

@@ -406,7 +406,7 @@ class System:
 def _with_weights(parts: Sequence[Part]) -> list[Part]:
     """Return the parts, with the weight of each part whose mass is not at one place, such as a rope.
 
-    Reject a potential energy that is the weight of such a part, because it would count twice.
+    Reject a given potential energy of the weight of such a part, because this weight would count twice.
     """
     gravity = next((part.gravity for part in parts if isinstance(part, Weight)), None)
     weights = [] if gravity is None else [each for part in parts for each in part.weighed(gravity)]
@@ -493,7 +493,8 @@ def _with_branches(system: System) -> tuple[Part, ...]:
 
 
 def _near_rest(each: Central) -> Central | None:
-    """The potential with the branch that is positive where all coordinates are zero; None if there is no such branch.
+    """The potential with the branch that is positive where all coordinates are zero. None if there is no such branch,
+    or if the distance contains no coordinate.
 
     If the line between the two places has no fixed direction, the potential is unchanged.
     """

@@ -76,8 +76,8 @@ class Motion:
         return all(self.allows(begin + (at - begin) * part, point) for part in (Integer(1), *PARTS))
 
     def reached(self, side: int, point: Mapping[Symbol, Expr]) -> Iterator[Expr]:
-        """Yield trial places on one side of the start, in their order, before the first place that the motion cannot
-        reach."""
+        """Yield trial places on one side of the start, the nearest first, until the motion cannot reach the next
+        place."""
         begin = value_at(self.start, point)
         far = (begin + side * (abs(begin) + 1) * part for part in PARTS)
         return takewhile(lambda here: self.allows(here, point), far)

@@ -229,7 +229,10 @@ class Departure:
         own = sign_known(known.start_rate)
         found = signs_of(self.value - known.start) - {None}
         if own == -1 or len(found) != 1 or found == {0}:
-            message = f"`flight`: it is not known whether {self.q} increases on the way to the place of departure"
+            message = (
+                f"`flight`: the initial rate of {self.q} is negative, or it is not known whether {self.q} increases "
+                "on the way to the place of departure"
+            )
             help_line = f"define {self.q} so that it increases during the motion"
             raise Rejected(Complaint("sign", message, help=help_line))
         return 1 if found == {1} else -1
@@ -1012,7 +1015,8 @@ def passes_through(flight: Sequence[Quantity], through: Sequence[Any], key: str 
     through   the place: its horizontal component and its height, m
 
     Positive factors of the condition are omitted. The place must be ahead of the particle.
-    Check: where the particle has the horizontal position of the place, it has the height of the place.
+    Check: the condition states that the particle has the height of the place where it has the horizontal position of
+    the place.
     Errors: the particle always passes through the place, or never does; the horizontal velocity is zero or not
     constant; it is not known whether the place is ahead of the particle or, for a flight inside a circle, inside this
     circle.
@@ -1038,7 +1042,10 @@ def _passes_through(first: Quantity, second: Quantity, through: Sequence[Any], k
     time = tidied((X - known.path[0].xreplace({TIME: ZERO})) / v)
     if sign_known(time) != 1:
         message = f"`passes`: it is not known that the place is ahead of the particle, since {time} may be negative"
-        help_line = "set `at` of the flight to a symbol declared with a range, such as `theta_1: 'angle in (pi/2, pi)'`"
+        help_line = (
+            "give a place ahead of the particle, or set `at` of the flight to a symbol declared with a range, "
+            "such as `theta_1: 'angle in (pi/2, pi)'`"
+        )
         raise Rejected(Complaint("not-decided", message, help=help_line))
     above = tidied(known.path[1].xreplace({TIME: time}) - Y)
     core = presented(without_positive(factored(above.as_numer_denom()[0]), in_equation=True), in_sums=False)

@@ -176,15 +176,15 @@ def _points_at_rest(body: Alone) -> list[About]:
 
 
 def _points_of_contact(body: Alone) -> list[About]:
-    """The points where forces with symbols act, such as friction, and the point of the body that is always at rest, if
-    there is one."""
+    """The points where forces with symbols act, such as friction. If one point of the body is always at rest, the last
+    item is this point."""
     touched = [each.place for each in _points_at_rest(body)]
     resting = _resting_point(body)
     return [About(CONTACT, place) for place in (*touched, *([resting] if resting is not None else []))]
 
 
 def _resting_point(body: Alone) -> Vector | None:
-    """The point of a body that is at rest in every motion, if only one coordinate moves the body; None if there is no
+    """The point that is at rest in every motion of a body, if only one coordinate moves this body; None if there is no
     such point."""
     moving = [q for q in body.moving if body.moves_with(q)]
     if len(moving) != 1 or body.turn(moving[0]) == 0:
