@@ -362,6 +362,21 @@ def test_an_unstable_equilibrium_is_approached_and_not_reached(tmp_path: Path) -
     assert code == "not-reached" and "does not reach theta = pi in a finite time" in said
 
 
+def test_a_place_of_rest_is_reached_only_if_the_force_there_is_known_to_point_back(tmp_path: Path) -> None:
+    pulled = edited(
+        STONE,
+        ("{y: length}", "{y: length}\n  potential: (p - q)*y"),
+        ("g: acceleration, u: speed, c: damping constant", "p: force, q: force, u: speed"),
+        ("  gravity: g\n", ""),
+        ("u**2/(4*g)", "m*u**2/(2*(p - q))"),
+        ("<<g>> <<u>> <<c>>", "<<p>> <<q>> <<u>>"),
+    )
+    code, _, said = refused(tmp_path, pulled)
+    assert code == "not-reached" and "not known whether the motion reaches" in said
+    known = edited(pulled, ("  results:", "  assume: [p > q]\n  results:"))
+    assert solved(tmp_path, known)["there"].value == 0
+
+
 @pytest.mark.parametrize("word", ["contact", "taut"])
 def test_a_sentence_about_a_contact_or_a_string_that_the_system_lacks_is_refused(
     word: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch

@@ -55,9 +55,8 @@ def condition_to_reach(
     if sign_known(there) == -1:
         message = f"`{of.key}`: the motion does not reach {unknown} = {place}, since {rate(q)}**2 would be negative"
         raise Rejected(Complaint("not-reached", message, help=f"it would be {there}"))
-    if is_zero(there) and not _may_turn_at(explicit(speed.value), unknown, place):
-        message = f"`{of.key}`: the motion does not reach {unknown} = {place} in a finite time"
-        raise Rejected(Complaint("not-reached", message, help="this place is an equilibrium; the motion approaches it"))
+    if is_zero(there):
+        _require_turning_point(of, explicit(speed.value), unknown, place)
     if not _is_free_by_algebra(speed, unknown, place) and _is_barred(speed, unknown, place, there):
         message = f"`{of.key}`: the motion need not reach {unknown} = {place}: on the way {rate(q)}**2 can be negative"
         help_line = "state with `assume:` the condition for reaching the place"
@@ -94,7 +93,7 @@ def _arrival(
 ) -> Arrival:
     condition = condition_to_reach(of, speed, unknown, place, there)
     is_found = any(each.rests_on(speed) for each in others)
-    operator = ">=" if _may_turn_at(explicit(speed.value), unknown, place) else ">"
+    operator = ">=" if _sign_of_slope(explicit(speed.value), unknown, place) in (1, -1) else ">"
     reached = None if is_found or condition is None else Relation(condition.left, operator, condition.right)
     begun = speed.needed(ByEnergy)
     come = Arrival(begun, explicit(speed.value), unknown, place, reached, is_found, lasts=_may_end(speed))
@@ -135,18 +134,33 @@ def _may_end(speed: Quantity) -> str:
     return "contact" if "surface" in enforcers else "taut" if "string" in enforcers else ""
 
 
-def _may_turn_at(squared: Expr, unknown: Expr, place: Expr) -> bool:
-    """Whether a motion is known to come to a place where its rate vanishes.
+def _require_turning_point(of: Quantity, squared: Expr, unknown: Expr, place: Expr) -> None:
+    """Check that a motion is known to come to a place where its rate vanishes: the motion turns back there."""
+    sign = _sign_of_slope(squared, unknown, place)
+    if sign == 0:
+        message = f"`{of.key}`: the motion does not reach {unknown} = {place} in a finite time"
+        raise Rejected(Complaint("not-reached", message, help="this place is an equilibrium; the motion approaches it"))
+    if sign is None:
+        message = f"`{of.key}`: it is not known whether the motion reaches {unknown} = {place}, where its rate vanishes"
+        help_line = f"state with `assume:` the sign of {_slope(squared, unknown, place)}"
+        raise Rejected(Complaint("not-reached", message, help=help_line))
 
-    If the slope of f = q_dot^2 also vanishes at the place, the place is an unstable equilibrium, and the motion only
-    approaches it. A motion with f = 0 at infinity, such as a motion with the escape velocity, does go to infinity.
+
+def _sign_of_slope(squared: Expr, unknown: Expr, place: Expr) -> int | None:
+    """Return the sign of the slope of f = q_dot^2 at a place; None if it is unknown.
+
+    If f and its slope vanish at the place, the place is an unstable equilibrium, and the motion only approaches it. At
+    infinity the result is 1, since a motion with f = 0 there, with the escape velocity, does go to infinity.
     """
     if place in (oo, -oo):
-        return True
-    mark = mark_for(unknown)
-    slope = tidied(diff(with_unknown(squared, unknown, mark), mark).xreplace({mark: place}))
+        return 1
     at_end = isinstance(unknown, sin | cos) and abs(place) == 1
-    return not at_end and sign_known(slope) in (1, -1)
+    return 0 if at_end else sign_known(_slope(squared, unknown, place))
+
+
+def _slope(squared: Expr, unknown: Expr, place: Expr) -> Expr:
+    mark = mark_for(unknown)
+    return tidied(diff(with_unknown(squared, unknown, mark), mark).xreplace({mark: place}))
 
 
 def common_condition(of: Quantity, arrivals: Sequence[Arrival]) -> Relation | None:
