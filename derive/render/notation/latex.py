@@ -411,7 +411,7 @@ ACCENTS = {  # those below a letter come last: TeX sets an accent above only ove
 
 def _with_accents(text: str, at: int) -> tuple[int, str] | None:
     """Return a letter with any number of accents as nested commands, for the encoder, which knows few such letters."""
-    letter, *marks = unicodedata.normalize("NFD", text[at])
+    letter, *marks = list(unicodedata.normalize("NFD", text[at]))
     names = [unicodedata.name(mark, "").removeprefix("COMBINING ") for mark in marks]
     if not marks or not letter.isascii() or not all(name in ACCENTS for name in names):
         return None
