@@ -278,7 +278,7 @@ def _is_positive(value: Expr, key: str) -> bool:
     if not sign:
         open_value = "the sign of {} is unknown" if sign is None else "{} is 0 for the given numbers"
         message = f"{key}: {open_value.format(tidied(value))}"
-        help_line = "declare its symbols as positive, or give them ranges or numbers"
+        help_line = "declare its symbols as positive, or give them ranges or other numbers"
         raise Rejected(Complaint("open-case", message, help=help_line))
     return sign > 0
 

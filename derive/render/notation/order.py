@@ -145,7 +145,8 @@ def _is_acceleration(letter: Symbol) -> bool:
 
 
 def _coordinate(letter: Symbol, moving: Collection[str] = ()) -> str:
-    """Return the name of the coordinate of a rate or of a momentum; an empty string for any other symbol."""
+    """Return the name of the coordinate of a rate, an acceleration or a momentum; an empty string for any other
+    symbol."""
     name: str = letter.name
     found = next((name.removesuffix(end) for end in RATE_ENDS if name.endswith(end)), "")
     momentum = name.removeprefix("p_")
