@@ -1,4 +1,4 @@
-"""Prints a display as standard LaTeX without custom commands. Several rows are in one `aligned` environment of amsmath."""
+"""Prints a display as standard LaTeX without custom commands; several rows are in one `aligned` environment."""
 
 from __future__ import annotations
 
