@@ -1,6 +1,6 @@
 """The effect of a level of detail: how each step appears, and which of its lines are shown.
 
-    brief      the set-up, the law, the law with values substituted, the result
+    brief      the set-up, the law, the result
     standard   what a good teacher writes; mental arithmetic is left out
     full       every line of every step
 

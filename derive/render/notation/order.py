@@ -223,7 +223,7 @@ def rank_of_factor(
     with the name of a coefficient, such as the angle beta, is not a coefficient.
 
     Functions are in the order of their angles in the Greek alphabet, and the sine of an angle precedes its cosine:
-    sin a cos a sin b.
+    sin(alpha) cos(alpha) sin(beta).
     """
     is_root = isinstance(factor, ex.Root) or isinstance(factor, Pow) and factor.exp.is_Rational and factor.exp.q == 2
     base = factor.base if isinstance(factor, Pow) and factor.exp.is_Rational else factor
@@ -240,7 +240,7 @@ def rank_of_factor(
     if isinstance(base, Add | ex.Terms):
         place = rank_of_sum(_place_of_term(term, dimension_of) for term in base.args)
         if place is Place.ACCELERATION and not all(term.as_coeff_Mul()[1].is_Symbol for term in base.args):
-            place = Place.SUM  # m (g + a) l, but l (l omega^2 + g)
+            place = Place.SUM  # m (a + g) l, but l (g + l omega^2)
         if place is Place.SUM and base.has(Function):
             place = Place.EXPONENTIAL if base.has(ex.TIME) else Place.SWINGING
         if all(f.is_number or _is_coefficient(f.as_base_exp()[0]) for term in base.args for f in Mul.make_args(term)):
