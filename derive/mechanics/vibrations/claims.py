@@ -215,7 +215,7 @@ def mode(facts: Judged, fact: Mode) -> bool:
 
 
 def linear(facts: Judged, fact: Linear) -> bool:
-    """Whether the coefficients of the equation are, up to a common factor, one row of the three matrices."""
+    """Whether the coefficients of the equation are a multiple of one row of the three matrices."""
     residual = explicit(facts.result).residual
     orders = ((fact.mass, 2), (fact.turning, 1), (fact.stiffness, 0))
     names = [s.symbol for s in fact.displacements]
