@@ -36,7 +36,7 @@ def open_problem(problem_id: str, root: str | Path | None = None) -> Opened:
     such as the course in or above the working folder."""
     folder = found_root(None if root is None else str(root))
     if folder is None:
-        help_line = "run Python in the course's folder or below, or name the folder: `open_problem(..., root=...)`"
+        help_line = "name the folder that contains `problems`: `open_problem(..., root=...)`"
         raise Misused(Complaint("no-root", "no folder `problems` was found", help=help_line))
     return Opened(load_problem(folder, problem_id_of(problem_id)))
 

@@ -47,7 +47,7 @@ def _bounds(conditions: Iterable[Relation]) -> tuple[dict[Expr, Relation], dict[
 
 
 def says_the_same(condition: Relation, other: Relation) -> bool:
-    """Return whether two inequalities are the same, up to a positive numerical factor."""
+    """Return whether two inequalities state the same, as a < b and 2 b > 2 a do."""
     strict = [each.operator for each in (condition, other) if each.operator in ("<", ">")]
     if len(strict) == 1 or not {condition.operator, other.operator} <= {*MIRRORED, *MIRRORED.values()}:
         return False

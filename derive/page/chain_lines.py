@@ -224,8 +224,8 @@ def _letters_used(steps: Sequence[Step], values: Mapping[str, Step], drawn: Iter
 
 
 def _share_a_sum_or_root(vector: MatrixBase) -> bool:
-    """Return whether all entries except zeros share a factor or denominator that is a power of a sum or an irrational
-    number. If such a factor is in front of the vector, it is printed only once."""
+    """Return whether all entries except zeros share a factor or denominator that is an irrational number or a power of
+    a sum. If such a factor is in front of the vector, it is printed only once."""
     present = [entry for entry in vector if entry != 0]
     factors = Mul.make_args(common_factor(present))
     return len(present) > 1 and any(each.as_base_exp()[0].is_Add or each.is_irrational for each in factors)

@@ -45,7 +45,8 @@ from derive.page.wording import EQUALS, Inline, Math, Phrases, Text, filled, joi
 from derive.steps.derivation import Derivation
 from derive.steps.signs import truth_known
 
-# Greatest whole number in a ratio of moments; any other ratio is written with decimals, in units of the least moment.
+# Greatest number in a ratio of moments that is written with whole numbers. Any other ratio is written with decimals, in
+# units of the least moment.
 LARGEST = 99
 CURVE = "way"  # the key of the phrase for a dashed curve
 _VALUE = re.compile(r"value_\d+")  # the role of a value that a step substitutes for a letter: b = 2 sqrt(k m)

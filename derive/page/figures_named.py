@@ -1,8 +1,8 @@
 """Adds mentions of the numbered figures of a part to the sentences near them: "It is unstable (Figure 2)."
 
-A figure that no text of the author mentions is mentioned in parentheses at the end of a paragraph, or next to the
-formula before the figure. A figure of forces is mentioned before the equations: "With the forces in Figure 2, the
-upward component is".
+A figure that no text of the author mentions is mentioned in parentheses at the end of a paragraph, or next to a formula
+directly before or after the figure. A figure of forces is mentioned before the equations: "With the forces in Figure 2,
+the upward component is".
 """
 
 from __future__ import annotations

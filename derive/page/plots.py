@@ -38,7 +38,8 @@ STEPS = 240  # least number of steps of a curve
 STEPS_OF_TURN, MOST_STEPS = 40, 6000  # number of steps for each extremum, and greatest number of steps of a curve
 MOST_POINTS = 2  # a panel with more zeros, or with more meeting points of curves, has no marks for them
 PATH_STEPS = 720  # number of steps of a path, which may go round many times
-MOST_MARKED, MOST_IN_TIME = 6, 3  # greatest number of extrema with marks; the second number is for curves against time
+# A curve with more extrema has no marks at its extrema. The second number is for curves against time.
+MOST_MARKED, MOST_IN_TIME = 6, 3
 # Numbers with a smaller relative difference count as equal. The distance of an extremum from a named place is compared
 # with this fraction of the range.
 NEAR = 1e-6

@@ -17,7 +17,7 @@ from derive.page.numbering import Number
 from derive.page.tree import Block, Display, Paragraph
 from derive.page.wording import Inline, Ref, Text
 
-JUST_BEFORE = 2  # the number of equations before a line that a reader has in view
+JUST_BEFORE = 2  # the reader has this many equations before a line in view
 
 
 def without_known_reasons(blocks: Sequence[Block], numbers: Mapping[str, Number]) -> tuple[Block, ...]:

@@ -1,6 +1,6 @@
 """The effect of a level of detail: how each step appears, and which of its lines are shown.
 
-    brief      the set-up, the law, the law with values substituted, the result
+    brief      the set-up, the law, the result
     standard   what a good teacher writes; mental arithmetic is left out
     full       every line of every step
 
@@ -38,8 +38,8 @@ LONGEST_CLAUSE = 24  # greatest number of nodes in the expression tree of a resu
 
 @dataclass(frozen=True)
 class Needed:
-    """What earlier versions of the page have shown. `letters` and `numbers` contain the hidden steps whose symbols
-    the page uses or to whose equations it refers. `in_words` contains the displays to whose numbers nothing refers.
+    """The steps that the page needs, as earlier versions of the page have shown. `letters` contains the hidden steps
+    whose symbols the page uses, and `numbers` the hidden steps to whose equations it refers.
 
     in_words   key of a step whose equation is in its sentence -> whether the sentence must name the step's symbol
     """

@@ -85,7 +85,8 @@ def unused_templates(root: Path) -> list[Complaint]:
 
 
 class Unknown(StrictUndefined):
-    """A name without a value. The message about it suggests a similar name, and does not name classes of derive."""
+    """A name without a value. The message about an unknown attribute suggests a similar name, and does not name classes
+    of derive."""
 
     @property
     def _undefined_message(self) -> str:

@@ -575,8 +575,8 @@ def stated_once(nodes: Sequence[Inline], last: str, also: str) -> tuple[Inline, 
 
 
 def conversions(problem: Problem, put_in: Collection[Any]) -> list[tuple[Inline, ...]]:
-    """Return the unit conversions of the given numbers that a step substitutes. It may substitute an angle in degrees
-    or in radians."""
+    """Return the unit conversions of the given numbers that a step substitutes. The step may substitute an angle in
+    degrees or in radians."""
     given = [(m, problem.amounts[m.symbol]) for m in problem.measured]
     written = [(m, amount) for m, own in given for amount in dict.fromkeys((own, in_radians(own)))]
     return [conversion(m, amount, problem.figures) for m, amount in written if amount in put_in]

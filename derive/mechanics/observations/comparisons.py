@@ -43,8 +43,8 @@ def multiple(view: View) -> Observed:
 
 
 def _is_rate(q: Quantity) -> bool:
-    """Whether an answer is a velocity or an angular velocity, or a combination of answers with at least one of these;
-    frequencies of vibrations do not count."""
+    """Whether an answer is a velocity or an angular velocity, or a combination of answers of which at least one is a
+    velocity or an angular velocity. Frequencies of vibrations do not count."""
     adds_rates = q.step.rule == "answers.combination" and any(parent.step.kind in RATES for parent in q.parents)
     return (q.step.kind in RATES or adds_rates) and q.step.rule.partition(".")[0] != "vibrations"
 
@@ -136,7 +136,8 @@ FAMILIAR = Rule(
 
 
 def familiar(view: View) -> Observed:
-    """Acceleration that is a fixed fraction of the acceleration in free fall, or on an incline without friction."""
+    """Acceleration that is a fixed fraction of g, or of g sin(alpha), the acceleration on an incline without
+    friction."""
     for of in view.values("acceleration"):
         angles = [s for s in view.of_kind("angle") if s in explicit(of.value).free_symbols]
         for g in view.gravity if of.step.rule == "lagrange.acceleration" and len(angles) < 2 else ():
@@ -206,8 +207,8 @@ def springs_with(of: Quantity, letter: Symbol) -> int:
 
 
 def _reason(linear: Linear, letter: Symbol, kind: str) -> tuple[str, dict[str, Any]]:
-    """Return the outcome and its data. The outcome is empty for a symbol that is neither a spring constant nor the mass
-    of a single coordinate."""
+    """Return the outcome and its data. The outcome is empty unless the symbol is a spring constant in the stiffness
+    matrix, or the mass of a single coordinate. Such a mass must not occur in the stiffness matrix."""
     at = [i for i in range(linear.mass.shape[0]) if letter in linear.mass[i, i].free_symbols]
     if kind == "spring constant" and letter in linear.stiffness.free_symbols:
         return "spring", {"stiffness": linear.stiffness}

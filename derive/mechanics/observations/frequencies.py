@@ -150,8 +150,8 @@ def orbit(view: View) -> Observed:
 
 
 def _has_polar_coordinates(view: View) -> bool:
-    """Whether the page's Lagrangian has exactly two coordinates, a positive length and an angle, apart from coordinates
-    for which the page substitutes constants."""
+    """Whether the page's Lagrangian has exactly two coordinates: a positive length and an angle. A coordinate
+    does not count if the page substitutes a constant for it, unless the coordinate is positive."""
     lagrangian = next((q for q in view.shown if q.fact(Energies) is not None), None)
     known = lagrangian.coordinates if lagrangian is not None else {}
     substituted = [told for q in view.shown for role, told in q.step.roles if role.startswith("value_")]
@@ -256,7 +256,7 @@ ONE_FREQUENCY = Rule(
 
 
 def one_frequency(view: View) -> Observed:
-    """One frequency of all motions of a particle, so each orbit is an ellipse."""
+    """A single frequency for all motions of a particle, so each orbit is an ellipse."""
     speeds = [q for q in view.shown if q.step.rule == "lagrange.squared_speed"]
     of_particle = len(speeds) == 1 and is_zero(
         explicit(speeds[0].value) - Add(*(rate(q) ** 2 for q in speeds[0].coordinates))

@@ -195,7 +195,8 @@ def _second_order(energy: Callable[..., Any], place: Sequence[Any]) -> int:
         return (energy(*moved) - here) / step**2
 
     def twice(i: int, j: int) -> Any:
-        """Return the second difference of the energy along the sum of the directions i and j, or along i if i = j."""
+        """Return the second difference of the energy, divided by the squared step. It is taken along the sum of the
+        directions i and j, or along i if i = j."""
         way = [int(k == i) + int(k == j and j != i) for k in range(size)]
         return gained(*way) + gained(*(-w for w in way))
 
@@ -454,8 +455,8 @@ def order_of(*orders: int, more: bool = False) -> Predicate:
 def shaped(shape: str, at_bound: bool) -> Predicate:
     """Judge by differentiation whether the first nonzero derivative, from the second on, yields this shape.
 
-    The step must have a special case as input if and only if `at_bound` is true. The second derivative must then
-    vanish.
+    The step must have a special case as input if and only if `at_bound` is true. If it is true, the second derivative
+    must vanish.
     """
 
     def is_so(facts: Judged) -> bool:

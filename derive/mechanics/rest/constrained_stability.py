@@ -153,8 +153,9 @@ class OnConstraints:
 
         Second route: the energy along curves that satisfy the constraints, to second order.
         Outcomes: stable, unstable, level, depends.
-        Errors: a constraint depends on the rates or on the time; the values do not satisfy a constraint; at these
-        values the forces do not balance along the allowed displacements.
+        Errors: a constraint depends on the rates or on the time; a value is missing, or the values do not satisfy a
+        constraint; at these values the forces do not balance along the allowed displacements; the constraints are not
+        independent, or allow no displacement or more than three directions.
         Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 2.4 and 6.1; Luenberger, *Linear and Nonlinear
         Programming*, section 11.5.
         """

@@ -91,7 +91,8 @@ def potential_at_rest(of: Quantity, symbol: str = "V", key: str = "potential_at_
 
     Second route: the work of the forces and of the inertial forces on mass points at rest is -dV for any displacement.
     Outcomes: generic, pushed (constant forces are given).
-    Errors: the Lagrangian contains the time explicitly; a given force is not constant.
+    Errors: the Lagrangian contains the time explicitly; a given force is not constant, or acts at a point that depends
+    on the time.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 6.1; Landau, Lifshitz, *Mechanics*, section 39.
     """
     require_kind("potential_at_rest", "of", of, "energy")
@@ -128,14 +129,16 @@ def potential_at_rest(of: Quantity, symbol: str = "V", key: str = "potential_at_
 
 
 def _given_pushes(of: Quantity) -> list[Expr]:
-    """Return the terms of F . r for the given constant forces; reject forces that are not constant."""
+    """Return the terms of F . r for the given constant forces. Reject a force that is not constant, or that acts at a
+    point that depends on the time."""
     acted = of.fact(ActedOn)
     found = []
     for push in acted.forces if acted is not None else ():
         strange = changes(ImmutableDenseMatrix(push.components), of.coordinates)
         if strange is not None or changes(ImmutableDenseMatrix(push.at)) is not None:
             components = ", ".join(map(str, push.components))
-            message = f"the given force ({components}) is not constant, so its potential energy is unknown"
+            reason = "is not constant" if strange is not None else "acts at a point that depends on the time"
+            message = f"the given force ({components}) {reason}, so its potential energy is unknown"
             known = "for a force with a potential energy U, write"
             help_line = Spelled(f"{known} `potential(U)`", f"{known} `potential: U`")
             raise Rejected(Complaint("changes", message, help=help_line))
@@ -157,8 +160,9 @@ def equilibria(of: Quantity, *coordinates: Coordinate) -> tuple[Quantity, ...]:
     stays in this range. If the forces vanish for every value of a coordinate, this coordinate has no stated value.
     Keys: condition_x for the equilibrium condition of the coordinate x; for the equilibria, rest_1, rest_2, ..., or
     `rest` if there is only one.
-    Second route: the virtual work of forces and inertia at the equilibrium. Check for one coordinate whose range does
-    not include an end: the zeros of the force are counted numerically, for some values of the symbols.
+    Second route: the virtual work of forces and inertia gives dU/dq, and vanishes at the equilibrium. Check for one
+    coordinate whose range does not include an end: the zeros of the force are counted numerically, for some values of
+    the symbols.
     Outcomes: always, where (the equilibrium exists under a condition), only (there is no other equilibrium); for an
     equilibrium condition: generic, zero (no force acts along this coordinate).
     Errors: a zero of the force has no closed form; there is no equilibrium; the symbols leave open whether an
@@ -175,7 +179,7 @@ def equilibria(of: Quantity, *coordinates: Coordinate) -> tuple[Quantity, ...]:
     missing = [q.name for q in sought if not explicit(potential.value).has(q)]
     if missing or not sought:
         message = (
-            f"`{of.key}` does not depend on {' and '.join(missing) or 'a coordinate'}: every value is an equilibrium"
+            f"`{of.key}` does not depend on {' and '.join(missing) or 'any coordinate'}: every value is an equilibrium"
         )
         raise Rejected(Complaint("wrong-argument", message))
     forces = {q: _factored(tidied(derivative(explicit(potential.value), q))) for q in sought}

@@ -1,7 +1,7 @@
 """The mass matrix of a system at given coordinates: whether it has an inverse, and whether it is positive definite.
 
 M_ij is the factor of the rate of q_j in the momentum p_i. If M has an inverse in general, but not at some values of the
-coordinates, the coordinates are singular there. They then do not determine how the system moves away.
+coordinates, the coordinates are singular there. They then do not determine how the system leaves these values.
 """
 
 from __future__ import annotations

@@ -42,7 +42,7 @@ from derive.witness.facts import Rest
 __all__ = ["stability"]
 
 HIGHEST = 8  # the highest order of the energy that is tried where the curvature vanishes
-FEW = 5  # largest number of coordinates for which all directions with entries 0, 1 and -1 are tried
+FEW = 5  # largest number of coordinates for which directions with entries 0, 1 and -1 are tried
 SHORT = 80  # largest number of operations in a curvature that is shown before the equilibrium is substituted
 ZERO = Integer(0)
 SOURCE = (

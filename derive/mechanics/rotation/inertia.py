@@ -375,7 +375,7 @@ def entry_weight(region: Region, pair: Pair) -> Expr:
 
 def _without_angles(weight: Expr) -> Expr:
     """Write r^2 cos^2 + r^2 sin^2 as r^2. If the integrand still depends on an angle, return the shorter of two forms:
-    the given form, and the form tidied term by term."""
+    the given form and the tidied form."""
     if not weight.atoms(sin, cos):
         return weight
     plain = weight.expand().replace(

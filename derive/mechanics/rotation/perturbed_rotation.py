@@ -297,14 +297,14 @@ def perturbation_rate(squared: Quantity, symbol: str | None = None, key: str = "
     Check: for components proportional to e^(i Omega t), or e^(kappa t), the determinant of the two linear equations is
     zero; and the rate is not negative.
     Outcomes: unstable (the result is kappa); stable, symmetric, conditional (the result is Omega).
-    Errors: Omega^2 vanishes, so a perturbation grows linearly in time and has no frequency and no growth rate.
+    Errors: Omega^2 vanishes, so a perturbation grows at most linearly in time and has no frequency and no growth rate.
     Source: Landau, Lifshitz, *Mechanics*, section 37.
     """
     of, disturbed = squared.needed(WobbleOf), squared.needed(Disturbed)
     outcome = {"greatest": "stable", "least": "stable"}.get(squared.step.outcome, squared.step.outcome)
     if outcome == "marginal":
         message = (
-            f"`{squared.key}` vanishes: a perturbation grows linearly in time, "
+            f"`{squared.key}` vanishes: a perturbation grows at most linearly in time, "
             "so it has no frequency and no growth rate"
         )
         raise Rejected(Complaint("no-rate", message))
@@ -385,7 +385,7 @@ def body_cone_rate(equations: Sequence[Quantity], symbol: str = "Omega_b", key: 
         raise Rejected(Complaint("not-free", "`body_cone_rate` needs a body without torque"))
     if not is_zero(diff(lefts[2], x, y)):  # I_y - I_x
         raise Rejected(Complaint("no-symmetry", "`body_cone_rate` needs a body whose moments about x and y are equal"))
-    # I_x and I_z - I_x up to a positive factor, as in I_x omega_y_dot - (I_z - I_x) omega_z omega_x = 0
+    # I_x and I_z - I_x, as in I_x omega_y_dot - (I_z - I_x) omega_z omega_x = 0, or both divided by a positive factor
     across, coupling = tidied(diff(lefts[1], rate(y))), tidied(-diff(lefts[1], x, z))
     if is_zero(coupling):
         raise Rejected(Complaint("no-cone", "the three moments are equal, so the angular velocity is constant"))

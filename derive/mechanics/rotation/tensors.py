@@ -91,8 +91,9 @@ def turned_tensor(
     axis      "x", "y" or "z": the axis of the rotation
     angle     the angle of this right-handed rotation
 
-    Second route: the sum of m (r.r 1 - r r) over equimomental particles, with components along the rotated axes. Check:
-    the traces of I and I' are equal.
+    Second route: the sum of m (r.r 1 - r r) over equimomental particles, with components along the rotated axes. For a
+    body defined by a position map, a numerical sum over its cells is a check instead. Check: the traces of I and I' are
+    equal.
     Outcomes: isotropic, two_equal, diagonal, generic.
     Errors: there is no such axis; `inertia` is not the tensor of a body.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 4.3 and 5.2.
@@ -141,7 +142,8 @@ def moment_about(
     direction   d, three components or a vector along the axis
     symbol      the symbol of the moment; the index of this symbol, here n, becomes the symbol of the unit vector
 
-    Second route: the sum of m |n x r|^2 over equimomental particles.
+    Second route: the sum of m |n x r|^2 over equimomental particles. For a body defined by a position map, a numerical
+    sum over its cells is a check instead.
     Errors: d vanishes; `inertia` is not the tensor of a body.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
     """
@@ -204,7 +206,8 @@ def tensor_entry(inertia: Quantity, entry: str, symbol: str | None = None, key: 
     inertia   tensor (3, 3), kg m^2
     entry     the indices of the entry, "xx", "xy", ...
 
-    Second route: the sum of m (r.r delta_ij - x_i x_j) over equimomental particles.
+    Second route: the sum of m (r.r delta_ij - x_i x_j) over equimomental particles. For a body defined by a position
+    map, a numerical sum over its cells is a check instead.
     Outcomes: moment, product.
     Errors: there is no such entry; `inertia` is not the tensor of a body.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.3.
@@ -324,7 +327,8 @@ def perpendicular_axes(
 
     first, second   moments of inertia about two perpendicular axes through one point in the plane of the body, kg m^2
 
-    Second route: the sum of m d^2 over equimomental particles, with the distance d from the normal axis.
+    Second route: the sum of m d^2 over equimomental particles, with the distance d from the axis normal to the plane.
+    For a body defined by a position map, a numerical sum over its cells is a check instead.
     Errors: the body is not flat, or one of the two axes is not in its plane.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, section 7.3; Morin, *Introduction to
     Classical Mechanics*, section 8.2.
@@ -366,7 +370,8 @@ def radius_of_gyration(moment: Quantity, symbol: str = "k", key: str = "radius_o
 
     moment   moment of inertia I of a body about one of its axes, kg m^2
 
-    Second route: M k^2 is the sum of m d^2 over equimomental particles, with the distance d from the axis.
+    Second route: M k^2 is the sum of m d^2 over equimomental particles, with the distance d from the axis. For a body
+    defined by a position map, a numerical sum over its cells is a check instead.
     Errors: `moment` is not the moment of inertia of a body about one of its axes.
     Source: Fowles, Cassiday, *Analytical Mechanics*, section 8.3.
     """

@@ -47,8 +47,8 @@ class About:
     rest or in steady motion.
 
     rates     the rates of the cyclic coordinates in the steady motion
-    momenta   for each cyclic momentum, a symbol and its value in the steady motion. The symbol denotes the momentum;
-              but if a formula for the momentum is given, it is a symbol in this formula
+    momenta   for each cyclic momentum, a symbol and its value in the steady motion. The symbol denotes the momentum, or
+              occurs in the given formula for the momentum if there is one
     letter    a symbol that the condition of the steady motion determines, and the value of this symbol; may be empty
     instead   a rate expressed by the symbol of a momentum, for a shorter result; may be empty
     """
@@ -279,7 +279,7 @@ def _determinant_about(about: About, found: Expr) -> Expr:
         other = moving[int(j)]
         slopes = [slope(left, rate(other, n) if n else other) for n in range(3)]
         at_place = [_without_angles(each.xreplace({**still, about.q: about.place}), about.rates) for each in slopes]
-        if j:  # a cyclic coordinate occurs only through its rates: its first rate is the unknown
+        if j:  # the unknown is the rate, because a cyclic coordinate itself does not occur
             return at_place[1] + s * at_place[2]
         return at_place[0] + s * at_place[1] + s**2 * at_place[2]
 

@@ -215,7 +215,7 @@ def mode(facts: Judged, fact: Mode) -> bool:
 
 
 def linear(facts: Judged, fact: Linear) -> bool:
-    """Whether the coefficients of the equation are, up to a common factor, one row of the three matrices."""
+    """Whether the coefficients of the equation are a multiple of one row of the three matrices."""
     residual = explicit(facts.result).residual
     orders = ((fact.mass, 2), (fact.turning, 1), (fact.stiffness, 0))
     names = [s.symbol for s in fact.displacements]
@@ -319,7 +319,8 @@ def moving(facts: Judged) -> list[Expr]:
 
 
 def _turning_at(facts: Judged, point: Point) -> int:
-    """Return the sense of rotation just after the start, 1 or -1, in the plane of the two moving coordinates."""
+    """Return the sense of rotation just after the start: 1 if it is from the first to the second of the two moving
+    coordinates, otherwise -1."""
     entries = [explicit(entry) for entry in moving(facts)]
     start, later = ([re(value_at(each.subs(TIME, t), point)) for each in entries] for t in (0, Rational(1, 10**6)))
     return 1 if start[0] * later[1] - start[1] * later[0] > 0 else -1
@@ -580,7 +581,7 @@ def drifts_as_told(facts: Judged, outcome: str) -> bool:
 
 
 def _of_square(sign: int | None, of: Callable[[Judged], Expr] = lambda facts: facts.inputs["squared"]) -> Predicate:
-    """Judge whether an expression has the sign `sign`; None stands for an unknown sign. The signs 1 and -1 are tested
+    """Judge whether an expression has the sign `sign`, which is None for an unknown sign. The signs 1 and -1 are tested
     with numbers for which the equilibrium exists, and 0 and None with the assumptions and ranges of the symbols."""
     return sign_where_it_exists(sign, of) if sign else always_sign(sign, of)
 
@@ -661,7 +662,7 @@ def there_where_it_exists(facts: Judged, exists: Any) -> bool:
 
 
 def taken_out(facts: Judged, relation: Any) -> bool:
-    """Whether the symbol that the relation gives occurs in the condition but not in the result."""
+    """Whether the symbol on the left side of the relation occurs in the condition but not in the result."""
     if relation.operator != "=":
         return False
     held = explicit(facts.quantities["where"].value).free_symbols

@@ -67,8 +67,8 @@ def steady_amplitude(
     q          the coordinate of the equation of motion
 
     Check: the forced oscillation with this amplitude and this lag is substituted back into the equation.
-    Outcomes: damped, undamped (the lag is 0), opposite (only for the lag, which is pi above resonance without
-    damping).
+    Outcomes: damped, undamped (the lag with this outcome is 0), opposite (only for the lag, which is pi above resonance
+    without damping).
     Errors: the equation is not linear with constant coefficients, or is not driven by a force of a single frequency
     with positive F; an undamped oscillator is at resonance.
     Source: Taylor, *Classical Mechanics*, section 5.5.
@@ -207,7 +207,7 @@ def _drive(linear: LinearCoefficients, equation: Quantity) -> _Drive:
     is_static = constant == 0 or linear.c != 0
     if not single or not is_static or len(single) == 1 and sign_known(single[0]) == -1:
         message = f"`steady_amplitude`: `{equation.key}` is not driven by a single force F cos(omega t), F > 0"
-        help_line = "the force may be F cos(omega t), F sin(omega t) or their sum, and may contain a constant"
+        help_line = "the force may be F cos(omega t), F sin(omega t) or their sum; a constant needs a restoring force"
         raise Rejected(Complaint("unknown-driving", message, help=help_line))
     static = tidied(constant / linear.c) if constant != 0 else ZERO
     if len(single) == 1:

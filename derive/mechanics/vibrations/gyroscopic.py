@@ -56,7 +56,7 @@ from derive.witness.facts import Rest
 __all__ = ["linear_stability"]
 
 ZERO = Integer(0)
-LARGEST = 200  # number of operations up to which a condition is factored
+LARGEST = 200  # greatest number of operations in a condition that is factored
 
 
 @dataclass(frozen=True)
@@ -514,8 +514,8 @@ def _without_squares(value: Expr, square: Symbol) -> Expr:
 
 
 def _remainder(value: Expr, condition: Relation) -> Expr:
-    """Return the remainder after division of the value by the residual of a condition: the left side minus the right
-    side. The numerator of the value is divided by the numerator of the residual; both are polynomials in one symbol."""
+    """Return the remainder after division of the value by the residual of a condition, the difference of its sides. The
+    numerator of the value is divided by the numerator of the residual; both are polynomials in one symbol."""
     residual = Poly(condition.residual.as_numer_denom()[0].expand())
     letter = min(residual.gens, key=lambda each: (not each.is_Symbol, str(each)))
     return Poly(value.as_numer_denom()[0].expand(), letter).rem(Poly(residual.as_expr(), letter)).as_expr()

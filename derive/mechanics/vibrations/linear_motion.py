@@ -37,7 +37,7 @@ from derive.algebra.expressions import TIME, Relation, Terms, depends_on_time, e
 from derive.algebra.length import length
 from derive.algebra.natural import compared
 from derive.algebra.tidy import tidied
-from derive.errors import Complaint, Rejected
+from derive.errors import Complaint, Rejected, Spelled
 from derive.mechanics.kinematics.coordinates import Coordinate
 from derive.mechanics.vibrations import claims
 from derive.mechanics.vibrations.general_motion import (
@@ -253,7 +253,9 @@ def _sort(linear: LinearCoefficients, case: str | None, equation: Quantity | Non
     known = next((name for name, wanted in CASES.items() if wanted == sign), None)
     if known is None and case is None:
         message = f"{key}: the sign of {linear.discriminant} is unknown"
-        raise Rejected(Complaint("open-case", message, help=f'give `case="..."`: {", ".join(CASES)}'))
+        cases = ", ".join(CASES)
+        help_line = Spelled(f'give `case="..."`: {cases}', f"give `case: ...`: {cases}")
+        raise Rejected(Complaint("open-case", message, help=help_line))
     if known is not None and case not in (None, known):
         raise Rejected(Complaint("open-case", f"{key} is {known.replace('_', ' ')}, not {str(case).replace('_', ' ')}"))
     if (known or case) == "overdamped" and not _is_positive(c / a, key):
@@ -278,7 +280,7 @@ def _is_positive(value: Expr, key: str) -> bool:
     if not sign:
         open_value = "the sign of {} is unknown" if sign is None else "{} is 0 for the given numbers"
         message = f"{key}: {open_value.format(tidied(value))}"
-        help_line = "declare its symbols as positive, or give them ranges or numbers"
+        help_line = "declare its symbols as positive, or give them ranges or other numbers"
         raise Rejected(Complaint("open-case", message, help=help_line))
     return sign > 0
 

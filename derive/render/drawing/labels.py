@@ -25,8 +25,8 @@ OUTSIDE = 6.0  # cost of a position outside the thing that the label names
 BESIDE, TOGETHER = 9.0, 5.0  # gap in points below which two labels in a row look like a product; cost of such a pair
 STACKED = 4.0  # the gap in a column, in points, below which two labels look like a fraction
 HEAVY_ENOUGH = 20.0  # if the total cost is at least this number, the labels are placed again in a different order
-# A drawn point that is closer to a label than NEAR, in points, costs DOUBT. All such points together cost at most
-# MOST_DOUBT.
+# For the label of a line, each point of another line that is closer to the label than NEAR, in points, costs DOUBT. All
+# these points together cost at most MOST_DOUBT.
 NEAR, DOUBT, MOST_DOUBT = 3.0, 0.6, 12.0
 WIDE = 1.0  # in points: a wider line is represented by its two edges
 OWN = 1.5  # in points; drawn points closer than this to the line that a label names belong to that line

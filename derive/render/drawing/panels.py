@@ -100,7 +100,8 @@ class Panel:
     branches         the branches of a bifurcation diagram, each with its name and its parts
     changes          the bifurcations
     shape            height divided by width; None for the usual shape
-    points           zeros of a curve, or points at which two curves meet, with their names
+    points           zeros of a curve, or points at which two curves meet, with their names; and the ends of the lines
+                     in `heights` on the curve, without names
     heights          horizontal lines at energies, each given by its two ends
     is_signed        whether the vertical axis extends well to both sides of zero, so that a thin line shows zero
     is_signed_across whether the horizontal axis of a path does so, too

@@ -25,8 +25,8 @@ if TYPE_CHECKING:
     from derive.steps.derivation import Derivation
     from derive.steps.step import Step
 
-# Formats that a TeX engine or a browser shows. A format shows the page of one problem, so the documents of a set are
-# not formats.
+# Further formats, which are not modules of this package: for TeX, and for a browser. A format shows the page of one
+# problem, so the documents of a set are not formats.
 TYPESET, HTML = ("latex", "pdf"), "html"
 # `-o` replaces a file of a kind that authors write, such as .md, only if its first line contains this text.
 WRITTEN = "Written by derive"

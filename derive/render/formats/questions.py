@@ -86,7 +86,7 @@ def _in_letters(named: StepNames, letters: set[Symbol]) -> dict[str, Any]:
 def _components(step: Step, notation: Notation) -> list[str]:
     """Return the symbols of the components of a vector in TeX; an empty list for any other answer.
 
-    There are no components if the vector is known only up to a factor, such as the amplitudes of a mode, or if the
+    There are no components if only the ratios of the entries have a meaning, as for the amplitudes of a mode, or if the
     answer is a list of values in any order.
     """
     from sympy import MatrixBase

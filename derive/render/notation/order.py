@@ -145,7 +145,8 @@ def _is_acceleration(letter: Symbol) -> bool:
 
 
 def _coordinate(letter: Symbol, moving: Collection[str] = ()) -> str:
-    """Return the name of the coordinate of a rate or of a momentum; an empty string for any other symbol."""
+    """Return the name of the coordinate of a rate, an acceleration or a momentum; an empty string for any other
+    symbol."""
     name: str = letter.name
     found = next((name.removesuffix(end) for end in RATE_ENDS if name.endswith(end)), "")
     momentum = name.removeprefix("p_")
@@ -222,7 +223,7 @@ def rank_of_factor(
     with the name of a coefficient, such as the angle beta, is not a coefficient.
 
     Functions are in the order of their angles in the Greek alphabet, and the sine of an angle precedes its cosine:
-    sin a cos a sin b.
+    sin(alpha) cos(alpha) sin(beta).
     """
     is_root = isinstance(factor, ex.Root) or isinstance(factor, Pow) and factor.exp.is_Rational and factor.exp.q == 2
     base = factor.base if isinstance(factor, Pow) and factor.exp.is_Rational else factor
@@ -239,7 +240,7 @@ def rank_of_factor(
     if isinstance(base, Add | ex.Terms):
         place = rank_of_sum(_place_of_term(term, dimension_of) for term in base.args)
         if place is Place.ACCELERATION and not all(term.as_coeff_Mul()[1].is_Symbol for term in base.args):
-            place = Place.SUM  # m (g + a) l, but l (l omega^2 + g)
+            place = Place.SUM  # m (a + g) l, but l (g + l omega^2)
         if place is Place.SUM and base.has(Function):
             place = Place.EXPONENTIAL if base.has(ex.TIME) else Place.SWINGING
         if all(f.is_number or _is_coefficient(f.as_base_exp()[0]) for term in base.args for f in Mul.make_args(term)):

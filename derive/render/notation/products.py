@@ -335,7 +335,7 @@ def rank_of_dimension(dimension: Dimension | None) -> Place:
 
 
 def rank_of_sum(places: Iterable[Place]) -> Place:
-    """Return the place of a sum. Sums of masses or accelerations come early: (M + m) r_dot^2, m (g + a) l."""
+    """Return the place of a sum. Sums of masses or accelerations come early: (M + m) r_dot^2, m (a + g) l."""
     return {frozenset({Place.MASS}): Place.SUM_OF_MASSES, frozenset({Place.ACCELERATION}): Place.ACCELERATION}.get(
         frozenset(places), Place.SUM
     )

@@ -1,4 +1,4 @@
-"""Prints a display as standard LaTeX: one amsmath environment without custom commands."""
+"""Prints a display as standard LaTeX without custom commands; several rows are in one `aligned` environment."""
 
 from __future__ import annotations
 

@@ -208,7 +208,7 @@ def _form(named: StepNames, i: int, notation: Notation) -> dict[str, Any]:
 
 
 def _to_the_line_before(named: StepNames, i: int) -> dict[str, Any]:
-    """Return how a line may differ from the line before, such as by a rounding or by the factor of a relation."""
+    """Return how a line may differ from the line before, such as by rounding or by the factor of a relation."""
     form = named.step.chain[i]
     if form.because == "rounded":
         return {"within": named.text_of_value(_half_units(form.expr))}
