@@ -65,7 +65,7 @@ from derive.algebra.samples import (
 from derive.algebra.trig_polynomials import monomial_ratio
 
 MANY = 20  # greatest number of points drawn for each point that is needed; points without physical meaning are skipped
-FIRST, POINTS = 2, 26  # numbers of points at which sides are compared before the exact method, and after its failure
+FIRST, POINTS = 2, 26  # numbers of points at which sides are compared before `vanishes` is tried, and after it fails
 TURNS = 400  # greatest number of points drawn to find the opposite sign of an argument of `Abs` or `sign`
 FEWEST = 8  # the fewest points at which both sides must have values
 UNTOLD = "undefined at every tested point"
@@ -192,8 +192,8 @@ def _equal_scalars(left: Expr, right: Expr) -> Verdict:
 
 
 def _stripped(left: Expr, right: Expr) -> tuple[Expr, Expr]:
-    """If both sides are the acos, asin or atan of an argument, return the two arguments: acos(u) equals acos(v) if
-    and only if u equals v."""
+    """If both sides are values of the same function acos, asin or atan, return the two arguments: acos(u) equals
+    acos(v) if and only if u equals v."""
     while left.func == right.func and left.func.__name__ in {"acos", "asin", "atan"} and len(left.args) == 1:
         left, right = left.args[0], right.args[0]
     return left, right

@@ -60,7 +60,7 @@ class Range:
         return bool(self.least.is_extended_positive or self.least.is_zero and not self.closed[0])
 
     def at(self, way: Expr) -> Expr:
-        """A number in the range that increases with `way`, where 0 < way < 1."""
+        """A number in the range; it increases with `way`, where 0 < way < 1."""
         if self.least.is_finite and self.greatest.is_finite:
             return self.least + (self.greatest - self.least) * way
         beyond = way / (1 - way)

@@ -305,8 +305,8 @@ class _Auditor:
         """Return the conditions before a display, in the same sentence, that are used in one of its rows: "with
         `r = l`, this becomes".
 
-        A condition such as `x = 0` is not used in a row that contains `x`. In "the energy at `x = 0` is conserved", the
-        row is about other instants. Conditions of equilibrium hold in rows of the same part without rates.
+        A condition such as `x = 0` is not used in a row that contains `x`, because such a row is about other instants.
+        Conditions of equilibrium hold in rows of the same part without rates.
         """
         written = {each.identity for each in letters_in(claim.left, claim.right)}
         conditions = [self.claims[each] for each in self.known.sentence & self.known.conditions - self.known.at_rest]
@@ -622,7 +622,8 @@ class _Auditor:
         return found or self.lost_before(claim)
 
     def lost_before(self, claim: Claim) -> list[Fix]:
-        """Return a term of the right side of a step that an earlier value of a letter on its left side has lost."""
+        """Return the change that adds a lost term to the earlier value of a letter on the left side of a step. The term
+        is on the right side of the step. The list is empty if there is no such change."""
         assert claim.values is not None
         if not claim.is_step or claim.right is None:
             return []
@@ -1021,7 +1022,7 @@ class _Auditor:
         return any(self.meaning.symbol(each) in self.known.seen for each in rates)
 
     def is_constant_length(self, claim: Claim) -> bool:
-        """Whether the text calls a letter constant that is a sum of coordinates: `l = x + 2 y`."""
+        """Whether a letter is a sum of multiples of coordinates, and the text calls it constant: `l = x + 2 y`."""
         assert claim.values is not None
         letter, value = claim.values
         if Cue.CONSTANT not in claim.row.block.cues or not isinstance(letter, Symbol) or isinstance(value, MatrixBase):

@@ -117,7 +117,8 @@ def _lines(audit: Audit, verdict: Verdict) -> list[int]:
 
 
 def as_data(audit: Audit) -> dict[str, Any]:
-    """Return the audit as data: the file, its rows with their verdicts, and how often each verdict occurs."""
+    """Return the audit as data: the file, its rows with their verdicts, and how often each verdict occurs. After a
+    comparison with a derivation, the data also have the answers."""
     answers = [
         {
             "problem": each.expected.problem,

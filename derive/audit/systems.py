@@ -151,7 +151,8 @@ def moving_letters(symbols: set[Symbol], meaning: Meaning) -> tuple[Symbol, ...]
 
 
 def rates(value: Expr, meaning: Meaning, known: Known) -> Iterator[Expr]:
-    """Yield time derivatives of an equation."""
+    """Yield the first time derivative of an equation and, if the equation has no rates, also the second. Yield nothing
+    for an equation that cannot be differentiated or has second rates."""
     letters = [meaning.symbols[each] for each in value.free_symbols if each in meaning.symbols]
     if any(each.dots >= 2 for each in letters) or any(each in meaning.derivatives for each in value.free_symbols):
         return
@@ -315,9 +316,10 @@ def equations_of_motion(place: Value, value: Value, meaning: Meaning, known: Kno
 
 
 def root_equation(letter: Symbol, meaning: Meaning, known: Known) -> tuple[Symbol, Expr, int] | None:
-    """Return the last earlier equation in w or x that a letter such as w_1 or x_0 may be a root of; otherwise None.
+    """Return the last earlier equation of which a letter such as w_1 or x_0 may be a root; otherwise None.
 
-    The result is a tuple of w or x, the equation, and the number of the equation's claim.
+    The equation contains the letter without its index, w or x. The result is a tuple of w or x, the equation, and the
+    number of the equation's claim.
     """
     named = meaning.symbols.get(letter)
     if named is None or not named.sub or named.dots or named.marks or named.base == "t":

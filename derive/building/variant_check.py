@@ -36,7 +36,7 @@ CLOSE = 1e-9  # the greatest imaginary part, relative to the value, that counts 
 
 @dataclass
 class OfAnswer:
-    """The values of one answer in all draws, in the coherent SI unit."""
+    """The values of one answer, in the coherent SI unit, in the draws in which it has a real value."""
 
     key: str
     unit: str
