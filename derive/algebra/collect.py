@@ -297,7 +297,8 @@ def _with_its_rates(coefficient: Coefficient, rates: list[tuple[Symbol, int]], h
 
 
 def _with_one(product: Expr) -> Expr:
-    """Divide a sum by the denominator if one of its terms then has no denominator, and if the result is not longer.
+    """Divide the sum in the numerator of a product by the denominator of the product. Do this only if a term of the sum
+    then has no symbol in its denominator, and if the result is not longer.
 
     For example, (p^2 + r^2) r_dot^2/p^2 becomes (1 + r^2/p^2) r_dot^2.
     """

@@ -69,7 +69,7 @@ FIRST, POINTS = 2, 26  # numbers of points at which sides are compared before `v
 TURNS = 400  # greatest number of points drawn to find the opposite sign of an argument of `Abs` or `sign`
 FEWEST = 8  # the fewest points at which both sides must have values
 UNTOLD = "undefined at every tested point"
-LETTERS = 6  # derivatives are compared with respect to at most this many symbols
+LETTERS = 6  # greatest number of symbols with respect to which derivatives are compared
 UNDEFINED = (nan, zoo, oo, -oo)
 
 
@@ -439,7 +439,7 @@ def _ratio(above: Expr, below: Expr) -> Expr:
 
 def _ratio_by_a_letter(above: Expr, below: Expr) -> Expr | None:
     """The ratio of the derivatives with respect to a symbol, if this is also the ratio of the whole expressions; else
-    None. A common factor may be hidden in sin(2 x) or in a fractional power."""
+    None. This finds a common factor that is hidden in sin(2 x) or in a fractional power."""
     for letter in sorted(above.free_symbols & below.free_symbols, key=str)[:LETTERS]:
         slopes = derivative(above, letter), derivative(below, letter)
         if slopes[1] != 0:

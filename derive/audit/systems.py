@@ -190,7 +190,8 @@ def linearised(equations: Sequence[Equation], meaning: Meaning) -> list[Equation
 
 
 def is_linear(value: Expr, meaning: Meaning) -> bool:
-    """Whether an equation of motion has terms of the first order only in the letters that change with time."""
+    """Whether all terms of an equation of motion are of the first order in the letters that change with time. False for
+    an equation without second rates."""
     small = moving_letters(value.free_symbols, meaning)
     if not any(meaning.symbols[each].dots == 2 for each in small):
         return False

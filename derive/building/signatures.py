@@ -24,12 +24,12 @@ MAX_BYTES = 64 * 1024 * 1024
 
 
 def write_signed(file: Path, what: str, content: bytes) -> None:
-    """Write the content with a signature for the use `what`."""
+    """Write the content with a signature that is valid for the purpose `what` only."""
     write(file, _signature(what, content) + content)
 
 
 def read_signed(file: Path, what: str) -> bytes | None:
-    """Return the content if it was signed for the use `what`, otherwise None."""
+    """Return the content if it was signed for the purpose `what`, otherwise None."""
     try:
         raw = regular_content(file)
     except OSError:

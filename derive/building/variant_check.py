@@ -123,7 +123,7 @@ def _pairs(counted: Mapping[Any, int]) -> int:
 def _numbers_of(
     root: Path, problem_id: str, variations: Sequence[Variation], found: OfProblem
 ) -> dict[tuple[str, int], dict[Symbol, Any]]:
-    """Return the numbers of the choices of each variation, in the coherent SI unit."""
+    """Return the value of each choice of the varied numbers, in the coherent SI unit."""
     numbers: dict[tuple[str, int], dict[Symbol, Any]] = {}
     for variation in variations:
         for choice in range(len(variation.choices)):
