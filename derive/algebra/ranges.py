@@ -306,7 +306,7 @@ def _sign_by_squares(total: Add) -> int | None:
 
 
 def _sign_by_bounds_of_cosine(total: Add) -> int | None:
-    """The sign of a polynomial in the cosine c of one angle, such as M + m (1 + c - c^2); None if it is unknown.
+    """The sign of a polynomial in the cosine c of one angle, such as M + m (2 + c - c^2); None if it is unknown.
 
     A polynomial between -1 and 1 lies between its Bernstein coefficients. It has their sign if none of them has the
     opposite sign and the first and the last are not zero.

@@ -1,7 +1,7 @@
 """Data stored between builds. A signature with a key of this machine shows that derive wrote them.
 
 Stored content is read as data, not executed. The key is in the state folder of the user, so other people who can write
-in the `build` folder of a course cannot sign. If no key can be stored, stored data are not used.
+in the `build` folder of a course cannot sign. If no key can be stored, the data of earlier builds are not used.
 """
 
 from __future__ import annotations
