@@ -349,7 +349,8 @@ class _Build:
         self.manifest.drawings[name] = files
         for file in others & set(files):
             message = f"the drawing `{file}` of `{name}` would have the name of another output"
-            self.result.complaints.append(Complaint("file-clash", message, help="give the drawing another name"))
+            help_line = "rename the drawing, the problem or the document"
+            self.result.complaints.append(Complaint("file-clash", message, help=help_line))
 
     def _recipe(self) -> Recipe:
         """Return the recipe of pages. If modules of derive, templates or phrases were edited since the build began,

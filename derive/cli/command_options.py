@@ -121,6 +121,7 @@ def _audit(audit: argparse.ArgumentParser) -> None:
         "--assume", action="append", default=[], metavar="EQUATION", help='such as "rho = M/(6 a^3)" (may be repeated)'
     )
     audit.add_argument("--symbols", metavar="FILE", help="YAML file with kinds of letters: `omega: vector`")
+    _time_limit(audit, "with --problem, processor time of one problem")
 
 
 def _grade(grade: argparse.ArgumentParser) -> None:
