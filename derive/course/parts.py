@@ -224,7 +224,7 @@ def _part(node: Tree, name: str, faults: Faults) -> Question | None:
             "points",
             message,
             part.places["rubric"],
-            help="give the part more points, or lower the points of these steps",
+            help="leave it out" if part.extra else "give the part more points, or lower the points of these steps",
         )
     if part and part.detail is not Level.BRIEF and not part.extra:
         message = "a part that is not `extra` is shown at every detail"
