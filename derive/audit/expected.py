@@ -1,7 +1,8 @@
 """The comparison of a document with the results of a derivation, so that a wrong method is found, too.
 
 The results are given as LaTeX and read like the rows of the document, so that a letter means the same in both. Each
-problem is compared with the section that states the greatest number of steps of its derivation, and with some others.
+problem is compared with the section that states the greatest number of steps of its derivation, and with other sections
+that state steps of it; see `LEAST_SCORE`.
 """
 
 from __future__ import annotations

@@ -66,7 +66,7 @@ class Known:
         where.setdefault(symbol, []).append(new)
 
     def leading_to(self, symbol: Symbol, value: Expr) -> set[Symbol]:
-        """Return the letters from which a value is computed and whose own definitions contain a symbol."""
+        """Return the letters from which a value is computed and whose own definitions contain the symbol."""
         behind: set[Symbol] = set()
         waiting = set(value.free_symbols)
         while waiting:

@@ -151,8 +151,8 @@ def moving_letters(symbols: set[Symbol], meaning: Meaning) -> tuple[Symbol, ...]
 
 
 def rates(value: Expr, meaning: Meaning, known: Known) -> Iterator[Expr]:
-    """Yield the first time derivative of an equation and, if the equation has no rates, also the second. Yield nothing
-    for an equation that cannot be differentiated or has second rates."""
+    """Yield the first time derivative of an equation and, if the equation has no rates, also the second. No zero
+    is yielded, and nothing if the equation has second rates or letters whose rates are unknown."""
     letters = [meaning.symbols[each] for each in value.free_symbols if each in meaning.symbols]
     if any(each.dots >= 2 for each in letters) or any(each in meaning.derivatives for each in value.free_symbols):
         return
