@@ -1,4 +1,4 @@
-"""Nodes for equations in several unknowns: a column of amplitudes, and the determinant that must vanish.
+"""Nodes for equations in several unknowns: a column of amplitudes, and a determinant.
 
 The amplitudes of one mode may include both lengths and angles, so neither node requires entries of one dimension.
 """
@@ -96,7 +96,7 @@ def expanded_by_rows(matrix: MatrixBase) -> Expr:
     ring, entries = sring(list(matrix))
     size = matrix.shape[0]
     known: dict[tuple[int, ...], Any] = {(): ring.one}
-    for row in reversed(range(size)):  # `known` maps columns to their minor in the rows below
+    for row in reversed(range(size)):  # `known` maps each set of columns to their minor in the rows below
         own = entries[size * row : size * (row + 1)]
         minors: dict[tuple[int, ...], Any] = {}
         for columns, minor in known.items():

@@ -27,10 +27,9 @@ PHASE = 2  # number of bits of a monomial before the bits of the first symbol
 class Coefficient(NamedTuple):
     """The coefficient of one product of powers of the symbols.
 
-    `whole()` returns the coefficient, and `terms` is the number of its terms. Some coefficients
-    are a product of a factor without sines and cosines and a factor of sines and cosines only. In this case `angles` is
-    the second factor. If `other` is a
-    different form of `angles`, `written(number, other)` returns `number` times the first factor times `other`, with
+    `whole()` returns the coefficient, and `terms` is the number of its terms. Some coefficients are a product of two
+    factors: the first has no sines or cosines, and the second, `angles`, has nothing else. In this case, if `other` is
+    a different form of `angles`, `written(number, other)` returns `number` times the first factor times `other`, with
     common factors in front. For any other coefficient, `written` is None.
     """
 

@@ -162,8 +162,8 @@ def _with_differences(value: Expr, moving: Collection[Symbol]) -> Expr:
 
 
 def with_differences_of_coordinates(value: Expr, moving: Collection[Symbol]) -> Expr:
-    """Combine pairs of terms into a multiple of the difference of two coordinates, m g x + k (x - y), if the result is
-    not longer."""
+    """Combine pairs of terms into a multiple of the difference of two coordinates, m g x + k (x - y), if other terms
+    are left and the result is not longer."""
     terms = list(Add.make_args(value.expand()))
     found: list[Expr] = []
     for p, q in permutations(moving, 2):
@@ -183,8 +183,9 @@ def _varies(term: Expr, moving: Collection[Symbol]) -> bool:
 def with_weights_in_front(value: Expr, moving: Sequence[Symbol], weights: Collection[Symbol]) -> Expr:
     """Write a kinetic energy with common factors in front of brackets: (1/2) m (r_dot^2 + r^2 phi_dot^2).
 
-    If a constant that is common to all terms contains a mass or a moment of inertia, the common number and constants
-    of all terms are in front. Otherwise, terms with the same numerical factor and the same constants share a bracket.
+    The common number and constants of all terms are in front if one of the constants contains a mass or a moment of
+    inertia, and if the numbers have a simple common factor. Otherwise, terms with the same numerical factor and the
+    same constants share a bracket.
     """
     letters = {*moving, *(rate(q) for q in moving), TIME}
     terms = [_apart(term, letters) for term in Add.make_args(value)]
@@ -296,7 +297,8 @@ def _with_its_rates(coefficient: Coefficient, rates: list[tuple[Symbol, int]], h
 
 
 def _with_one(product: Expr) -> Expr:
-    """Divide a sum by the denominator if one of its terms then has no denominator, and if the result is not longer.
+    """Divide the sum in the numerator of a product by the denominator of the product. Do this only if a term of the sum
+    then has no symbol in its denominator, and if the result is not longer.
 
     For example, (p^2 + r^2) r_dot^2/p^2 becomes (1 + r^2/p^2) r_dot^2.
     """

@@ -2,7 +2,7 @@
 other functions.
 
 The derivative with respect to the time includes the derivatives of prescribed functions of the time.
-The derivative of a distance |u| along a line is u/|u| times the derivative of u, where u is not zero.
+Where u is not zero, the derivative of |u|, such as a distance along a line, is u/|u| times the derivative of u.
 """
 
 from __future__ import annotations

@@ -64,8 +64,8 @@ def encoded(expr: Any, name: Callable[[Dummy], str] | None = None) -> list[Any]:
 
 @lru_cache(maxsize=4096)
 def _assumptions(symbol: Symbol) -> dict[str, bool]:
-    """Return assumptions with which `Symbol` makes an equal symbol. SymPy does not record those with which the symbol
-    was made."""
+    """Return assumptions with which `Symbol` makes an equal symbol: one of the usual sets if possible, else all
+    assumptions that SymPy derives."""
     usual: tuple[dict[str, bool], ...] = ({}, {"real": True}, {"positive": True}, {"nonnegative": True})
     for assumptions in usual:
         if Symbol(symbol.name, **assumptions) == symbol:

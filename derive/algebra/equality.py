@@ -65,11 +65,11 @@ from derive.algebra.samples import (
 from derive.algebra.trig_polynomials import monomial_ratio
 
 MANY = 20  # greatest number of points drawn for each point that is needed; points without physical meaning are skipped
-FIRST, POINTS = 2, 26  # numbers of points at which sides are compared before the exact method, and after its failure
+FIRST, POINTS = 2, 26  # numbers of points at which sides are compared before `vanishes` is tried, and after it fails
 TURNS = 400  # greatest number of points drawn to find the opposite sign of an argument of `Abs` or `sign`
 FEWEST = 8  # the fewest points at which both sides must have values
 UNTOLD = "undefined at every tested point"
-LETTERS = 6  # derivatives are compared with respect to at most this many symbols
+LETTERS = 6  # greatest number of symbols with respect to which derivatives are compared
 UNDEFINED = (nan, zoo, oo, -oo)
 
 
@@ -192,8 +192,8 @@ def _equal_scalars(left: Expr, right: Expr) -> Verdict:
 
 
 def _stripped(left: Expr, right: Expr) -> tuple[Expr, Expr]:
-    """If both sides are the acos, asin or atan of an argument, return the two arguments: acos(u) equals acos(v) if
-    and only if u equals v."""
+    """If both sides are values of the same function acos, asin or atan, return the two arguments: acos(u) equals
+    acos(v) if and only if u equals v."""
     while left.func == right.func and left.func.__name__ in {"acos", "asin", "atan"} and len(left.args) == 1:
         left, right = left.args[0], right.args[0]
     return left, right
@@ -439,7 +439,7 @@ def _ratio(above: Expr, below: Expr) -> Expr:
 
 def _ratio_by_a_letter(above: Expr, below: Expr) -> Expr | None:
     """The ratio of the derivatives with respect to a symbol, if this is also the ratio of the whole expressions; else
-    None. A common factor may be hidden in sin(2 x) or in a fractional power."""
+    None. This finds a common factor that is hidden in sin(2 x) or in a fractional power."""
     for letter in sorted(above.free_symbols & below.free_symbols, key=str)[:LETTERS]:
         slopes = derivative(above, letter), derivative(below, letter)
         if slopes[1] != 0:

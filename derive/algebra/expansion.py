@@ -105,7 +105,7 @@ class FirstOrder(ScalarNode):
 
 def expanded(f: Expr, x: Symbol, to: Expr, power: Rational | None = None) -> Series:
     """The terms in which the power of the small quantity is at most `power`, as power -> coefficient; by default only
-    the leading term. Raises `NoExpansion` if none are found."""
+    the leading term. The result for f = 0 is empty. Raises `NoExpansion` if no expansion is found."""
     written = in_small(f, x, to)
     if written.count_ops() > LARGEST:
         raise NoExpansion(f)

@@ -35,8 +35,8 @@ def in_lowest_terms(value: Expr) -> Expr:
 def squares_turned(value: Expr) -> list[Expr]:
     """Other forms of the fraction.
 
-    In one form, 1 - cos^2 and 1 - sin^2 are written as squares. In further forms, sin^2 is replaced by 1 - cos^2, or
-    cos^2 by 1 - sin^2.
+    In one form, 1 - cos^2 and 1 - sin^2 are written as squares. A fraction with both sines and cosines has two further
+    forms, in which sin^2 is replaced by 1 - cos^2, or cos^2 by 1 - sin^2.
     """
     ring = _ring()
     plain = ring.fraction(product_of(value))
@@ -251,8 +251,8 @@ def _numbers(places: Sequence[int]) -> dict[int, int]:
 def _are_coprime(top: Terms, bottom: Terms, places: list[int]) -> bool:
     """Whether images modulo a prime show that two sums have no common factor that contains a symbol.
 
-    In the images, all symbols except x are replaced by numbers. A common factor of degree d in x leaves a common factor
-    of degree d in the images, unless the leading coefficient of an image vanishes.
+    In the images, numbers replace all symbols except one, called x here. A common factor of degree d in x leaves a
+    common factor of degree d in the images, unless the leading coefficient of an image vanishes.
     Source: von zur Gathen, Gerhard, *Modern Computer Algebra*, section 6.5.
     """
     numbers = _numbers(places)

@@ -203,8 +203,8 @@ def _order_of_root(value: Expr, symbol: Symbol) -> int:
 
 
 def _solved_together(choice: Sequence[tuple[Symbol, Expr]]) -> dict[Symbol, Expr] | None:
-    """Substitute the solutions in each other; None if two of them are for the same symbol, or if a symbol then depends
-    on itself."""
+    """Substitute the solutions into each other; None if two of them are for the same symbol, or if a symbol then
+    depends on itself."""
     found: dict[Symbol, Expr] = {}
     for symbol, value in choice:
         value = value.subs(found)

@@ -130,7 +130,8 @@ def quarter_swing(f: Expr, q: Symbol, amplitude: Symbol, order: int) -> Expr:
 
 
 def reduced_square(f: Expr, q: Symbol, amplitude: Symbol, order: int) -> list[Expr]:
-    """The coefficients of A^0, ..., A^order in f/(A cos u)^2 at q = A sin u; raises `NoExpansion`."""
+    """The coefficients of A^0, ..., A^order in f/(A cos u)^2 at q = A sin u. Raises `NoExpansion` if
+    they are not found."""
     if order > HIGHEST - 2 or not tidied(f.subs(q, -q) - f) == 0 or not tidied(f.subs(q, amplitude)) == 0:
         raise NoExpansion(f)
     none = [Integer(0)] * (order + 1)

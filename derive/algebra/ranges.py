@@ -60,7 +60,7 @@ class Range:
         return bool(self.least.is_extended_positive or self.least.is_zero and not self.closed[0])
 
     def at(self, way: Expr) -> Expr:
-        """A number in the range that increases with `way`, where 0 < way < 1."""
+        """A number in the range; it increases with `way`, where 0 < way < 1."""
         if self.least.is_finite and self.greatest.is_finite:
             return self.least + (self.greatest - self.least) * way
         beyond = way / (1 - way)
@@ -306,7 +306,7 @@ def _sign_by_squares(total: Add) -> int | None:
 
 
 def _sign_by_bounds_of_cosine(total: Add) -> int | None:
-    """The sign of a polynomial in the cosine c of one angle, such as M + m (1 + c - c^2); None if it is unknown.
+    """The sign of a polynomial in the cosine c of one angle, such as M + m (2 + c - c^2); None if it is unknown.
 
     A polynomial between -1 and 1 lies between its Bernstein coefficients. It has their sign if none of them has the
     opposite sign and the first and the last are not zero.

@@ -83,7 +83,7 @@ def points(letters: set[Expr], seed: int) -> Iterator[SamplePoint]:
 
 
 def _of_both_signs(letters: list[Expr], scales: list[int], source: Random) -> Iterator[SamplePoint]:
-    """Yield two points; each symbol has opposite signs at them, if its assumptions allow both signs."""
+    """Yield two points. A symbol without a range has opposite signs at them, if its assumptions allow both signs."""
     signs = [source.choice((1, -1)) for _ in letters]
     for turn in (1, -1):
         point = {
@@ -207,7 +207,8 @@ def is_zero_everywhere(expr: Expr) -> bool | None:
 def generic_rank(matrix: MatrixBase) -> int:
     """The rank of a matrix for almost all values of its symbols: the largest rank at sampled points.
 
-    Raises `NoNumber` if the matrix has a value at none of the points that are tried.
+    Raises `NoNumber` if the matrix is undefined at all points that are tried, or if an entry cannot be computed at one
+    of them.
     """
     letters = set[Expr]().union(*map(letters_of, matrix))
     ranks: list[int] = []

@@ -46,10 +46,10 @@ USUAL_SECONDS = 0.3  # the usual processor time for one claim, in seconds
 MOST_LATE = 40.0  # the limit falls linearly with the seconds used beyond the usual time, and would be zero at MOST_LATE
 SECONDS_OF_SEARCH = 2.0  # seconds of processor time for the search for a change that makes a claim right
 MOST_INDICES = 12
-MOST_LOST = 6  # number of missing letters that are tried as corrections of a row
-MOST_ROWS = 10  # number of the last equations and displayed claims that are searched for missing letters and terms
+MOST_LOST = 6  # at most this many missing letters are tried as corrections of a row
+MOST_ROWS = 10  # at most this many of the last equations and displayed claims are searched for lost letters and terms
 FEWEST_OPERATIONS = 3  # only earlier values with at least this number of operations are compared with a later value
-MOST_FIXED = 5  # number of earlier rows that are searched for a slip
+MOST_FIXED = 5  # at most this many earlier rows are searched for a slip
 SPECIAL = frozenset({Cue.GIVEN, Cue.PUT_IN, Cue.ZERO, Cue.APPROXIMATE})  # cues that explain why a row has fewer terms
 MOST_READINGS = 8
 PLAIN = ("", "unmarked", "all", "tensors")
@@ -305,8 +305,8 @@ class _Auditor:
         """Return the conditions before a display, in the same sentence, that are used in one of its rows: "with
         `r = l`, this becomes".
 
-        A condition such as `x = 0` is not used in a row that contains `x`. In "the energy at `x = 0` is conserved", the
-        row is about other instants. Conditions of equilibrium hold in rows of the same part without rates.
+        A condition such as `x = 0` is not used in a row that contains `x`, because such a row is about other instants.
+        Conditions of equilibrium are used in each row of the same part that contains no rates.
         """
         written = {each.identity for each in letters_in(claim.left, claim.right)}
         conditions = [self.claims[each] for each in self.known.sentence & self.known.conditions - self.known.at_rest]
@@ -529,8 +529,8 @@ class _Auditor:
         verdict.why_plausible, verdict.span = WHY[edit.kind], edit.span
 
     def is_general(self, claim: Claim) -> bool:
-        """Whether a sentence states an equation that always holds: it is not the value of a letter without rates, and
-        no words near it may name a special case."""
+        """Whether a sentence states an equation that always holds: it has several terms, it is not the value of a
+        letter without rates, and nothing near it may name a special case."""
         if claim.values is None or claim.is_step or claim.row.block.display or claim.row.block.cues & SPECIAL:
             return False
         if any(isinstance(each, MatrixBase) for each in claim.values) or self.may_be_special(claim):
@@ -622,7 +622,8 @@ class _Auditor:
         return found or self.lost_before(claim)
 
     def lost_before(self, claim: Claim) -> list[Fix]:
-        """Return a term of the right side of a step that an earlier value of a letter on its left side has lost."""
+        """Return the change that adds a lost term to the earlier value of a letter on the left side of a step. The term
+        is on the right side of the step. The list is empty if there is no such change."""
         assert claim.values is not None
         if not claim.is_step or claim.right is None:
             return []
@@ -790,7 +791,7 @@ class _Auditor:
         return False
 
     def terms_before(self, claim: Claim) -> list[Node]:
-        """Return the terms of the last claims in displays, up to this claim."""
+        """Return the terms and the letters of the last claims in displays, up to this claim."""
         rows = [each for each in self.claims[: claim.number + 1] if each.row.block.display]
         sides = [side for each in reversed(rows[-MOST_ROWS:]) for side in (each.left, each.right) if side is not None]
         return terms_in(sides, self.shown)
@@ -985,7 +986,7 @@ class _Auditor:
         if believed and self.is_general(claim):
             return False
         if verdict.outcome in (Outcome.HOLDS, Outcome.APPROXIMATES):
-            general = self.known.at_rest if claim.row.block.display else set()  # a root of a condition is a value
+            general = self.known.at_rest if claim.row.block.display else set()  # a root is a value, not a condition
             return bool((self.known.conditions - general) & set(verdict.given))
         if claim.row.block.display or claim.number in self.explained:
             return False
@@ -1021,7 +1022,7 @@ class _Auditor:
         return any(self.meaning.symbol(each) in self.known.seen for each in rates)
 
     def is_constant_length(self, claim: Claim) -> bool:
-        """Whether the text calls a letter constant that is a sum of coordinates: `l = x + 2 y`."""
+        """Whether a letter is a sum of multiples of coordinates, and the text calls it constant: `l = x + 2 y`."""
         assert claim.values is not None
         letter, value = claim.values
         if Cue.CONSTANT not in claim.row.block.cues or not isinstance(letter, Symbol) or isinstance(value, MatrixBase):

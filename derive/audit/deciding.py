@@ -42,7 +42,7 @@ POINTS = 4
 CLOSE = Rational(1, 10**9)
 MOST_COMBINED = 6  # at most this many of the most recent equations are combined
 LARGEST_GOAL = 400  # equations with more operations are not compared after substitution
-MOST_SIGNS = 3  # number of absolute values whose signs are tried
+MOST_SIGNS = 3  # at most this many absolute values are replaced by both signs
 STRICT = ("<", ">", "<<", ">>", "!=")
 CONVERTED = 0.01  # two bounds with a greater relative difference do not count as one bound in different units
 SMALL = (Rational(1, 100), Rational(1, 1000))
@@ -287,7 +287,7 @@ class Decision:
         return None
 
     def may_be_linearised(self) -> bool:
-        """Whether the text speaks of an approximation, or an equation of motion has terms of the first order only."""
+        """Whether the text speaks of an approximation, or the claim is a linear equation of motion."""
         if isinstance(self.difference, MatrixBase) or Cue.APPROXIMATE in self.cues:
             return Cue.APPROXIMATE in self.cues
         return is_linear(self.difference, self.meaning)

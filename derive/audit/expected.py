@@ -1,7 +1,8 @@
 """The comparison of a document with the results of a derivation, so that a wrong method is found, too.
 
 The results are given as LaTeX and read like the rows of the document, so that a letter means the same in both. Each
-problem is compared with the sections that state steps of its derivation.
+problem is compared with the section that states the greatest number of steps of its derivation, and with other sections
+that state steps of it; see `LEAST_SCORE`.
 """
 
 from __future__ import annotations
@@ -94,7 +95,8 @@ def compared(
     meaning_of: Callable[[int], Meaning],
     expected: Iterable[Expected],
 ) -> list[Compared]:
-    """Return, for each answer, whether the document contains it. Claims that contradict an answer get a new verdict.
+    """Return, for each answer, whether the document contains it. The verdict on a claim that contradicts an answer is
+    changed to "differs".
 
     scopes       the scope of each claim
     known        the definitions, equations and numbers that the rows of each scope give

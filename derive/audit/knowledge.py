@@ -36,7 +36,7 @@ class Known:
     conditions: set[int] = field(default_factory=set)  # claims that may hold in one case or at one instant only
     at_rest: set[int] = field(default_factory=set)  # conditions that hold at an equilibrium only
     sentence: frozenset[int] = frozenset()  # claims in the sentence before the current display
-    here: frozenset[int] = frozenset()  # conditions in `sentence` for letters that the current row does not contain
+    here: frozenset[int] = frozenset()  # conditions that are used in the current row
     named: set[Symbol] = field(default_factory=set)  # letters to which a display gave a value
     kept: dict[object, Any] = field(default_factory=dict)  # results that were computed from this knowledge
 
@@ -66,7 +66,7 @@ class Known:
         where.setdefault(symbol, []).append(new)
 
     def leading_to(self, symbol: Symbol, value: Expr) -> set[Symbol]:
-        """Return the letters behind a value whose own definition contains a symbol."""
+        """Return the letters from which a value is computed and whose own definitions contain the symbol."""
         behind: set[Symbol] = set()
         waiting = set(value.free_symbols)
         while waiting:
@@ -83,8 +83,8 @@ class Known:
                 del self.definitions[symbol]
 
     def forget_derivatives(self, symbol: Symbol) -> None:
-        """Forget the values of the derivatives of a letter, and the equations that contain these derivatives. A later
-        part gives the letter a different value."""
+        """Forget the values of the derivatives of a letter, and the equations that contain these derivatives, because a
+        later part gives the letter a different value."""
         letter = self.meaning.symbols.get(symbol)
         changed = {
             each

@@ -36,8 +36,8 @@ def summary(audit: Audit) -> dict[str, int]:
 
 
 def as_text(audit: Audit, every: bool) -> str:
-    """Return the rows that differ or have a suggestion, each with its place, and a summary. With `every`, return all
-    rows and the summary."""
+    """Return the rows that differ or have a suggestion, each with its place, and a summary, which also lists the rows
+    that are not read. With `every`, return all rows and the summary."""
     shown = [_told(audit, claim, every) for claim in audit.claims if every or _is_noteworthy(_verdict(claim))]
     counted = summary(audit)
     parts = [f"{counted[str(outcome)]} {words}" for outcome, words in WORDS.items() if counted[str(outcome)]]
@@ -117,7 +117,8 @@ def _lines(audit: Audit, verdict: Verdict) -> list[int]:
 
 
 def as_data(audit: Audit) -> dict[str, Any]:
-    """Return the audit as data: the file, its rows with their verdicts, and how often each verdict occurs."""
+    """Return the audit as data: the file, its rows with their verdicts, and how often each verdict occurs. After a
+    comparison with a derivation, the data also have the answers."""
     answers = [
         {
             "problem": each.expected.problem,

@@ -151,7 +151,8 @@ def moving_letters(symbols: set[Symbol], meaning: Meaning) -> tuple[Symbol, ...]
 
 
 def rates(value: Expr, meaning: Meaning, known: Known) -> Iterator[Expr]:
-    """Yield time derivatives of an equation."""
+    """Yield the first time derivative of an equation and, if the equation has no rates, also the second. No zero
+    is yielded, and nothing if the equation has second rates or letters whose rates are unknown."""
     letters = [meaning.symbols[each] for each in value.free_symbols if each in meaning.symbols]
     if any(each.dots >= 2 for each in letters) or any(each in meaning.derivatives for each in value.free_symbols):
         return
@@ -189,7 +190,8 @@ def linearised(equations: Sequence[Equation], meaning: Meaning) -> list[Equation
 
 
 def is_linear(value: Expr, meaning: Meaning) -> bool:
-    """Whether an equation of motion has terms of the first order only in the letters that change with time."""
+    """Whether all terms of an equation of motion are of the first order in the letters that change with time. False for
+    an equation without second rates."""
     small = moving_letters(value.free_symbols, meaning)
     if not any(meaning.symbols[each].dots == 2 for each in small):
         return False
@@ -315,9 +317,10 @@ def equations_of_motion(place: Value, value: Value, meaning: Meaning, known: Kno
 
 
 def root_equation(letter: Symbol, meaning: Meaning, known: Known) -> tuple[Symbol, Expr, int] | None:
-    """Return the last earlier equation in w or x that a letter such as w_1 or x_0 may be a root of; otherwise None.
+    """Return the last earlier equation of which a letter such as w_1 or x_0 may be a root; otherwise None.
 
-    The result is a tuple of w or x, the equation, and the number of the equation's claim.
+    The equation contains the letter without its index, w or x. The result is a tuple of w or x, the equation, and the
+    number of the equation's claim.
     """
     named = meaning.symbols.get(letter)
     if named is None or not named.sub or named.dots or named.marks or named.base == "t":

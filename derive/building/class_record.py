@@ -1,4 +1,4 @@
-"""The record of the class of a set: the seed and the students for whom `derive class` last made documents."""
+"""The record of the class of a set: the seed and the students of the last run of `derive class`."""
 
 from __future__ import annotations
 

@@ -46,7 +46,8 @@ class Solved:
     drawings: tuple[Recorded, ...] = ()
 
     def to_data(self) -> dict[str, Any]:
-        """Return JSON data; raise `ValueError` or `RecursionError` if this is not possible."""
+        """Return JSON data; raise `ValueError` if an integer is too long for JSON, and `RecursionError` if a value is
+        nested too deeply."""
         return {
             "derivation": to_json(self.derivation),
             "answers": list(self.values),

@@ -38,8 +38,9 @@ WIDTH, HEIGHT = 5.0, 4.2  # centimetres, without labels
 BESIDE_STATEMENT = 0.74  # the height of a drawing next to the statement, divided by the usual height
 WIDE, LOW = 7.0, 0.4  # a drawing gets the width WIDE if, at the width WIDTH, its height is at most LOW times its width
 # A drawing without a given width is made larger if its labels are crowded. Labels are crowded if the greatest cost of
-# the position of a label is more than CROWDED, or if there are at least MANY labels and more than DENSE per square
-# centimetre. The larger drawing is kept unless its greatest cost is more than that of the smaller drawing plus SLIGHT.
+# the position of a label is more than CROWDED. They are also crowded if there are at least MANY of them, and more than
+# DENSE per square centimetre. The larger drawing is kept unless its greatest cost is more than that of the smaller
+# drawing plus SLIGHT.
 CROWDED, MANY, DENSE, SLIGHT = 5.5, 7, 0.45, 3.0
 EXACT = 1e-9  # a number with a smaller absolute value counts as zero
 # the widths for the drawing of a normal mode of at most FEW masses; the second is for low drawings

@@ -242,7 +242,7 @@ class _Printing:
         """The points that steps earn, by the label of the part."""
         values = self.solved.values.values()
         steps = [*self.solved.derivation.steps, *values]
-        # The phrases have no task for a rule of an author's script.
+        # For a rule of an author's script, the phrases do not say what a student does.
         tasks = {step.key: self.words.tasks.get(step.rule, "") for step in steps}
         return credits_of(self.document, self.rubric, tasks, values)
 

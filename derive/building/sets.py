@@ -90,7 +90,7 @@ class Superseded(Exception):
 
 @dataclass(frozen=True)
 class Edits:
-    """The functions through which a build detects edits of its set and reports finished PDFs."""
+    """The functions through which a build detects edits and reports finished PDFs."""
 
     edited: Callable[[], bool]  # whether there were edits since this build began
     wrote: Callable[[Path], None]  # called with the PDF of a problem as soon as the PDF has changed
@@ -349,7 +349,8 @@ class _Build:
         self.manifest.drawings[name] = files
         for file in others & set(files):
             message = f"the drawing `{file}` of `{name}` would have the name of another output"
-            self.result.complaints.append(Complaint("file-clash", message, help="give the drawing another name"))
+            help_line = "rename the drawing, the problem or the document"
+            self.result.complaints.append(Complaint("file-clash", message, help=help_line))
 
     def _recipe(self) -> Recipe:
         """Return the recipe of pages. If modules of derive, templates or phrases were edited since the build began,
@@ -487,7 +488,8 @@ class _Build:
         return True
 
     def _stamp(self) -> None:
-        """Record for `make` what this build read and wrote; set the time of `.built` to the beginning of this build."""
+        """Record for `make` the outputs of this set and the files outside of its folder that its problems read; set the
+        time of `.built` to the beginning of this build."""
         outputs = [f"build/{self.set_id}/{name}" for name in self.manifest.all_outputs()]
         options = f"engine={chosen_name(self.options.engine)}/detail={self.options.detail or ''}"
         read = {path for inputs in self.manifest.inputs.values() for path in inputs}

@@ -1,7 +1,7 @@
 """Data stored between builds. A signature with a key of this machine shows that derive wrote them.
 
 Stored content is read as data, not executed. The key is in the state folder of the user, so other people who can write
-in the `build` folder of a course cannot sign. If no key can be stored, stored data are not used.
+in the `build` folder of a course cannot sign. If no key can be stored, the data of earlier builds are not used.
 """
 
 from __future__ import annotations
@@ -24,12 +24,12 @@ MAX_BYTES = 64 * 1024 * 1024
 
 
 def write_signed(file: Path, what: str, content: bytes) -> None:
-    """Write the content with a signature for the use `what`."""
+    """Write the content with a signature that is valid for the purpose `what` only."""
     write(file, _signature(what, content) + content)
 
 
 def read_signed(file: Path, what: str) -> bytes | None:
-    """Return the content if it was signed for the use `what`, otherwise None."""
+    """Return the content if it was signed for the purpose `what`, otherwise None."""
     try:
         raw = regular_content(file)
     except OSError:

@@ -1,7 +1,7 @@
 """The time limit of a worker. It counts processor time, so that a problem does not fail because the machine is busy.
 
-At the limit, `OutOfTime` is raised inside the work. It is also raised if the work waits, without using the
-processor, for a wall-clock time equal to the limit.
+At the limit, `OutOfTime` is raised inside the work. It is also raised if the work hardly uses the processor during a
+whole interval of wall-clock time. These intervals are as long as the limit, but at least one second.
 """
 
 from __future__ import annotations

@@ -36,7 +36,7 @@ CLOSE = 1e-9  # the greatest imaginary part, relative to the value, that counts 
 
 @dataclass
 class OfAnswer:
-    """The values of one answer in all draws, in the coherent SI unit."""
+    """The values of one answer, in the coherent SI unit, in the draws in which it has a real value."""
 
     key: str
     unit: str
@@ -123,7 +123,7 @@ def _pairs(counted: Mapping[Any, int]) -> int:
 def _numbers_of(
     root: Path, problem_id: str, variations: Sequence[Variation], found: OfProblem
 ) -> dict[tuple[str, int], dict[Symbol, Any]]:
-    """Return the numbers of the choices of each variation, in the coherent SI unit."""
+    """Return the value of each choice of the varied numbers, in the coherent SI unit."""
     numbers: dict[tuple[str, int], dict[Symbol, Any]] = {}
     for variation in variations:
         for choice in range(len(variation.choices)):

@@ -1,4 +1,4 @@
-"""The table of `derive check`: for each problem the numbers of its steps and of its checked claims, by grade."""
+"""The table of `derive check`: for each problem the numbers of its steps, by grade, and of its checked claims."""
 
 from __future__ import annotations
 

@@ -88,8 +88,8 @@ def _class(of_class: argparse.ArgumentParser) -> None:
     of_class.add_argument("--reseed", action="store_true", help="replace a class that was made with a different seed")
     of_class.add_argument("--scheduler", default="", metavar="ADDRESS", help="of a Dask cluster: tcp://10.0.0.1:8786")
     _engine(of_class)
-    _time_limit(of_class)
-    _jobs_and_messages(of_class)
+    _time_limit(of_class, "processor time of the documents of one student")
+    _jobs_and_messages(of_class, "jobs at once, each for up to ten students")
 
 
 def _export(export: argparse.ArgumentParser) -> None:
@@ -121,6 +121,7 @@ def _audit(audit: argparse.ArgumentParser) -> None:
         "--assume", action="append", default=[], metavar="EQUATION", help='such as "rho = M/(6 a^3)" (may be repeated)'
     )
     audit.add_argument("--symbols", metavar="FILE", help="YAML file with kinds of letters: `omega: vector`")
+    _time_limit(audit, "with --problem, processor time of one problem")
 
 
 def _grade(grade: argparse.ArgumentParser) -> None:
@@ -239,18 +240,16 @@ def _engine(command: argparse.ArgumentParser) -> None:
     command.add_argument("--engine", metavar="NAME", help="TeX engine; `derive doctor` lists all")
 
 
-def _time_limit(command: argparse.ArgumentParser) -> None:
-    command.add_argument(
-        "--time-limit", type=_positive, default=_TIME_LIMIT, metavar="SECONDS", help="processor time of one problem"
-    )
+def _time_limit(command: argparse.ArgumentParser, told: str = "processor time of one problem") -> None:
+    command.add_argument("--time-limit", type=_positive, default=_TIME_LIMIT, metavar="SECONDS", help=told)
 
 
 def _text_or_json(command: argparse.ArgumentParser) -> None:
     command.add_argument("--format", choices=("text", "json"), default="text", help="(default text)")
 
 
-def _jobs_and_messages(command: argparse.ArgumentParser) -> None:
-    command.add_argument("-j", dest="jobs", type=_count, default=0, metavar="N", help="problems at once")
+def _jobs_and_messages(command: argparse.ArgumentParser, of_jobs: str = "problems at once") -> None:
+    command.add_argument("-j", dest="jobs", type=_count, default=0, metavar="N", help=of_jobs)
     told = command.add_mutually_exclusive_group()
     told.add_argument("-v", "--verbose", action="store_true", help="show each finished job, with its time")
     told.add_argument("-q", "--quiet", action="store_true", help="show only errors and warnings")

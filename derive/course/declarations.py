@@ -35,7 +35,8 @@ def read_range(name: str, node: Scalar, kind: str, signed: bool = False) -> Rang
     if least == -oo and found[1] == "[" or greatest == oo and found[4] == "]":
         rejected("range", f"`{name}` cannot be infinite", node.place, "exclude that end, as in `(0, infinity)`")
     if not (greatest - least).is_extended_positive:
-        rejected("range", f"nothing lies between {least} and {greatest}", node.place)
+        message = f"the range of `{name}` is from {least} to {greatest}, but its first end must be less than its second"
+        rejected("range", message, node.place)
     if about_kind(kind).positive and not about_kind(kind).signed and not signed and least.is_negative:
         message = f"`{name}` is {kind_with_article(kind)}, which is positive, but its range begins below zero"
         rejected("range", message, node.place)

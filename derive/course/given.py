@@ -153,7 +153,7 @@ def read_numbers(written: Mapping[Word, Tree], symbols: Mapping[str, Declared], 
 
 
 def read_value(name: str, node: Tree, kind: str, symbols: Mapping[str, Declared], notes: tuple[str, ...] = ()) -> Expr:
-    """Read an expression of a kind in declared letters; a number with its unit becomes its value in the SI."""
+    """Read an expression of the given kind in declared letters; a number with its unit becomes its value in the SI."""
     wanted = Wanted(name, kind, notes)
     return _read(node, wanted, symbols)
 
@@ -319,7 +319,7 @@ def _names_in(values: Iterable[tuple[Expr | Number, ...] | Direction]) -> set[st
 class NumbersAsLetters:
     """The letters that replace the numbers of a description, so that its derivation stays symbolic.
 
-    Equal numbers of a kind share one letter.
+    Equal numbers of the same kind share one letter.
     """
 
     def __init__(self, symbols: Mapping[str, Declared]):
@@ -346,7 +346,7 @@ class NumbersAsLetters:
 
 
 def _asked_of_kind(kind: str, count: int) -> Asked:
-    """Return the annotation for one value of a kind, with the letters that are usual for `count` values of this
+    """Return the annotation for one value of the given kind, with the letters that are usual for `count` values of this
     kind."""
     known = [asked for asked in ANNOTATIONS.values() if asked.each == kind]
     usual = next((asked for asked in known if asked.count == count), next(iter(known), None))

@@ -65,13 +65,14 @@ class Wanted:
 
 
 def is_number_with_unit(scalar: Scalar) -> bool:
-    """Return whether the text is a number with a unit, such as `1.5 kg m^2/s`, and not an expression."""
+    """Return whether the text begins with a number and a unit, as in `1.5 kg m^2/s` or `3 cm*sin(phi)`."""
     match = _NUMBER_UNIT.fullmatch(scalar.text)
     return bool(match and begins_with_unit(match["unit"].strip()))
 
 
 def number_with_unit(scalar: Scalar, wanted: Wanted, symbols: Mapping[str, Declared]) -> Number | None:
-    """Read a number with its unit, such as `1.5 kg`; return None if the text is an expression or has no unit."""
+    """Read a number with its unit, such as `1.5 kg`. Return None if the text does not begin with a number and a unit,
+    as in `2*a`; reject other text after the unit."""
     if re.fullmatch(r"\s*[+-]?\d+,\d+(\s.*)?", scalar.text):
         raise Rejected(decimal_comma(scalar.text, scalar.place))
     if re.match(r"\s*[+-]?\d{1,9}(?:[_'\u2009\u202f\xa0 ]\d{3})+(?![\w.])", scalar.text):

@@ -57,7 +57,7 @@ def begun(
 
 
 def _for_editors(folder: Path, schema: Path) -> str:
-    """Return the comment that tells an editor the schema of a file."""
+    """Return the comment that names the schema of a file for an editor."""
     return f"# yaml-language-server: $schema={relpath(schema, folder)}\n"
 
 

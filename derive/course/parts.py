@@ -224,7 +224,7 @@ def _part(node: Tree, name: str, faults: Faults) -> Question | None:
             "points",
             message,
             part.places["rubric"],
-            help="give the part more points, or lower the points of these steps",
+            help="leave it out" if part.extra else "give the part more points, or lower the points of these steps",
         )
     if part and part.detail is not Level.BRIEF and not part.extra:
         message = "a part that is not `extra` is shown at every detail"
@@ -252,7 +252,8 @@ PARTS = Reader(_LISTED.schema, _parts, _LISTED.absent)
 def points_in_all(
     stated: Fraction | None, place: Place | None, parts: List[Question], faults: Faults
 ) -> Fraction | None:
-    """Return the points of a problem: the stated points, or the sum over its parts; None if no points are stated."""
+    """Return the points of a problem: the stated points, or the sum over its parts; None if no points are
+    stated, or if there are no parts."""
     counted = [part.points for part in parts if part.points is not None]
     total = sum(counted, Fraction(0))
     if stated is None or not parts:

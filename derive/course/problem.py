@@ -364,7 +364,7 @@ def _check_panels(drawing: Placement, faults: Faults) -> None:
     """Report keys that have no effect on this sort of drawing."""
     if drawing.panels and max(len(drawing.cases), len(drawing.curves)) < 2:
         message = f"`panels` has no effect on `{drawing.key}`, which does not have several curves"
-        faults.error("unused-key", message, drawing.place, help="leave it out, or add `cases`")
+        faults.error("unused-key", message, drawing.place, help="leave it out, or add `cases` if this is a plot")
     if drawing.up and (len(drawing.plot) == 2 or drawing.is_diagram or drawing.levels):
         message = f"`up` has no effect on `{drawing.key}`, which is not a plot of curves"
         is_path = len(drawing.plot) == 2

@@ -237,7 +237,7 @@ class MarkKeys(Record):
         "`[0, 0, -1]`",
         as_written(_WAY, _A_WAY),
     )
-    side: str | None = key("the side on which the dimension line of a length is", one_of(SIDES))
+    side: str | None = key("the side on which the dimension line of a length is drawn", one_of(SIDES))
     size: Formula | None = key(
         "the length of an arrow, or the radius of a turn or of the arc of an angle, relative to the drawing", FORMULA
     )

@@ -43,7 +43,7 @@ def test_a_root_of_a_square_has_the_sign_that_the_range_settles(tmp_path: Path) 
     ("written", "said"),
     [
         ("angle in (0, 90)", "`90` needs a unit: `alpha` must be an angle"),
-        ("angle in (pi, 0)", "nothing lies between pi and 0"),
+        ("angle in (pi, 0)", "the range of `alpha` is from pi to 0, but its first end must be less than its second"),
         ("angle in 0 to pi", "`0 to pi` is not a range for `alpha`"),
         ("length in (-1 m, 1 m)", "`alpha` is a length, which is positive, but its range begins below zero"),
         ("angel in (0, pi)", "the kind of `alpha` must be a known kind, but it is `angel in (0, pi)`"),

@@ -49,5 +49,6 @@ def _expected(arguments: argparse.Namespace, named: str) -> list[Expected]:
     root, problem_id = root_of(arguments), problem_id_of(named)
     path_of(root, problem_id)
     tell(f"deriving {problem_id}")
-    found: list[Expected] = done(job_of(root, problem_id, partial(expected_results, root, problem_id)))
+    work = partial(expected_results, root, problem_id)
+    found: list[Expected] = done(job_of(root, problem_id, work, arguments.time_limit))
     return found

@@ -79,7 +79,7 @@ def export(arguments: argparse.Namespace) -> int:
         count = sum(len(part.answers) if separate and part.is_numerical else 1 for part in parts)
         print(f"wrote {shown_path(root / output)}: {count} question{'s' if count != 1 else ''}")
         if arguments.format == "stack" and not any(is_for_stack(part) for part in parts):
-            print("STACK cannot compare all answers of any part, so the file is the same as with `--format moodle`")
+            print("no part has only answers that STACK can compare, so the file is the same as with `--format moodle`")
         if any(load_problem(root, page.id).variations for page in pages):
             print("the questions have the values of the problems themselves, not those under `variants:`")
     return 0

@@ -35,8 +35,8 @@ Entries: TypeAlias = tuple[tuple[Expr, Dimension], ...]
 
 @dataclass(frozen=True)
 class Side:
-    """One side of a chain. Each branch lists the entries row by row. The shape of a scalar is (), that of a vector is
-    (3, 1)."""
+    """One side of a chain. Each branch lists the entries row by row. The shape is () for a scalar, and (3, 1) for a
+    vector."""
 
     branches: tuple[Entries, ...]
     shape: tuple[int, ...]

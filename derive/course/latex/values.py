@@ -610,7 +610,7 @@ class Values(Grids):
         return self.integral(node, [])
 
     def integral(self, node: Int, outside: list[TermOrGrid]) -> TermOrGrid:
-        """Return a product with integral signs; `outside` contains the factors before the first sign."""
+        """Return the value of a product with integral signs; `outside` contains the factors before the first sign."""
         signs: list[integrals.Sign] = []
         inside = _Parts(self)
         for item in node.items:
