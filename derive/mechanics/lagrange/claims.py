@@ -340,7 +340,10 @@ noether_with_gain: Predicate = negated(noether_symmetry)
 
 def _has_speed(facts: Judged, places: list[tuple[Expr, ...]]) -> bool:
     moving = list(facts.subject.body.coordinates)
-    return any(equal(facts.result, Add(*(by_functions_of_time(c, moving) ** 2 for c in place))) for place in places)
+    squares = [Add(*(by_functions_of_time(c, moving) ** 2 for c in place)) for place in places]
+    letters = explicit(facts.result).free_symbols
+    possible = [square for square in squares if letters <= square.free_symbols]
+    return any(equal(facts.result, square) for square in sorted(possible, key=lambda s: len(s.free_symbols)))
 
 
 def speed_of_particle(facts: Judged) -> bool:
