@@ -3,7 +3,7 @@
 A call is recalled if the following are the same as in a stored call:
 
 - the verb and its arguments;
-- the coordinates, assumptions and ranges that are known before the call;
+- the coordinates, assumptions, ranges and positive expressions that are known before the call;
 - the answers to the questions that the call asks the record.
 
 Arguments are identified by digests of their content. A call with an argument that cannot be described as data, such as

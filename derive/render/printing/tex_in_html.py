@@ -1,4 +1,5 @@
-"""The pieces of a page as plain HTML with formulas in TeX between `\\(` and `\\)`, for learning platforms.
+"""The pieces of a page as plain HTML, for learning platforms; formulas are TeX between `\\(` and `\\)`, and displays are
+TeX between `\\[` and `\\]`.
 
 These platforms keep only simple tags, and show formulas with MathJax, which reads TeX.
 """

@@ -224,8 +224,8 @@ def _surface(result: Result, key: ResultKey, name: Word, around: Surroundings) -
 
 
 def _plain_values(result: Result, key: ResultKey, found: Mapping[Word, Expr], around: Surroundings) -> dict[str, Expr]:
-    """Return the values under plain strings. A `Word` also has its position in the file, and a call of a verb with
-    such names cannot be stored."""
+    """Return the values with plain strings as keys. A `Word` also has its position in the file, and a call of a verb
+    with such keys cannot be stored."""
     return {str(name): value for name, value in found.items()}
 
 
