@@ -1,5 +1,5 @@
-"""The pieces of a page as plain HTML, for learning platforms; formulas are TeX between `\\(` and `\\)`, and displays are
-TeX between `\\[` and `\\]`.
+"""The pieces of a page as plain HTML, for learning platforms. Formulas are TeX between `\\(` and `\\)`, displays between
+`\\[` and `\\]`.
 
 These platforms keep only simple tags, and show formulas with MathJax, which reads TeX.
 """

@@ -26,8 +26,8 @@ def theorem(name: str, told: str, again: str) -> str:
 
 
 def told_in(problem: str) -> str:
-    """Return the mark that is later replaced by a link to the problem that states a theorem. The text of the link is the
-    word `problem`, such as "Problem", and the number of this problem."""
+    """Return the mark that is later replaced by a link to the problem that states a theorem. The text of the link has
+    the word `problem`, such as "Problem", and the number of this problem."""
     return TOLD_IN.format(escape(problem))
 
 
