@@ -1,7 +1,7 @@
-"""The pieces of a page as plain HTML, for learning platforms. Formulas are TeX between `\\(` and `\\)`, displays between
-`\\[` and `\\]`.
+"""The pieces of a page as plain HTML with formulas in TeX, for learning platforms.
 
-These platforms keep only simple tags, and show formulas with MathJax, which reads TeX.
+These platforms keep only simple tags. They show formulas between `\\(` and `\\)`, and displays between `\\[` and
+`\\]`, with MathJax, which reads TeX.
 """
 
 from __future__ import annotations
