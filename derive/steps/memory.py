@@ -35,8 +35,12 @@ class Store(Protocol):
 
 @dataclass(frozen=True)
 class _Asked:
-    """The data with which a call is looked up: a digest of the call, the names of the objects that the call contains,
-    and those cached properties of these objects that contain steps."""
+    """The data with which a call is looked up.
+
+    key      a digest of the call
+    objects  the names of the objects that the call contains
+    found    those cached properties of these objects that contain steps
+    """
 
     key: str
     objects: list[str]

@@ -24,7 +24,7 @@ CENTRE_OF_MASS = "centre_of_mass"  # the word for a centre of mass if another po
 ZERO = "zero"  # the outcome for a result that vanishes
 AXES = ("x", "y", "z")
 ROUTE, CHECK = Compared.ROUTE, Compared.CHECK
-TRIALS = "trials"  # the claim of a rule whose statement is tested only by its predicate, at trial numbers
+TRIALS = "trials"  # a claim under `evidence` of a rule: the predicate of the outcome tests the result at trial numbers
 
 
 @dataclass(frozen=True)
