@@ -358,8 +358,8 @@ class StringKeys(Record):
         TEXT,
     )
     mass_of: Word | None = key(
-        "for a uniform rope with mass: the particle that has this mass. Describe this particle at a constant height "
-        "and with the speed of the rope, because `gravity` acts on the pieces of the rope",
+        "for a uniform rope with mass: the particle that has this mass. Let this particle move horizontally with the "
+        "speed of the rope: its weight then has no effect, and `gravity` acts on the pieces of the rope",
         TEXT,
     )
 
