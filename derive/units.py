@@ -174,6 +174,6 @@ def _check(name: str, power: int, text: str, place: Place | None) -> None:
 
 
 def begins_with_unit(text: str) -> bool:
-    """Return whether the first name in a text is a unit; this is enough to distinguish `2 cm` from `2 a`."""
+    """Return whether the text after a number begins with a unit; this is enough to distinguish `2 cm` from `2 a`."""
     first = re.match(r"\s*([A-Za-z]+|°|1(?=\s*/))", text)
     return first is not None and (first[1] in _UNITS or not first[1].isalpha())

@@ -30,7 +30,7 @@ class Rendered:
 
     texts                   the page in each format, by the name of the format
     latex, sheet, report    fragments for documents: the solution, the questions alone, and how the solution was checked
-    source                  a fragment of the report: what is wrong in the source document
+    source                  a fragment of the report: errata of the source document, and remarks on it
     html, title_html        the solution and its title, for a page in a browser
     card_html               the statement and its first drawing, for the list of the problems of a set
     documents               fragments of the other requested documents, in TeX by name and in HTML by `name.html`

@@ -24,7 +24,7 @@ def may_vanish(*values: Expr) -> Relation | None:
 
 
 def told_of_divisors(values: Iterable[Expr]) -> dict[str, tuple[Relation, Relation]]:
-    """The condition, for a sentence, that no denominator vanishes; it contains only the factors that may vanish.
+    """The condition that no denominator vanishes, as data for a sentence; it contains only the factors that may vanish.
 
     The result is empty if there are no such factors.
     """

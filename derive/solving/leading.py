@@ -58,7 +58,7 @@ def beginnings(of: Quantity, value: Any, x: Symbol, place: Expr, order: int | No
         lowest = min((n for series in each for n in series), default=Rational(0))
         each = [{n: c for n, c in series.items() if n == lowest} for series in each]
     if not any(each):
-        raise _has_none(of, x, place, order)
+        raise _has_none(of, x, place, order, begins_beyond=True)
     return [{n: _of_squares_drawn(c) for n, c in series.items()} for series in each]
 
 

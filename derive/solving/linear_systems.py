@@ -203,7 +203,7 @@ class LinearSystem:
         return is_positive_definite(self.stiffness, self.sign) and sign_of_form(self.mass, self.sign) in (0, 1)
 
     def written(self, letter: Symbol) -> Expr:
-        """The determinant up to a constant factor, factored."""
+        """The determinant as a product of its factors; a constant factor may be missing."""
         return Mul(*(each.written(letter) for each in self.factors))
 
     def of_kind(self, kind: type[Kind], **more: Any) -> Kind:

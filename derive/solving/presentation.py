@@ -108,7 +108,7 @@ def _turns_under_root(value: Expr) -> bool:
     return any(root.base.has(sin, cos) for root in roots)
 
 
-MOST_LETTERS = 4  # greatest number of symbols if the completed squares include linear terms
+MOST_LETTERS = 4  # for more symbols, squares that include linear terms are not completed
 LONGEST_SQUARED = 120  # greatest number of operations of a quadratic form in which squares are completed
 
 

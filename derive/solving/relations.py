@@ -1,4 +1,4 @@
-"""Solve a relation, v > 0, v < 0 or v = 0, for a symbol or another unknown."""
+"""Solve a relation between a value v and zero, such as v > 0 or v = 0, for a symbol or another unknown."""
 
 from __future__ import annotations
 

@@ -45,8 +45,8 @@ INVERSE = {cos: acos, sin: asin, tan: atan}
 
 @dataclass(frozen=True)
 class ValueOf(Fact):
-    """The unknown of the equation of which a quantity is a root. The root can replace this unknown even if the symbol
-    of the root is different."""
+    """A fact of a root of an equation: the unknown of this equation. The root can replace this unknown even if the
+    symbol of the root is different."""
 
     missing = "is not a root of an equation"
     unknown: Expr

@@ -21,7 +21,7 @@ BY_MOTION = "by the equations of motion"  # end of a claim that is true only for
 
 def without_repeats(forms: Sequence[Form], symbol: Any) -> list[Form]:
     """Merge successive forms with the same expression, except a rounded form, and leave out forms that are only the
-    symbol of the step."""
+    symbol of the step. If no other form exists, the last one is kept."""
     kept: list[Form] = []
     for form in [form for form in forms if form.expr != symbol] or forms[-1:]:
         if kept and kept[-1].expr == form.expr and form.because != "rounded":

@@ -48,7 +48,8 @@ class Derivation:
         return tuple(self.step(key) for key in answering(asked, self.steps, dict(self.groups)))
 
     def warnings(self, place: Place) -> tuple[Complaint, ...]:
-        """Return a warning for each step that no answer depends on; `place` is the line that names the script."""
+        """Return a warning for each step in `unshown`, which the page does not need; `place` is the line that names the
+        script."""
         said, help_line = "`{}` is established but no answer depends on it", "let a part ask for it, or leave it out"
         return tuple(Complaint("not-shown", said.format(k), place, (), help_line, "warning") for k in self.unshown)
 

@@ -290,7 +290,8 @@ def _place_of_verb(frame: FrameType) -> str:
 
 
 def _check_told(key: str, told: Mapping[str, tuple[Any, Any]]) -> None:
-    """Check that each formula of the sentence equals the same formula by a different route."""
+    """Check that each formula of the sentence equals the same formula by a different route, and that each condition
+    contains a symbol."""
     for role, (formula, otherwise) in told.items():
         verdict = equal(formula, otherwise)
         if not verdict:

@@ -41,7 +41,7 @@ class Display:
     result_again      the highest level at which a step directly after a similar step shows only its result
     each_worked_out   whether a step after a similar step also shows all lines of the level. Otherwise it shows only its
                       result and its lines of the level `brief`
-    abbreviates       whether later steps may write the symbol of the step in place of its value, a square root
+    abbreviates       whether the result is a square root for which later steps may write the symbol of the step
     names_formula     whether the sentence names the formula, so that a line within a text needs no left side
     repeats           the key of the equation that the step repeats, if any
     result_in         names of rules; if such a rule made an input, the lines of this input may already contain the

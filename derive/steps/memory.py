@@ -3,7 +3,7 @@
 A call is recalled if the following are the same as in a stored call:
 
 - the verb and its arguments;
-- the coordinates, assumptions and ranges that are known before the call;
+- the coordinates, assumptions, ranges and positive expressions that are known before the call;
 - the answers to the questions that the call asks the record.
 
 Arguments are identified by digests of their content. A call with an argument that cannot be described as data, such as
@@ -35,8 +35,12 @@ class Store(Protocol):
 
 @dataclass(frozen=True)
 class _Asked:
-    """The data with which a call is looked up: a digest of the call, the names of the objects that the call contains,
-    and those cached properties of these objects that contain steps."""
+    """The data with which a call is looked up.
+
+    key      a digest of the call
+    objects  the names of the objects that the call contains
+    found    those cached properties of these objects that contain steps
+    """
 
     key: str
     objects: list[str]

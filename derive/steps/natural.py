@@ -51,7 +51,7 @@ class Proposal:
 class NaturalQuantities:
     """The quantities in which one step may write its result and the conditions of its sentence.
 
-    used   the quantities that the step uses
+    used   the quantities whose symbols have replaced their values so far
     """
 
     def __init__(self, symbol: Any, result: Any, inputs: Sequence[Quantity], proposals: Sequence[Proposal]):

@@ -415,7 +415,8 @@ def comparison_of(condition: Quantity, amounts: Mapping[Symbol, Amount], key: st
 def coefficient_of(answer: Quantity, figures: int, of_vectors: bool = False) -> Quantity | None:
     """Round the irrational number in front of the symbols: sqrt(2 - sqrt(2)) omega becomes 0.7654 omega.
 
-    Return None if there is no such number, or if its size is easy to see.
+    Return None if there is no such number, for a relation, for symbols in a sum, and for a result in the symbols of
+    other quantities. Without `of_vectors`, only a number that contains a sum is rounded.
 
     answer       a quantity, usually a scalar with symbols
     figures      the number of significant figures

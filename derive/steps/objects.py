@@ -47,8 +47,8 @@ class Objects:
         self._met: list[Any] = []  # keeps these objects alive, so that no `id` is used twice
 
     def described(self, value: Any) -> tuple[Any, list[str]]:
-        """Return the value as JSON data in which objects appear by their names, and these names. Raise `NoDescription`
-        if the value cannot be described."""
+        """Return the value as JSON data in which names replace the objects; also return these names. Raise
+        `NoDescription` if the value cannot be described."""
         before, self._told = self._told, []
         try:
             return self._data(value), self._told

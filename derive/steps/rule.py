@@ -24,7 +24,7 @@ CENTRE_OF_MASS = "centre_of_mass"  # the word for a centre of mass if another po
 ZERO = "zero"  # the outcome for a result that vanishes
 AXES = ("x", "y", "z")
 ROUTE, CHECK = Compared.ROUTE, Compared.CHECK
-TRIALS = "trials"  # the claim of a rule whose statement is tested only by its predicate, at trial numbers
+TRIALS = "trials"  # a claim under `evidence` of a rule: the predicate of the outcome tests the result at trial numbers
 
 
 @dataclass(frozen=True)
@@ -89,7 +89,8 @@ class Quote:
 
     outcomes   outcomes whose steps use the theorem; if empty, the steps of all outcomes use the theorem
     law_in     outcomes in which the theorem is the law of the step, so the step need not repeat the law
-    between    words for the term `between` of the phrase with which the theorem is used; if empty, any word
+    between    only steps with one of these words for the term `between` of their phrase use the theorem; if empty, the
+               word does not matter
     """
 
     theorem: Theorem

@@ -33,7 +33,7 @@ from derive.steps.step import is_zero
 DIGITS, SHORT, HALF = 30, 20, Rational(1, 2)
 # relation sign -> signs of (left - right) for which the relation holds
 SIGNS_OF = {"=": (0,), "!=": (1, -1), ">": (1,), "<": (-1,), ">=": (0, 1), "<=": (0, -1)}
-DECIDES = "give ranges or numbers for the letters, to decide whether"  # a message ends with these words and a relation
+DECIDES = "give ranges or numbers for the letters, to decide whether"  # a help line: these words, then a relation
 
 
 def sign_for_all(value: Expr) -> int | None:

@@ -161,7 +161,8 @@ class Quantity:
 
     @property
     def named_values(self) -> list[tuple[Any, Any]]:
-        """Return each symbol that the step introduces, with its value: one, or several such as r_0 and theta_0."""
+        """Return each scalar symbol that the step introduces, with its value: none, one, or several such as r_0 and
+        theta_0."""
         if isinstance(self.symbol, MatrixBase) and isinstance(self.value, MatrixBase):
             return list(zip(self.symbol, self.value, strict=True))
         return [(self.symbol, self.value)] if isinstance(self.symbol, Symbol) else []

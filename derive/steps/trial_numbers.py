@@ -24,9 +24,9 @@ from derive.steps.record import assumed
 
 Point: TypeAlias = Mapping[Any, Expr]
 
-TRIED = 24  # largest number of points at which a statement is tested
+TRIED = 24  # largest number of points that `trial_points` returns, if its caller does not choose another number
 DRAWN = 240  # largest number of points that are drawn to find points that satisfy the conditions
-# Number of pairs of points on opposite sides of a border; number of times that their distance is halved.
+# Largest number of pairs of points on opposite sides of one border; number of times that their distance is halved.
 PAIRS, HALVINGS = 4, 10
 SCALES = (1, 30, Rational(1, 30), 3, Rational(1, 300))
 PRIMES = tuple(primerange(5, 130))
@@ -36,7 +36,7 @@ SMALL = Rational(1, 10**20)  # a ratio of imaginary to real part below this numb
 
 def trial_points(letters: Iterable[Any], *conditions: Relation, tried: int = TRIED) -> list[Point]:
     """Return points at which the conditions hold. A point has a number for each symbol in `letters` and in the
-    conditions; without symbols, there is one empty point."""
+    conditions; without symbols, the only possible point is empty."""
     chosen = sorted({*letters, *(s for each in conditions for s in letters_of(explicit(each.residual)))}, key=str)
     drawn = islice(_drawn(chosen), DRAWN) if chosen else iter([{}])
     return list(islice((point for point in drawn if _fulfils(point, conditions)), tried))

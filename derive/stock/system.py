@@ -402,7 +402,8 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
     @answer
     def period(self) -> Quantity:
         if len(self.normal_modes) != 1:
-            raise Rejected(Complaint("wrong-argument", "`period` needs one frequency, but this system has several"))
+            message = "`period` needs a motion with one frequency and without damping"
+            raise Rejected(Complaint("wrong-argument", message, help="ask for `normal_modes`"))
         if self.normal_modes[0].value == 0:
             message = "nothing drives the system back to this state, so there is no oscillation about it"
             raise Rejected(

@@ -31,7 +31,8 @@ CLEAR = 0.1  # margin by which a condition must be satisfied, because a short ev
 FOLLOWED = 1e-5  # accuracy to which a simulated motion and a formula must agree
 MANY = 6  # number of sets of numbers that are tried
 # A motion begins at this fraction of the way from its given start to the stated place, because the start may be an
-# equilibrium.
+# equilibrium. If the motion turns back and the system has no state there, the motion begins on the other side of the
+# start.
 NUDGE = 2e-3
 Event = Callable[[State], float]
 

@@ -51,8 +51,8 @@ from derive.render.printing.theorems_once import theorem, told_in
 from derive.render.rendered import Files, Html
 
 LISTED = 3  # a separate page with at least this many parts has a table of contents
-# Characters of a formula that fit into a narrow window, in text and in a table. A wider formula can be scrolled, also
-# by keyboard.
+# Characters of a formula that fit into a narrow window, in text and in a table. A line may end between the pieces of a
+# wider formula; a piece that is still too wide can be scrolled, also by keyboard.
 WIDE, IN_TABLE = 24.0, 14.0
 DISPLAYED = '<span class="displayed">'
 PUNCTUATION = re.compile(r"[.,;:!?)]+(?= |$)")
@@ -266,7 +266,7 @@ class HtmlPage:
         return f'<div class="row{joined}"{anchor}>{"".join(cells)}{beside}</div>'
 
     def _is_first(self, number: Number) -> bool:
-        """Return whether the number appears for the first time."""
+        """Return whether the number has not appeared before, and record that it appears."""
         known = number in self._placed
         self._placed.add(number)
         return not known

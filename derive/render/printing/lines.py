@@ -86,7 +86,7 @@ def printed_lines(equations: Equations, notation: Notation, limit: float = LINE_
 
 
 def framed_together(lines: Sequence[Printed]) -> list[list[Printed]]:
-    """Group lines into rows of one line each; lines in a common frame form one row."""
+    """Group lines into rows: the lines of a common frame form one row, and each other line is a row."""
     rows: list[list[Printed]] = []
     for line in lines:
         goes_on = line.left is None and line.sides[0][0] == "on"
@@ -150,7 +150,7 @@ def _ends_with_answer(lines: Sequence[Printed]) -> bool:
 
 
 def _with_answer(packed: Sequence[Printed], answer: Printed, relation: str) -> list[Printed]:
-    """Add the result of a chain, which is framed as an equation of its own: T = ... and then [T = 7/24 M a^2].
+    """Add the result of a chain as a separate equation in a frame: T = ... and then [T = 7/24 M a^2].
 
     relation  the sign between the left side and the result
     """

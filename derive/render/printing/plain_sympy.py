@@ -32,7 +32,7 @@ class Setting:
 
     names    expressions written as identifiers: expression -> identifier
     moving   the names of the coordinates that are functions of time
-    sign     the sign of the root, if the expression has two roots
+    sign     the value of the sign ± in the expression, 1 or -1; None if the text has the symbol ±
     known    a cache of texts: several lines contain the same value, and a line is requested more than once
     """
 

@@ -18,7 +18,7 @@ from derive.render.notation.notation import Notation
 from derive.render.printing.figure_numbers import equation_number
 from derive.render.rendered import Tex
 
-LONG = 60  # a formula with more characters is on a separate line
+LONG = 60  # a formula with more characters of TeX may be wider than a line; it is then reduced to the width of the line
 
 
 class ReportPage:

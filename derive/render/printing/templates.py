@@ -76,7 +76,7 @@ def compile_templates(templates: Templates) -> None:
 
 
 def _failing_line(error: Exception, templates: Mapping[str, Path]) -> Place | None:
-    """Return the line of the template that raised the error; None if code of derive raised it."""
+    """Return the line of the template that raised the error; None if the error did not arise in a template."""
     files = {str(file): file for file in templates.values()}
     frames = traceback.extract_tb(error.__traceback__)
     theirs = [i for i, frame in enumerate(frames) if frame.filename in files]
@@ -88,7 +88,7 @@ def _failing_line(error: Exception, templates: Mapping[str, Path]) -> Place | No
 
 
 def _line(file: Path, number: int) -> Place:
-    """Return the place of a line in a template, with the path of the template within its folder."""
+    """Return the place of a line in a template; the path of the template begins with `templates/`."""
     try:
         lines = file.read_text(encoding="utf-8", errors="replace").splitlines()
     except OSError:

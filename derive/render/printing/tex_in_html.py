@@ -1,6 +1,7 @@
-"""The pieces of a page as plain HTML with formulas in TeX between `\\(` and `\\)`, for learning platforms.
+"""The pieces of a page as plain HTML with formulas in TeX, for learning platforms.
 
-These platforms keep only simple tags, and show formulas with MathJax, which reads TeX.
+These platforms keep only simple tags. They show formulas between `\\(` and `\\)`, and displays between `\\[` and
+`\\]`, with MathJax, which reads TeX.
 """
 
 from __future__ import annotations

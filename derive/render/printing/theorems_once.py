@@ -26,12 +26,13 @@ def theorem(name: str, told: str, again: str) -> str:
 
 
 def told_in(problem: str) -> str:
-    """Return the mark that is later replaced by `Problem` and the number of the problem that states a theorem."""
+    """Return the mark that is later replaced by a link to the problem that states a theorem. The text of the link has
+    the word `problem`, such as "Problem", and the number of this problem."""
     return TOLD_IN.format(escape(problem))
 
 
 def told_once(problems: Iterable[tuple[str, str, str]]) -> list[Html]:
-    """Return the problems of a page with every theorem stated only where it is first used."""
+    """Return the problems of a page, with each theorem stated only in the first problem that uses it."""
     first: dict[str, tuple[str, str]] = {}
 
     def chosen(match: re.Match[str], name: str, number: str) -> str:

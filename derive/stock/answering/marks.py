@@ -96,8 +96,8 @@ class Marked:
             drawings[drawings.index(shown[name])] = own
 
     def _kept(self, marks: Sequence[Mark]) -> Iterator[Mark]:
-        """Yield the marks of a drawing, except marks whose labels the problem leaves out. A surface with such a label
-        stays without its label, unless the surface is a dashed line."""
+        """Yield the marks of a drawing, except marks whose labels the problem leaves out. A mark of the class `Surface`
+        with such a label stays, but loses the label, unless the mark is a dashed line (`ConnectionMark`)."""
         labels = {str(mark.label) for mark in marks if mark.label is not None}
         for word in self.drawing.without:
             if word not in labels:
@@ -252,8 +252,8 @@ class Marked:
         return read_expression(node, self._letters.letters)
 
     def _size(self, written: Written | None) -> Expr | None:
-        """Return the size of an arrow or a rotation relative to the drawing, a positive number; None if the author
-        states no size."""
+        """Return the size of an arrow, an angle or a rotation relative to the drawing, a positive number; None if the
+        author states no size."""
         if written is None:
             return None
         size, _ = read_expression(written.scalar, {})

@@ -60,7 +60,7 @@ MEANINGS: Mapping[str, str] = {
     "principal_moments": "the principal moments of inertia",
     "principal_axes": "the principal axes",
     "principal_angle": "the angle from the x axis to a principal axis in the x-y plane",
-    "perpendicular_axes": "the moment about the normal of a flat body, by the perpendicular-axis theorem",
+    "perpendicular_axes": "the moment of inertia about the normal of a flat body (perpendicular-axis theorem)",
     # rotations
     "spin": "the angular velocity",
     "angular_momentum": "the angular momentum",

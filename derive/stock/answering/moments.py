@@ -20,8 +20,8 @@ SOLUTION, SPEED, FLIGHT = "solution", "speed", "flight"
 
 
 def started(results: Sequence[Result], system: System) -> Moment | None:
-    """Return the positions and velocities at which the requested motions begin, and the coordinates of a requested
-    flight in a plane; None if no such motion or flight is requested."""
+    """Return the positions and velocities at which the requested motions begin. The result also has the coordinates of
+    a requested flight in a plane. Return None if no such motion or flight is requested."""
     at: dict[Symbol, Expr] = {}
     rates: dict[Symbol, Expr] = {}
     for result in results:

@@ -81,7 +81,7 @@ class SurfaceKeys(Record):
 
     through: WrittenPlace | None = key(
         "for a plane, a place on it; for a curve, the place where x = y = 0. The default place for a curve is "
-        "the centre of the body that `of` names or, without `of`, the origin",
+        "the particle, or the centre of the body, that `of` names; without `of`, the origin",
         PLACE,
     )
     along: tuple[Tree, ...] = key(
@@ -263,11 +263,12 @@ class ContactKeys(Record):
         return body.body, Deferred(point_of_contact, (body, self._surface(known)), place=self.places[""])
 
     def _name(self) -> str:
-        """Return the name of the body or place that touches the surface: `ladder` for `ladder.end`."""
+        """Return the name of the body or place that touches the surface, `ladder` for `ladder.end`; empty for a place
+        without a name."""
         return (self.of.name or "").partition(".")[0].replace("_", " ")
 
     def _components(self, known: Connected) -> list[Word]:
-        """Return the symbols of the components of static or rolling friction in space."""
+        """Return, in space, the symbols of the components of static or rolling friction; in a plane, nothing."""
         symbol = self.friction.symbol if isinstance(self.friction, FrictionKeys) else None
         if symbol is None or "z" not in known.places.axes_of_motion:
             return []
@@ -358,8 +359,8 @@ class StringKeys(Record):
         TEXT,
     )
     mass_of: Word | None = key(
-        "for a uniform rope with mass: the particle that has this mass. Describe this particle at a constant height "
-        "and with the speed of the rope, because `gravity` acts on the pieces of the rope",
+        "for a uniform rope with mass: the particle that has this mass. Let this particle move horizontally with the "
+        "speed of the rope: its weight then has no effect, and `gravity` acts on the pieces of the rope",
         TEXT,
     )
 

@@ -106,10 +106,8 @@ def _letter(name: Word, letters: Mapping[str, Declared]) -> Symbol:
 
 def _named(name: Word, known: Mapping[str, Quantity]) -> Quantity:
     if name not in known:
-        help_line = (
-            did_you_mean(name, known) or "use the key of a step that the script returns or on which its answers depend"
-        )
-        rejected("no-such-answer", f"`solve()` returns nothing called `{name}`", name.place, help_line)
+        help_line = did_you_mean(name, known) or "use the key of an answer, or of a step on which an answer depends"
+        rejected("no-such-answer", f"no step of the solution is called `{name}`", name.place, help_line)
     return known[name]
 
 

@@ -67,7 +67,7 @@ def sketched(key: str) -> None:
 
 
 def _masses(answers: Any, origin: Point) -> list[Mark]:
-    """Return the centres of the parts of a body that are not cut out, with the masses of these parts."""
+    """Return the centre of mass of each part of a body, with the mass of the part; leave out parts that are cut out."""
     parts = [part for part in getattr(answers.body, "parts", ()) if part.sign > 0]
     return [point_mark(origin.seen(part.centre), part.body.mass) for part in parts]
 

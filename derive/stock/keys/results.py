@@ -1,7 +1,7 @@
 """`results:` of a description: quantities computed from answers, each under a name of its own.
 
-Each key belongs to an argument of a verb and is stated next to the verb; this module only defines how each sort of key
-is read.
+Each key belongs to an argument of a verb and is stated next to the verb. This module defines how each sort of key is
+read, and the verb `answer`.
 """
 
 from __future__ import annotations
@@ -93,7 +93,8 @@ class Surroundings:
     surfaces: Mapping[str, Any] = field(default_factory=dict)
 
     def one(self, name: Word) -> Quantity:
-        """Return the answer that a name denotes; reject a name that denotes several answers or none."""
+        """Return the answer that a name denotes. Among several answers, the name must be the key of one of them; reject
+        any other name."""
         found = self.answers(name)
         found = tuple(quantity for quantity in found if quantity.key == name) or found
         if len(found) != 1:
@@ -224,8 +225,8 @@ def _surface(result: Result, key: ResultKey, name: Word, around: Surroundings) -
 
 
 def _plain_values(result: Result, key: ResultKey, found: Mapping[Word, Expr], around: Surroundings) -> dict[str, Expr]:
-    """Return the values under plain strings. A `Word` also has its position in the file, and a call of a verb with
-    such names cannot be stored."""
+    """Return the values with plain strings as keys. A `Word` also has its position in the file, and a call of a verb
+    with such keys cannot be stored."""
     return {str(name): value for name, value in found.items()}
 
 

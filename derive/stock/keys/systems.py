@@ -162,8 +162,8 @@ class SystemKeys(Record):
     at: Tree | None = key(
         "the state about which equations are linearised and stability is decided: `{theta: 0}`, or an equilibrium by "
         "its name, `rest_3`. By default, stability is decided at all equilibria. Equations are by default linearised "
-        "where all coordinates are 0 or, if a constant momentum or a given force shifts the equilibrium, at this "
-        "equilibrium",
+        "where all coordinates are 0 or, if a constant momentum or a given force shifts the equilibrium, at the "
+        "shifted equilibrium",
         as_written({"anyOf": [TEXT.schema, STATE.schema]}, "a state such as `{theta: 0}`, or the name of one"),
     )
     results: Mapping[Word, Record] = key("quantities computed from answers, by names that you choose", RESULTS)
