@@ -121,7 +121,9 @@ def _solved(problem: Problem, cache: Cache, begun: int, faults: Faults) -> tuple
     drawings = tuple(with_places(drawing, derivation.steps) for drawing in run.drawings)
     solved = Solved(derivation, values, tuple(c.told() for c in compared), drawings)
     if not failures and not faults and not _edited(problem, begun):
-        with suppress(ValueError, RecursionError):  # steps that JSON cannot represent are derived again next time
+        with suppress(
+            ValueError, TypeError, RecursionError
+        ):  # steps that JSON cannot represent are derived again next time
             cache.keep_data(key, solved.to_data())
     return solved, failures
 

@@ -61,7 +61,7 @@ def printed_lines(equations: Equations, notation: Notation, limit: float = LINE_
         goes_on = left is None or left == begun and line.relation == "equals"
         begun, relations = (begun, [*relations, line.relation]) if goes_on else (left, [line.relation])
         own = Printed(left, (side,), line.reason, framed=framed)
-        if last and left is not None and line.beside and _has_room(last, left, own, limit):
+        if last and left is not None and line.beside and not last.reason and _has_room(last, left, own, limit):
             sides = (*last.sides, ("next", left), side)
             packed[-1] = replace(last, sides=sides, reason=line.reason)
             continue

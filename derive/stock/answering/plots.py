@@ -124,7 +124,7 @@ class Plotted:
         shown = [self._shown(each.scalar) for each in written]
         energy = dimension_of_kind("energy")
         if found.across or found.levels or found.diagram or found.others or _dimension(found.unit_up) != energy:
-            message = f"`energies` has no effect on `{found.key}`, which is not the curve of an energy"
+            message = f"`energies` has no effect on `{found.key}`, which is not the single curve of an energy"
             rejected("wrong-argument", message, written[0].place, "leave it out")
         for each, node in zip(shown, written, strict=True):
             if each.expr != 0 and _dimension(each.unit) != energy:
