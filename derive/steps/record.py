@@ -17,7 +17,7 @@ from typing import Any, Protocol, TypeVar
 from sympy import Expr, MatrixBase, MatrixSymbol, Symbol, oo
 
 from derive.algebra.expressions import RATES, TIME, Prescribed, Relation, component_names, explicit, prescribed_in, rate
-from derive.algebra.order import Contradiction, known_order
+from derive.algebra.order import Contradiction, Order, known_order
 from derive.algebra.ranges import own_meaning, sign_within
 from derive.errors import Complaint, Place, Rejected, Spelled
 from derive.steps.step import Quantity, same_value, value_behind
@@ -52,6 +52,7 @@ class Run:
     coordinates   the coordinates that the script has named, with their kinds
     assumed       assumed conditions on the symbols
     in_words      the assumed conditions that a step states in words
+    orders        the known order, and this order with the first assumed condition, with the first two, and so on
     drawings      the drawings of the page
     defined       the quantities that the problem defines under `define:`
     defined_at    the place in a file where each quantity of `define:` is written, by its name
@@ -68,6 +69,7 @@ class Run:
     coordinates: dict[Symbol, str] = field(default_factory=dict)
     assumed: list[Relation] = field(default_factory=list)
     in_words: list[Relation] = field(default_factory=list)
+    orders: list[Order] = field(default_factory=list)
     drawings: list[Any] = field(default_factory=list)
     defined: list[Quantity] = field(default_factory=list)
     defined_at: Mapping[str, Place] = field(default_factory=dict)
@@ -233,22 +235,25 @@ def assume(condition: Relation, in_words: bool = False) -> None:
     condition that is known to contradict the earlier assumptions."""
     run = current_run.get()
     if run is not None and condition not in run.assumed:
-        _check_agrees(condition, run.assumed)
+        known = known_order()
+        orders = run.orders if run.orders[:1] == [known] else [known]
+        try:
+            for each in (*run.assumed[len(orders) - 1 :], condition):
+                orders.append(_with_condition(orders[-1], each))
+        except Contradiction:
+            message = f"this result is true only for {condition}, which contradicts the assumptions of the page"
+            help_line = "ask for results that are true under the same conditions"
+            raise Rejected(Complaint("contradiction", message, help=help_line)) from None
+        run.orders = orders
         run.assumed.append(condition)
         run.in_words.extend([condition] if in_words else [])
 
 
-def _check_agrees(condition: Relation, earlier: Iterable[Relation]) -> None:
-    order = known_order()
-    for each in (*earlier, condition):
-        if each.operator not in ("=", "!="):
-            difference = explicit(each.residual if each.operator[0] == ">" else -each.residual)
-            try:
-                order = order.with_relation(difference, not each.operator.endswith("="), sign_within)
-            except Contradiction:
-                message = f"this result is true only for {condition}, which contradicts the assumptions of the page"
-                help_line = "ask for results that are true under the same conditions"
-                raise Rejected(Complaint("contradiction", message, help=help_line)) from None
+def _with_condition(order: Order, condition: Relation) -> Order:
+    if condition.operator in ("=", "!="):
+        return order
+    difference = explicit(condition.residual if condition.operator[0] == ">" else -condition.residual)
+    return order.with_relation(difference, not condition.operator.endswith("="), sign_within)
 
 
 def assumed() -> list[Relation]:
