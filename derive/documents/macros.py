@@ -18,7 +18,7 @@ ACCENTS = (
     "dot",
     "ddot",
     "mathbf",
-)  # commands whose appearance a document may change, but not their meaning
+)  # definitions of these commands are ignored, because they change only the appearance
 MOST_UNCLOSED = 100  # after more definitions with unclosed braces than this, the search for definitions ends
 
 

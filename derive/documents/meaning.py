@@ -102,7 +102,8 @@ class Meaning:
     """Finds the values of nodes; it records the decimals it meets and the symbols it makes for derivatives."""
 
     facts: Facts
-    variables: tuple[Symbol, ...] = ()  # the variables of the integrals around a node, the innermost last
+    # the variables of the integrals around a node; those of an integral inside a bracket come last
+    variables: tuple[Symbol, ...] = ()
     # each decimal, with the number of digits after the point
     decimals: list[tuple[Expr, int]] = field(default_factory=list)
     units: bool = False
@@ -288,7 +289,7 @@ class Meaning:
     def of_frac(self, node: Frac) -> Any:
         top, bottom = self._of(node.top), self._of(node.bottom)
         if isinstance(bottom, MatrixBase):
-            raise Meaningless("a denominator is a vector", node.bottom.span)
+            raise Meaningless("a denominator is a vector or matrix", node.bottom.span)
         if bottom == 0:
             raise Meaningless("a denominator is zero", node.bottom.span)
         return top / bottom
@@ -299,7 +300,7 @@ class Meaning:
             if self.facts.alone[node.base.identity] == 0:  # e is Euler's number, unless it is a side of a statement
                 base = sympy.E
         if isinstance(exponent, MatrixBase):
-            raise Meaningless("an exponent is a vector", node.exponent.span)
+            raise Meaningless("an exponent is a vector or matrix", node.exponent.span)
         if isinstance(base, MatrixBase):
             if exponent == 2 and base.shape[1] == 1:
                 return base.dot(base)
@@ -395,7 +396,7 @@ class Meaning:
     def of_vec(self, node: Vec) -> Any:
         if len(node.entries) == 2 and (node.brackets == "]" or (node.brackets in "}>" and self.facts.has_brackets)):
             one, other = (str(self._of(each)) for each in node.entries)
-            return Symbol(f"bracket({one}, {other})", real=True)  # a commutator or a Poisson bracket
+            return Symbol(f"bracket({one}, {other})", real=True)  # a commutator, a Poisson bracket or an inner product
         if len(node.entries) not in (2, 3):
             raise Meaningless("only lists of two or three entries are read as vectors", node.span)
         if any(isinstance(each, Condition) for each in node.entries):

@@ -593,7 +593,8 @@ class _Scene:
     @property
     def undrawn(self) -> list[tuple[str, Any]]:
         """Return the given forces, torques and drags that the drawing does not show: their kinds, and their values or
-        constants. The caption of the drawing states them. The opposite of a force between two bodies is left out."""
+        constants. The caption of the drawing states them. The opposite of a force between two bodies is left
+        out, and so are all given forces and torques in the drawing of an impact."""
         found: list[tuple[str, Any]] = []
         opposites = {each.opposite for each in self.system.given_forces if each.opposite is not None}
         for each in self.system.given_forces if self.impact is None else ():

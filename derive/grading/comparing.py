@@ -38,7 +38,7 @@ from derive.steps.homogeneity import dimension_of
 
 DIFFERS = "it differs from the answer of the problem"
 LONGEST = 160  # greatest number of characters of an expression in an explanation
-ROUNDS = 6  # rounds of substituting definitions
+ROUNDS = 6  # greatest number of rounds in which definitions are substituted
 MOST_UNKNOWN = 2  # greatest number of unknown letters that may be other names for letters of the problem
 FEWEST_FIGURES = 2
 WITH_A_ZERO = ("potential", "lagrangian", "energy_function", "hamiltonian", "effective", "total_energy")

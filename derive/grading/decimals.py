@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from sympy import Expr, Integer, Rational, pi
 
@@ -83,15 +82,6 @@ def components_of(text: str, count: int) -> list[str]:
         if len(entries) == count and all(re.fullmatch(r"[-+]?\d+(\.\d+)?([eE][-+]?\d+)?", each) for each in entries):
             return entries
     return []
-
-
-@dataclass(frozen=True)
-class Typed:
-    """A typed number: its value, each decimal in it with the number of its digits after the point, and its unit."""
-
-    value: Expr
-    decimals: tuple[tuple[Expr, int], ...] = ()
-    unit: Unit | None = None
 
 
 def figures_of(text: str) -> int:

@@ -569,8 +569,8 @@ class _Grading:
         return best_of(verdicts)
 
     def as_number(self, statement: _Statement, target: Target) -> Verdict | None:
-        """Judge a number, with or without a unit; None if the problem gives no number, or if no number other than zero
-        is typed.
+        """Judge a number, with or without a unit. Return None if the problem gives no number, if no number is typed, or
+        if the number is zero without a unit.
         """
         if target.is_relation and (angle := angle_of(target, self.angle_in(statement, target))) is not None:
             target = angle

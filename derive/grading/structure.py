@@ -115,7 +115,8 @@ def _of_terms(answer: Expr, right: Expr, shown: Shown) -> Iterator[Found]:
 
 
 def swaps(ratio: Expr) -> bool:
-    """Whether numerator and denominator of a ratio contain functions, as if one function was written for another."""
+    """Whether numerator and denominator of a ratio contain functions, as if one function were written in place of
+    another."""
     above, below = ratio.as_numer_denom()
     return bool(above.atoms(Function) and below.atoms(Function))
 

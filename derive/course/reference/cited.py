@@ -32,9 +32,9 @@ _LAYOUT = re.compile(r"\\(?:begin|end)\s*\{array\}(?:\{[lcr|\s]*\})?|\\\\|\s+|[&
 
 @dataclass(frozen=True)
 class Formula:
-    """A chain of the document, and the unit of its last side.
+    """A chain of sides in the document, such as `a = b = c`, and the unit of its last side.
 
-    head    the name before the chain, such as `T` in `T = ... = ...`; empty if the chain begins with a value
+    head    the name at the beginning of the chain, such as `T` in `T = ... = ...`; empty if the chain has no name
     """
 
     scalar: Scalar
@@ -171,7 +171,7 @@ class Cited:
         return scalar
 
     def without_unit(self, side: Side) -> tuple[int, int, Unit | None]:
-        """Return where the value of a side begins and ends, and the unit after it (None if there is no unit)."""
+        """Return where the value of a side begins and ends, and the unit after it (None if there is no known unit)."""
         start, end = side.span.start, side.span.end
         text = self.text[start:end]
         if found := _DEGREES.search(text):
