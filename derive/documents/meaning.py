@@ -1,9 +1,9 @@
 """The nodes of a side as an expression of SymPy, or the reason why they have no value.
 
 A letter and each of its rates are separate symbols: `x`, `x'`, `x''`. The letter of a vector is a column whose
-components are new symbols about which nothing is known. The derivative of a letter about which nothing is known is a
-symbol, too. Letters are positive numbers unless they change with time, are functions, or have a name that is usual for
-an angle, a coordinate or a constant of either sign. Authors rely on this in sqrt(m^2) = m.
+components are new symbols; they depend on the same variables as the vector. The derivative of a letter about which
+nothing is known is a symbol, too. Letters are positive numbers unless they change with time, are functions, or have a
+name that is usual for an angle, a coordinate or a constant of either sign. Authors rely on this in sqrt(m^2) = m.
 """
 
 from __future__ import annotations

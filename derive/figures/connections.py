@@ -157,7 +157,8 @@ class Connections:
         return {**drawn_at(self.system.coordinates), **{letter: value.subs(chosen) for letter, value in found.items()}}
 
     def _free_value(self, q: Symbol, before: int) -> Expr | None:
-        """Return a readable value for the coordinate q, which is a length; None if no suitable length is known."""
+        """Return a value of the coordinate q, a length, that makes the drawing readable; None if no suitable length is
+        known."""
         zero = dict.fromkeys((*self.system.coordinates, TIME), ZERO)
         components = [c for place in self.system.places for c in place.components]
         rests = [min(c.xreplace(zero).free_symbols, key=str, default=None) for c in components if q in c.free_symbols]

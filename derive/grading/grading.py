@@ -511,7 +511,8 @@ class _Grading:
         return self.text[span.start : span.end].strip()
 
     def unequal_side(self, statement: _Statement) -> Read | None:
-        """Return a side of an equation, other than a name, that differs from the last side; None if no side does."""
+        """Return a side of an equation, other than a name, that differs from the last side; None if no side does. A
+        side is not compared if it has no letters, or letters that the last side lacks."""
         if statement.is_single or statement.read is None:
             return None
         first = 0 if statement.name is None and len(statement.read.sides) == 2 else 1
