@@ -279,6 +279,8 @@ class Meaning:
                 return left.cross(right)
             if mark == "cdot":
                 return left.dot(right)
+            if mark == "times":
+                raise Meaningless("a cross product needs two vectors with three components", span)
             raise Meaningless("two vectors are side by side without `\\cdot` or `\\times`", span)
         if left.shape[1] == right.shape[0]:
             return left * right
@@ -426,7 +428,7 @@ class Meaning:
         if variables and not at_place and not any(variable for variable, _ in values):
             return self.function_letter(head)
         if self.facts.is_vector(head, self.scope):
-            raise Meaningless("the value of a vector at an instant is not read", node.span)
+            raise Meaningless("the value of a vector at a place or an instant is not read", node.span)
         numbers = [self.scalar(value) for _, value in values]
         symbol = Symbol(f"{head.named()}{'.' * head.dots}({','.join(map(str, numbers))})", real=True)
         variable = self.variable_of_call(values[0][0], own) if len(values) == 1 else None
@@ -767,7 +769,7 @@ class Meaning:
         if not indices and node.name == "sum" and node.lower is None and isinstance(node.body, Letter):
             return self._of(_replaced(node.body, base=f"sum {node.body.base}"))  # `\sum F_x` is the total force
         if not indices:
-            raise Meaningless("this sum has no index", node.span)
+            raise Meaningless("this sum or product has no index", node.span)
         if len(indices) == 1 and node.lower is not None and node.upper is not None:
             lower, upper = self.scalar(node.lower), self.scalar(node.upper)
             if lower.is_Integer and upper.is_Integer and 0 <= upper - lower <= MOST_TERMS:
@@ -786,7 +788,7 @@ class Meaning:
     def terms_of(self, node: Sum, index: Letter, lower: int, upper: int) -> Any:
         self.terms *= upper - lower + 1
         if self.terms > MOST_NESTED_TERMS:
-            raise Meaningless("these sums have too many terms", node.span)
+            raise Meaningless("these sums or products have too many terms", node.span)
         values = [self._of(_with_index(node.body, index, Integer(i))) for i in range(lower, upper + 1)]
         self.terms //= len(values)
         value = values[0]

@@ -123,7 +123,9 @@ def read_source(path: Path, shown: str | None = None) -> Source:
     if kind is None:
         known = ", ".join(sorted(filter(None, SUFFIXES)))
         message = f"`{path.name}` is not a document that derive reads"
-        raise Misused(Complaint("unknown-format", message, help=f"its name must end in one of {known}"))
+        raise Misused(
+            Complaint("unknown-format", message, help=f"its name must have no ending, or end in one of {known}")
+        )
     name = shown or str(path)
     try:
         if path.stat().st_size > 4 * LARGEST:
