@@ -60,8 +60,8 @@ class Cited:
         self.file = Source(document.source.path, document.source.written)
 
     def formula(self, lines: Iterable[tuple[int, int]], wanted: tuple[int, ...], place: Place) -> Formula:
-        """Return the chain at these lines, or only its sides with the numbers `wanted`, counted from 1. First sides that
-        only name the value of the next side are left out."""
+        """Return the chain at these lines, or only its sides with the numbers `wanted`, counted from 1. First sides
+        that only name the value of the next side are left out."""
         sides: list[tuple[str, Side]] = []
         others: list[Side] = []  # further values of the last side: `x = a or b`
         for first, last in lines:
