@@ -111,7 +111,7 @@ def verdict_on_number(
     if unit.factors == (("min", -1),) and "rpm" in number.unit and not found.is_right:
         turns = _in_unit(value, is_decimal, figures, places, number, read_unit("rpm").factor, "rpm")
         if turns.is_right:
-            return Verdict(Outcome.CONVENTION, f"with `{unit.text}` as revolutions per minute; {turns.because}")
+            return Verdict(Outcome.CONVENTION, f"with `{unit.text}` as revolutions per minute").adding(turns.because)
     return found
 
 
@@ -128,9 +128,8 @@ def _without_unit(
             return plain  # an angle in radians is a number
         degrees = _in_unit(value, is_decimal, figures, places, number, pi / 180, "degrees")
         if degrees.is_right:
-            return Verdict(
-                Outcome.CONVENTION, f"the angle is read in degrees, although no unit is typed; {degrees.because}"
-            )
+            told = "the angle is read in degrees, although no unit is typed"
+            return Verdict(Outcome.CONVENTION, told).adding(degrees.because)
         return plain
     for factor, name in tried:
         found = _in_unit(value, is_decimal, figures, places, number, factor, name)
