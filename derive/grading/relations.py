@@ -172,7 +172,9 @@ def _wrong_inequality(typed: Relation, goal: Relation, key: Key) -> Verdict:
         ratio = factor_between(typed.right, goal.right)
         if ratio is not None and ratio.is_number:
             return Verdict(Outcome.FACTOR, f"the limiting value is {shown(ratio, key)} times the right one")
-    return Verdict(Outcome.DIFFERENT, "it is another condition")
+    is_equation = goal.operator == "=" and typed.operator != "="
+    told = "an inequality is typed, but an equation is asked for" if is_equation else "it is another condition"
+    return Verdict(Outcome.DIFFERENT, told)
 
 
 def _wrong_equation(comparison: _Comparison, typed: Relation, goal: Relation) -> Verdict:
