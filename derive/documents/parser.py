@@ -1034,7 +1034,7 @@ class _Reader:
         span = self.since(token)
         if word in UNIT_WORDS or ("/" in word and all(each in UNIT_NAMES for each in word.split("/"))):
             return Text(span, f"unit {word}{self.power_of_unit()}")
-        if self.follows_number(token) and (unit := _unit(plain)):
+        if self.follows_number(token) and word != "diag" and (unit := _unit(plain)):
             return Text(span, unit if unit == "degrees" else unit + self.power_of_unit())
         if word in FUNCTIONS or word.lower() in ("arcsin", "arccos", "arctan", "sinh", "cosh", "tanh", "atan2", "sgn"):
             return self.function(token, word)

@@ -528,12 +528,13 @@ class _Grading:
 
     def as_relation(self, statement: _Statement, target: Target) -> Verdict:
         goal = target.value
+        asked = "an equation" if goal.operator == "=" else "a condition"
         verdicts: list[Verdict] = []
         if statement.is_single:
             for read in statement.last:
                 zero = Read(Num(Span(0, 0), "0"), sympy.Integer(0))
                 if not isinstance(read.value, Expr):
-                    return Verdict(Outcome.DIFFERENT, "it is a list, but an equation is asked for")
+                    return Verdict(Outcome.DIFFERENT, f"it is a list, but {asked} is asked for")
                 if isinstance(goal.left, Symbol) and not goal.right.has(goal.left):
                     alone = replace(
                         target, symbol=goal.left, value=goal.right, dimension=self.key.dimensions.get(goal.left)
@@ -566,7 +567,7 @@ class _Grading:
                     if found.is_right:
                         return verdicts[-1]
         if not verdicts:
-            return Verdict(Outcome.DIFFERENT, "an equation is asked for, but a value is given")
+            return Verdict(Outcome.DIFFERENT, f"{asked} is asked for, but a value is given")
         return best_of(verdicts)
 
     def as_number(self, statement: _Statement, target: Target) -> Verdict | None:
