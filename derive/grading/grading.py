@@ -107,7 +107,7 @@ class _Statement:
 
     @property
     def name(self) -> Any:
-        """The letter before the equals sign, if the left side is only a letter or its magnitude; else None."""
+        """The letter before the first relation sign, if the left side is only a letter or its magnitude; else None."""
         if self.is_single or not self.first:
             return None
         left = self.first[0].value
