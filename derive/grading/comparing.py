@@ -487,7 +487,8 @@ def _with_rates(pairs: dict[Symbol, Symbol]) -> dict[Symbol, Symbol]:
 
 
 def _named(dimension: Dimension) -> str:
-    return "a number" if dimension == NUMBER else f"{named(dimension)} ({exponents(dimension)})"
+    name, powers = named(dimension), exponents(dimension)
+    return "a number" if dimension == NUMBER else name if name.endswith(powers) else f"{name} ({powers})"
 
 
 def verdict_of_entries(entries: Sequence[Verdict], shape: tuple[int, int]) -> Verdict:

@@ -725,8 +725,10 @@ def _free(reads: tuple[Read, ...]) -> set[Any]:
 
 
 def _short_name(target: Target) -> str:
-    name, sign, _ = target.text.partition(" = ")
-    return name if sign and len(name) < 20 and not target.is_relation else target.key
+    sides = target.text.split(" = ")
+    names = (" = ".join(sides[:n]) for n in range(1, len(sides)))
+    name = next((each for each in names if each.count("(") == each.count(")")), "")  # `U|(theta = 0)` is one name
+    return name if name and len(name) < 20 and not target.is_relation else target.key
 
 
 def _is_list(target: Target) -> bool:

@@ -232,8 +232,8 @@ def _inhomogeneous(comparison: _Comparison, typed: Relation) -> Verdict | None:
 
 
 def _scalings(given: Expr, wanted: Expr) -> list[Expr]:
-    """Return at most four multiples of an equation, the one with the most terms of the right equation first. Each
-    multiple has at least one such term.
+    """Return at most four multiples of an equation, the one with the most terms of the right equation first; if several
+    have equally many, the unchanged equation comes first. Each multiple has at least one such term.
     """
     terms = [sympy.Add.make_args(each) for each in (given, wanted)]
     found: dict[Expr, Expr] = {}
@@ -244,7 +244,7 @@ def _scalings(given: Expr, wanted: Expr) -> list[Expr]:
                 found.setdefault(ratio, sympy.expand(given * ratio))
     common = [each for each in found if sum(sympy.expand(t * each) in terms[1] for t in terms[0])]
     count = {each: sum(sympy.expand(t * each) in terms[1] for t in terms[0]) for each in common}
-    return [found[each] for each in sorted(common, key=lambda each: -count[each])[:4]]
+    return [found[each] for each in sorted(common, key=lambda each: (-count[each], each != 1))[:4]]
 
 
 def verdict_on_equation_for(left: Read, right: Read, target: Target, key: Key) -> Verdict | None:
