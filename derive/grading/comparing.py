@@ -349,7 +349,7 @@ class _Comparison:
                 if are_equal(left, goal):
                     told = f"for {shown(angle, self.key)} between 0 and 90 degrees"
                     return Verdict(Outcome.CONVENTION, told)
-        text = special_values(left, goal, kinds, angles)
+        text = special_values(left, goal, kinds, angles, lambda each: shown(each, self.key))
         return Verdict(Outcome.SPECIAL, f"it is right only for {text}") if text else None
 
     # Several values

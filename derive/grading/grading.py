@@ -20,7 +20,7 @@ from derive.documents.meaning import Meaningless
 from derive.documents.source import Source, Span
 from derive.documents.syntax import Letter, Node, Num
 from derive.documents.tokens import TooLarge
-from derive.grading.comparing import DIFFERS, verdict_of_entries, verdict_on_value
+from derive.grading.comparing import DIFFERS, shown, verdict_of_entries, verdict_on_value
 from derive.grading.decimals import components_of, figures_of, verdict_on_number, with_units
 from derive.grading.key import Key, Number, Part, Target
 from derive.grading.names import parts_of
@@ -390,7 +390,8 @@ class _Grading:
                     continue
                 swapped = [self.verdict(found[other][1][0], a), self.verdict(found[one][1][0], b)]
                 if all(each.is_right for each in swapped):
-                    told = f"if {a.symbol} and {b.symbol} are numbered the other way round"
+                    one_name, other_name = (shown(each.symbol, self.key) for each in (a, b))
+                    told = f"if {one_name} and {other_name} are numbered the other way round"
                     for name, verdict, of in ((one, swapped[0], other), (other, swapped[1], one)):
                         found[name] = (replace(verdict, outcome=Outcome.CONVENTION, because=told), found[of][1])
         return found

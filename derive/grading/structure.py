@@ -168,7 +168,7 @@ def _replaced(value: Expr, part: Expr, by: Expr) -> Expr:
     return value.xreplace({part: by})
 
 
-def special_values(answer: Expr, right: Expr, kinds: Mapping[Symbol, object], angles: set[Symbol]) -> str:
+def special_values(answer: Expr, right: Expr, kinds: Mapping[Symbol, object], angles: set[Symbol], shown: Shown) -> str:
     """Return special values of the letters for which a wrong answer equals the right one, as text; "" if none is found.
 
     kinds    letter -> its kind; two letters of the same kind may be set equal
@@ -177,11 +177,11 @@ def special_values(answer: Expr, right: Expr, kinds: Mapping[Symbol, object], an
     free = answer.free_symbols | right.free_symbols
     for one, other in combinations(sorted(free & set(kinds), key=str), 2):
         if kinds[one] == kinds[other] and _agree_with({one: other}, answer, right):
-            return f"{one} = {other}"
+            return f"{shown(one)} = {shown(other)}"
     for letter in sorted(free & angles, key=str):
         for value, text in ((Integer(0), "0"), (pi / 2, "pi/2")):
             if _agree_with({letter: value}, answer, right):
-                return f"{letter} = {text}"
+                return f"{shown(letter)} = {text}"
     return ""
 
 
