@@ -1543,7 +1543,7 @@ def _orders(node: Node) -> int:
 
 
 def _with_differential_on_top(fraction: Frac) -> list[Node] | None:
-    r"""Return `\frac{dx}{1+x^2}` as `\frac{1}{1+x^2}` and `dx`; None if no differential is on top."""
+    r"""Return `\frac{dx}{1+x^2}` as `\frac{1}{1+x^2}` and `dx`; None if the top does not end with a differential."""
     top = fraction.top
     factors = [each for _, each in top.factors] if isinstance(top, Mul) else [top]
     if not isinstance(factors[-1], Diff):

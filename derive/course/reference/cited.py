@@ -232,7 +232,9 @@ _NUMBER = re.compile(r"\d+(?:\.\d+)*(?=[\s.:)]|$)")
 
 
 def _numbers(document: Document) -> list[str]:
-    """Return the number of each heading, as it is written or as LaTeX prints it; "" for a heading without a number."""
+    """Return the number of each heading, as it is written or as LaTeX counts it; "" for a heading without a number. A
+    heading with a star counts, too, although LaTeX prints no number for it.
+    """
     found: list[str] = []
     counts: dict[int, int] = {}
     for heading in document.headings:
