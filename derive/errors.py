@@ -22,7 +22,7 @@ from typing import NoReturn
 class Place:
     """A place in a file: the line and column (both from 1), the text of the line, and how many columns to underline.
 
-    If the line is long, `text` is only a part of the line; `cut` is the number of columns left out before this part.
+    If the line is long, `text` is only a part of it: column n of the line is column n - `cut` of `text`.
     """
 
     path: str

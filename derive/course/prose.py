@@ -203,14 +203,18 @@ def latex_in(prose: Prose) -> Complaint | None:
     found = [*_LATEX.finditer(_PIECE.sub(_blanked, prose.text))]
     if not found:
         return None
-    first = found[0]
+    start, end = found[0].span()
+    if before := re.search(r"<[<%#][^<]*>?$", prose.text[: start + 1]) if prose.text[start] != found[0][0][0] else None:
+        start = before.start()  # the power of a mention
+    shown = prose.text[start:end]
     notes = (f"{len(found) - 1} more in this text",) * bool(found[1:])
+    is_formula = shown == found[0][0] and shown[-1] not in "(["
     return Complaint(
         "latex-in-prose",
-        f"LaTeX is read only between dollar signs: `{abridged(first[0])}` is printed unchanged",
-        prose.place_within(first.start(), len(first[0])),
+        f"LaTeX is read only between dollar signs: `{abridged(shown)}` is printed unchanged",
+        prose.place_within(start, end - start),
         notes,
-        f"write `${first[0]}$`" if first[0][-1] not in "([" else "write a formula between dollar signs: `$x^2$`",
+        f"write `${shown}$`" if is_formula else "write a formula between dollar signs: `$x^2$`",
         severity="warning",
     )
 

@@ -40,7 +40,8 @@ class Reader(Generic[T]):
 
 @dataclass(frozen=True)
 class Key:
-    """One key: its meaning, the contents that it allows, whether it is required, and another name for it."""
+    """One key: its meaning, the contents that it allows, whether it is required, and a wrong name that authors often
+    write for it."""
 
     meaning: str
     reader: Reader[Any]
@@ -52,7 +53,7 @@ def key(meaning: str, reader: Reader[Any], *, required: bool = False, called: st
     """Declare a field of a record; the field is read from a key of a file.
 
     called       the name of the key in the file, if it differs from the name of the field
-    instead_of   another name that authors may write, such as a former name; the error then names this key
+    instead_of   a name that authors often write by mistake, such as a former name; the error names the correct key
     """
     own = Key(meaning, reader, required, instead_of)
     return field(default_factory=reader.absent, metadata={"called": called, "key": own})
@@ -193,8 +194,8 @@ def as_written(schema: dict[str, Any], wanted: str) -> Reader[Tree]:
 
 
 def _misfit(node: Tree, schema: dict[str, Any]) -> Tree | None:
-    """Return the first node that is empty or does not have the shape (list, mapping or text) that the schema allows;
-    None if there is no such node."""
+    """Return the first node whose shape (list, mapping, text, or nothing) the schema does not allow; None if there is
+    no such node."""
     odd = [_misfit_in_one(node, each) for each in schema.get("anyOf", [schema])]
     return None if None in odd else next((within for within in odd if within is not node), node)
 

@@ -179,8 +179,8 @@ class InLetters:
     def value(
         self, node: Tree, name: str, kind: str, of: int = 1, or_zero: bool = False, in_time: bool = False
     ) -> Expr:
-        """Read a constant expression of a kind, and check its sign; with `in_time`, it may be a function of the
-        time."""
+        """Read a constant expression of the given kind; with `in_time`, it may be a function of the time. If the kind
+        requires a positive value, reject a negative value and, without `or_zero`, zero."""
         found = self.constant(node, name, kind, of, in_time)
         if (
             found.is_nonpositive
@@ -209,7 +209,7 @@ class InLetters:
         return found
 
     def of_kind(self, node: Tree, name: str, kind: str, of: int = 1) -> Expr:
-        """Read a number, or an expression with the dimension of a kind. Zero may have any dimension.
+        """Read a number, or an expression with the dimension of the given kind. Zero may have any dimension.
 
         of   the number of values that belong together
         """

@@ -93,6 +93,9 @@ def _choices(node: Tree, name: str, faults: Faults) -> tuple[Tree, ...]:
             return node.items
         faults.add(decimal_comma(cut.text, cut.place))
         return ()
+    if isinstance(node, Sequence) and node.items:
+        faults.error("variants", f"the variation of `{name}` must be {WANTED}, but it has one value", node.place)
+        return ()
     if not isinstance(node, Scalar):
         wrong_type(faults, f"the variation of `{name}`", WANTED, node)
         return ()

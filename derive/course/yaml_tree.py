@@ -119,7 +119,7 @@ class Scalar:
 
     @property
     def left_empty(self) -> bool:
-        """Whether nothing follows the `:` or `-`; `""` is text."""
+        """Whether nothing, or an unquoted `null` or `~`, follows the `:` or `-`; `""` is text."""
         return self.style == "" and self.empty
 
     @property

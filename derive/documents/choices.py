@@ -104,7 +104,8 @@ def _apply(node: Open, facts: Facts) -> tuple[int, str, bool]:
             return 0, "a function of time", False
         if isinstance(inner, Num):
             return 0, "a value of a function: a product has no bracket around a number", False
-        return 1, "never written with an argument elsewhere", head.base not in ("f", "F", "y", "U", "V", "u", "h")
+        is_sure = head.base not in ("f", "F", "y", "U", "V", "u", "h")
+        return 1, "elsewhere a factor at least as often as a function", is_sure
     letters = {each.identity for each in argument.walk() if isinstance(each, Letter)}
     if letters & set(variables):
         return 0, "the document writes it with this argument", facts.products[head.identity] == 0

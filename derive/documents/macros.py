@@ -18,7 +18,7 @@ ACCENTS = (
     "dot",
     "ddot",
     "mathbf",
-)  # commands whose appearance a document may change, but not their meaning
+)  # definitions of these commands are ignored, because they change only the appearance
 MOST_UNCLOSED = 100  # after more definitions with unclosed braces than this, the search for definitions ends
 
 
@@ -93,7 +93,7 @@ def end_of_group(text: str, start: int) -> int | None:
 
 
 def expanded(tokens: Sequence[Token], macros: Mapping[str, Macro]) -> list[Token]:
-    """Return the tokens with every macro replaced by its body."""
+    """Return the tokens with every macro replaced by its body, except the commands in `ACCENTS`."""
     if not macros:
         return list(tokens)
     return list(_Expansion(macros).of(tokens, 0))

@@ -1,9 +1,9 @@
 """The nodes of a side as an expression of SymPy, or the reason why they have no value.
 
 A letter and each of its rates are separate symbols: `x`, `x'`, `x''`. The letter of a vector is a column whose
-components are new symbols about which nothing is known. The derivative of a letter about which nothing is known is a
-symbol, too. Letters are positive numbers unless they change with time, are functions, or have a name that is usual for
-an angle, a coordinate or a constant of either sign. Authors rely on this in sqrt(m^2) = m.
+components are new symbols; they depend on the same variables as the vector. The derivative of a letter about which
+nothing is known is a symbol, too. Letters are positive numbers unless they change with time, are functions, or have a
+name that is usual for an angle, a coordinate or a constant of either sign. Authors rely on this in sqrt(m^2) = m.
 """
 
 from __future__ import annotations
@@ -102,7 +102,8 @@ class Meaning:
     """Finds the values of nodes; it records the decimals it meets and the symbols it makes for derivatives."""
 
     facts: Facts
-    variables: tuple[Symbol, ...] = ()  # the variables of the integrals around a node, the innermost last
+    # the variables of the integrals around a node; those of an integral inside a bracket come last
+    variables: tuple[Symbol, ...] = ()
     # each decimal, with the number of digits after the point
     decimals: list[tuple[Expr, int]] = field(default_factory=list)
     units: bool = False
@@ -278,6 +279,8 @@ class Meaning:
                 return left.cross(right)
             if mark == "cdot":
                 return left.dot(right)
+            if mark == "times":
+                raise Meaningless("a cross product needs two vectors with three components", span)
             raise Meaningless("two vectors are side by side without `\\cdot` or `\\times`", span)
         if left.shape[1] == right.shape[0]:
             return left * right
@@ -288,7 +291,7 @@ class Meaning:
     def of_frac(self, node: Frac) -> Any:
         top, bottom = self._of(node.top), self._of(node.bottom)
         if isinstance(bottom, MatrixBase):
-            raise Meaningless("a denominator is a vector", node.bottom.span)
+            raise Meaningless("a denominator is a vector or matrix", node.bottom.span)
         if bottom == 0:
             raise Meaningless("a denominator is zero", node.bottom.span)
         return top / bottom
@@ -299,7 +302,7 @@ class Meaning:
             if self.facts.alone[node.base.identity] == 0:  # e is Euler's number, unless it is a side of a statement
                 base = sympy.E
         if isinstance(exponent, MatrixBase):
-            raise Meaningless("an exponent is a vector", node.exponent.span)
+            raise Meaningless("an exponent is a vector or matrix", node.exponent.span)
         if isinstance(base, MatrixBase):
             if exponent == 2 and base.shape[1] == 1:
                 return base.dot(base)
@@ -395,7 +398,7 @@ class Meaning:
     def of_vec(self, node: Vec) -> Any:
         if len(node.entries) == 2 and (node.brackets == "]" or (node.brackets in "}>" and self.facts.has_brackets)):
             one, other = (str(self._of(each)) for each in node.entries)
-            return Symbol(f"bracket({one}, {other})", real=True)  # a commutator or a Poisson bracket
+            return Symbol(f"bracket({one}, {other})", real=True)  # a commutator, a Poisson bracket or an inner product
         if len(node.entries) not in (2, 3):
             raise Meaningless("only lists of two or three entries are read as vectors", node.span)
         if any(isinstance(each, Condition) for each in node.entries):
@@ -425,7 +428,7 @@ class Meaning:
         if variables and not at_place and not any(variable for variable, _ in values):
             return self.function_letter(head)
         if self.facts.is_vector(head, self.scope):
-            raise Meaningless("the value of a vector at an instant is not read", node.span)
+            raise Meaningless("the value of a vector at a place or an instant is not read", node.span)
         numbers = [self.scalar(value) for _, value in values]
         symbol = Symbol(f"{head.named()}{'.' * head.dots}({','.join(map(str, numbers))})", real=True)
         variable = self.variable_of_call(values[0][0], own) if len(values) == 1 else None
@@ -766,7 +769,7 @@ class Meaning:
         if not indices and node.name == "sum" and node.lower is None and isinstance(node.body, Letter):
             return self._of(_replaced(node.body, base=f"sum {node.body.base}"))  # `\sum F_x` is the total force
         if not indices:
-            raise Meaningless("this sum has no index", node.span)
+            raise Meaningless("this sum or product has no index", node.span)
         if len(indices) == 1 and node.lower is not None and node.upper is not None:
             lower, upper = self.scalar(node.lower), self.scalar(node.upper)
             if lower.is_Integer and upper.is_Integer and 0 <= upper - lower <= MOST_TERMS:
@@ -785,7 +788,7 @@ class Meaning:
     def terms_of(self, node: Sum, index: Letter, lower: int, upper: int) -> Any:
         self.terms *= upper - lower + 1
         if self.terms > MOST_NESTED_TERMS:
-            raise Meaningless("these sums have too many terms", node.span)
+            raise Meaningless("these sums or products have too many terms", node.span)
         values = [self._of(_with_index(node.body, index, Integer(i))) for i in range(lower, upper + 1)]
         self.terms //= len(values)
         value = values[0]

@@ -1034,7 +1034,7 @@ class _Reader:
         span = self.since(token)
         if word in UNIT_WORDS or ("/" in word and all(each in UNIT_NAMES for each in word.split("/"))):
             return Text(span, f"unit {word}{self.power_of_unit()}")
-        if self.follows_number(token) and (unit := _unit(plain)):
+        if self.follows_number(token) and word != "diag" and (unit := _unit(plain)):
             return Text(span, unit if unit == "degrees" else unit + self.power_of_unit())
         if word in FUNCTIONS or word.lower() in ("arcsin", "arccos", "arctan", "sinh", "cosh", "tanh", "atan2", "sgn"):
             return self.function(token, word)
@@ -1543,7 +1543,7 @@ def _orders(node: Node) -> int:
 
 
 def _with_differential_on_top(fraction: Frac) -> list[Node] | None:
-    r"""Return `\frac{dx}{1+x^2}` as `\frac{1}{1+x^2}` and `dx`; None if no differential is on top."""
+    r"""Return `\frac{dx}{1+x^2}` as `\frac{1}{1+x^2}` and `dx`; None if the top does not end with a differential."""
     top = fraction.top
     factors = [each for _, each in top.factors] if isinstance(top, Mul) else [top]
     if not isinstance(factors[-1], Diff):

@@ -67,7 +67,7 @@ class Source:
     text: str = ""
     origins: array[int] = field(default_factory=lambda: array("L"))
     edits: list[Edit] = field(default_factory=list)
-    included: str = ""  # the texts of the files that the document or its main document includes; they may define macros
+    included: str = ""  # the texts of the main document and of all included files; they may define macros
 
     def __post_init__(self) -> None:
         if not self.text:
@@ -123,7 +123,9 @@ def read_source(path: Path, shown: str | None = None) -> Source:
     if kind is None:
         known = ", ".join(sorted(filter(None, SUFFIXES)))
         message = f"`{path.name}` is not a document that derive reads"
-        raise Misused(Complaint("unknown-format", message, help=f"its name must end in one of {known}"))
+        raise Misused(
+            Complaint("unknown-format", message, help=f"its name must have no ending, or end in one of {known}")
+        )
     name = shown or str(path)
     try:
         if path.stat().st_size > 4 * LARGEST:
@@ -149,8 +151,8 @@ MOST_INCLUDED = 50  # files
 
 
 def _main_document(text: str, path: Path) -> tuple[str, Path]:
-    """Return the main document that includes a text, and the folder of this document. If no document near the text
-    includes it, return the text and its own folder."""
+    """Return the main document that includes a text, and the folder of this document. If the text is itself a main
+    document, or if no document near it includes it, return the text and its own folder."""
     if r"\documentclass" not in text:
         for folder in (path.parent, path.parent.parent):
             for file in islice(sorted(folder.glob("*.tex")), MOST_INCLUDED):

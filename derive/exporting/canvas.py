@@ -1,8 +1,8 @@
 """A quiz of Canvas: a package of QTI 1.2 with the fields that Canvas reads.
 
-A numerical question of Canvas has one field, so each number of a part becomes a separate question. Other parts become
-essay questions. A number that a student types is right if it differs from the result by at most half a unit of the last
-printed digit. The worked solution is the general feedback of the question.
+A numerical question of Canvas has one field. So if all answers of a part are numbers, each number becomes a separate
+question. All other parts become essay questions. A number that a student types is right if it differs from the result
+by at most half a unit of the last printed digit. The worked solution is the general feedback of the question.
 
 Sources: IMS Global, *Question and Test Interoperability: ASI XML Binding Specification*, version 1.2; for the fields of
 Canvas, files that Canvas exported.

@@ -46,7 +46,8 @@ def word_document(title: str, questions: Sequence[Question], solutions: bool = T
         try:
             ran = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=LONGEST, check=False)
         except (OSError, subprocess.TimeoutExpired) as error:
-            raise BuildFailed(Complaint("pandoc", f"Pandoc cannot be run: {error}", help=INSTALL)) from None
+            help_line = INSTALL if isinstance(error, OSError) else None
+            raise BuildFailed(Complaint("pandoc", f"Pandoc cannot be run: {error}", help=help_line)) from None
         if ran.returncode or ran.stderr.strip():  # Pandoc warns if it cannot convert a formula or a picture
             raise BuildFailed(Complaint("pandoc", f"Pandoc cannot convert the set: {ran.stderr.strip()[:500]}"))
         return (folder / "set.docx").read_bytes()
@@ -81,7 +82,7 @@ def check_installed() -> None:
 
 
 def _pandoc() -> str:
-    """Return the path of Pandoc from its package; if the package is not installed, return the name `pandoc`."""
+    """Return the path of Pandoc from its package; if the package or its Pandoc is missing, return the name `pandoc`."""
     try:
         return str(import_module("pypandoc").get_pandoc_path())
     except (ImportError, OSError):

@@ -424,9 +424,9 @@ class Projection(Arrow):
 
 @dataclass(frozen=True)
 class Cone(Arrow):
-    """The cone that a vector describes when it turns about an axis, dashed: the circle of its tip, and the line from
-    its start to the point of this circle opposite to the tip. The arrow of the vector is a separate mark with the
-    same `size`."""
+    """The cone that a vector describes when it turns about an axis, drawn with two dashed lines. These are the circle
+    of the tip, and the line from the start of the vector to the point of this circle opposite to the tip. The arrow of
+    the vector is a separate mark with the same `size`."""
 
     axis: Position = field(kw_only=True)
 

@@ -51,7 +51,7 @@ def outline(body: Any, about: str | None = None, named: bool = True, sliced: boo
     """Return the outline of a body, in axes whose origin is one of the body's points.
 
     body    a body of `derive.mechanics`
-    about   the name of the point; by default the origin of the body's own axes
+    about   the name of the point; by default the `reference` of the body
     named   whether to label the measures of the body and to draw its axes
     sliced  whether to mark a slice perpendicular to the axis of a round solid, as for an integral over the height
 

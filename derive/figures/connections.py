@@ -82,7 +82,7 @@ BOWL = 4  # the radius of a bowl, relative to `Connections.size`
 SPHERE = 2  # the radius of a fixed circle that a round body touches from outside, relative to `Connections.size`
 AXIS = Rational(4, 5)  # the length of the axes on a table, relative to TABLE times `ball_size`
 # The radius of a table in space is at least BEYOND times the greatest distance of a contact from the middle of the
-# table. If this distance changes for a body, the radius is also at least TABLE times `ball_size`.
+# table. If this distance changes while a body moves, the radius is also at least TABLE times `ball_size`.
 TABLE, BEYOND = Rational(5, 2), Rational(6, 5)
 AROUND = Rational(1, 4)  # the radius of the arrow of a motor, relative to the size of the body
 HALF_OF_ROPE = 1.2  # half the drawn thickness of a rope with mass, in points
@@ -157,7 +157,8 @@ class Connections:
         return {**drawn_at(self.system.coordinates), **{letter: value.subs(chosen) for letter, value in found.items()}}
 
     def _free_value(self, q: Symbol, before: int) -> Expr | None:
-        """Return a readable value for the coordinate q, which is a length; None if no suitable length is known."""
+        """Return a value of the coordinate q, a length, that makes the drawing readable; None if no suitable length is
+        known."""
         zero = dict.fromkeys((*self.system.coordinates, TIME), ZERO)
         components = [c for place in self.system.places for c in place.components]
         rests = [min(c.xreplace(zero).free_symbols, key=str, default=None) for c in components if q in c.free_symbols]

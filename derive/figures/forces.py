@@ -51,7 +51,7 @@ __all__ = ["BodyAlone", "draw_alone", "forces_as_named", "forces_in_state", "for
 LONG = Rational(4, 5)  # approximate length of the arrow of the greatest force on a rod, relative to the size of the rod
 # The drawn size of a body that is not a rod, in a plane and in space, in points.
 BODY, BODY_IN_SPACE = 32.0, 20.0
-LEAST = Rational(1, 4)  # length of the shortest arrow, relative to the longest arrow
+LEAST = Rational(1, 4)  # least length of an arrow, relative to the longest arrow
 # In a plane, all arrows are enlarged until the shortest arrow has the length VISIBLE, in units of FORCE points, but at
 # most by the factor LONGER. An arrow of the length LEAST then has the length VISIBLE.
 VISIBLE, LONGER = Rational(3, 8), Rational(3, 2)
@@ -59,8 +59,8 @@ ON_A_LINE = Rational(3, 5)  # least factor for all arrows if each drawing shows 
 OFF = Rational(1, 30)  # distance between a rod and the arrow of a force along it, relative to the length of the rod
 APART = 5.0  # the distance between the arrows of two forces on the same line, in points
 ALONG = 3.6  # distance between a surface and the arrow of a force along it, on the side of the body, in points
-# A round body whose weight and normal force are on one line: its drawn size in points, and the lengths of its longest
-# and of its shortest arrow, in units of FORCE points. With these lengths the weight ends above the contact, and the
+# For a round body whose weight and normal force are on one line: its drawn size in points; and the greatest and the
+# least length of its arrows, in units of FORCE points. With these lengths the weight ends above the contact, and the
 # friction is visible.
 STANDING, SHORT, SHORTEST = 47.0, Rational(12, 25), Rational(7, 20)
 ROPE = 110.0  # the drawn length of a whole rope, in points; each piece of the rope is drawn alone
@@ -327,8 +327,9 @@ def _offset(drawn: _Drawn, of: PlacedBody, scene: Connections) -> tuple[float, f
 
 
 def _acting(system: System, of: Any) -> list[PointForce]:
-    """Return the forces of connections on a body. If there is such a force, and the coordinates keep exactly one
-    contact, with a fixed plane, add the normal force of this plane. No equation contains this normal force."""
+    """Return the forces of connections on a body. If there is such a force, and the body has exactly one
+    contact that the coordinates keep, and this contact is with a fixed plane, add the normal force of this plane. No
+    equation contains this normal force."""
     named = [force for each in connections_of(system, Connection) for force in each.on(of)]
     named += _drawn_pulls(system, of)
     return [*named, *_unnamed_normals(system, of)] if named else []

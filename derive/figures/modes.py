@@ -1,9 +1,9 @@
 """Pictures of small displacements, in normal modes and just after an impact: the displaced system, with an arrow at
 each mass in the direction of its displacement.
 
-The displacement of a mass is a sum over the coordinates: the derivative of the position of the mass with respect to the
-coordinate, at equilibrium, times the amplitude of the coordinate. If the ratio of the displacements is known, the
-lengths of the arrows are in this ratio, except that a very small displacement has no arrow.
+The displacement of a mass is a sum over the coordinates. Each term is the derivative of the position of the mass with
+respect to a coordinate, at equilibrium, times the amplitude of this coordinate. If the ratio of the displacements is
+known, the lengths of the arrows are in this ratio, except that a very small displacement has no arrow.
 """
 
 from __future__ import annotations

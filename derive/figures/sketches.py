@@ -574,8 +574,8 @@ class _Scene:
     def _drawn_force(self, each: GivenForce) -> tuple[ImmutableDenseMatrix, Expr] | None:
         """Return the direction and the magnitude of the arrow of a given force; None if the force is not drawn.
 
-        Forces whose magnitude contains a root or a coordinate are left out, because the sign of the label could be
-        wrong in the drawn state.
+        A force whose magnitude contains a coordinate is left out, because the sign of the label could be wrong in the
+        drawn state. So is a force with several components whose magnitude contains a root.
         """
         if len(each.at) != self.rows or self._is_friction(each):
             return None
@@ -593,7 +593,8 @@ class _Scene:
     @property
     def undrawn(self) -> list[tuple[str, Any]]:
         """Return the given forces, torques and drags that the drawing does not show: their kinds, and their values or
-        constants. The caption of the drawing states them. The opposite of a force between two bodies is left out."""
+        constants. The caption of the drawing states them. The opposite of a force between two bodies is left
+        out, and so are all given forces and torques in the drawing of an impact."""
         found: list[tuple[str, Any]] = []
         opposites = {each.opposite for each in self.system.given_forces if each.opposite is not None}
         for each in self.system.given_forces if self.impact is None else ():
@@ -685,7 +686,8 @@ def _along_axis(way: Sequence[Expr]) -> ImmutableDenseMatrix:
 
 
 def _magnitude(components: Sequence[Expr]) -> Expr | None:
-    """Return the magnitude of a force; None if the magnitude contains a root or an absolute value."""
+    """Return the magnitude of a force. If several components are not zero, return None for a magnitude that contains a
+    root or an absolute value."""
     (first, *others) = [c for c in components if c != 0] or [ZERO]
     if not others:
         return -first if first.could_extract_minus_sign() else first

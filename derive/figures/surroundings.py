@@ -22,7 +22,7 @@ UNDER = 20.0  # half the length of the piece of a surface under a particle
 SLIDER, RAIL = (16.0, 9.0), 22.0  # width and height of a slider, and half the length of its rail
 # Half the length of the double arrow at a moving support, and distance of this arrow from the rail.
 MOVES, BESIDE_RAIL = 14.0, 12.0
-ARC = (11.0, 30.0)  # least and greatest radius of an arc, unless its angle is small
+ARC = (11.0, 30.0)  # least and greatest radius of an arc of the usual `share`, unless its angle is small
 SMALLEST = 0.02  # smallest angle that is drawn, in radians
 FREE = 16.0  # distance between all other marks and the arrow of gravity or of a field
 ARROW = 24.0  # length of the arrow of gravity or of a field

@@ -38,7 +38,7 @@ from derive.steps.homogeneity import dimension_of
 
 DIFFERS = "it differs from the answer of the problem"
 LONGEST = 160  # greatest number of characters of an expression in an explanation
-ROUNDS = 6  # rounds of substituting definitions
+ROUNDS = 6  # greatest number of rounds in which definitions are substituted
 MOST_UNKNOWN = 2  # greatest number of unknown letters that may be other names for letters of the problem
 FEWEST_FIGURES = 2
 WITH_A_ZERO = ("potential", "lagrangian", "energy_function", "hamiltonian", "effective", "total_energy")
@@ -349,7 +349,7 @@ class _Comparison:
                 if are_equal(left, goal):
                     told = f"for {shown(angle, self.key)} between 0 and 90 degrees"
                     return Verdict(Outcome.CONVENTION, told)
-        text = special_values(left, goal, kinds, angles)
+        text = special_values(left, goal, kinds, angles, lambda each: shown(each, self.key))
         return Verdict(Outcome.SPECIAL, f"it is right only for {text}") if text else None
 
     # Several values
@@ -383,7 +383,7 @@ class _Comparison:
         if not isinstance(right, MatrixBase):
             if isinstance(value, MatrixBase) and are_equal(sympy.sqrt(value.dot(value)), right):
                 return Verdict(Outcome.DIFFERENT, "it is a vector; its magnitude is asked for")
-            return Verdict(Outcome.DIFFERENT, "it is a list of numbers, but a single value is asked for")
+            return Verdict(Outcome.DIFFERENT, "it is a list, but a single value is asked for")
         if not isinstance(value, MatrixBase):
             if value == 0 and all(each == 0 for each in right):
                 return Verdict(Outcome.EQUAL, "")
@@ -487,7 +487,8 @@ def _with_rates(pairs: dict[Symbol, Symbol]) -> dict[Symbol, Symbol]:
 
 
 def _named(dimension: Dimension) -> str:
-    return "a number" if dimension == NUMBER else f"{named(dimension)} ({exponents(dimension)})"
+    name, powers = named(dimension), exponents(dimension)
+    return "a number" if dimension == NUMBER else name if name.endswith(powers) else f"{name} ({powers})"
 
 
 def verdict_of_entries(entries: Sequence[Verdict], shape: tuple[int, int]) -> Verdict:

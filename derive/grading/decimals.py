@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from sympy import Expr, Integer, Rational, pi
 
@@ -85,15 +84,6 @@ def components_of(text: str, count: int) -> list[str]:
     return []
 
 
-@dataclass(frozen=True)
-class Typed:
-    """A typed number: its value, each decimal in it with the number of its digits after the point, and its unit."""
-
-    value: Expr
-    decimals: tuple[tuple[Expr, int], ...] = ()
-    unit: Unit | None = None
-
-
 def figures_of(text: str) -> int:
     """Return the number of significant figures of a typed decimal; zeros at the end of a whole number count."""
     digits = re.sub(r"[eE].*|\\cdot.*|\\times.*", "", text)
@@ -121,7 +111,7 @@ def verdict_on_number(
     if unit.factors == (("min", -1),) and "rpm" in number.unit and not found.is_right:
         turns = _in_unit(value, is_decimal, figures, places, number, read_unit("rpm").factor, "rpm")
         if turns.is_right:
-            return Verdict(Outcome.CONVENTION, f"with `{unit.text}` as revolutions per minute; {turns.because}")
+            return Verdict(Outcome.CONVENTION, f"with `{unit.text}` as revolutions per minute").adding(turns.because)
     return found
 
 
@@ -138,9 +128,8 @@ def _without_unit(
             return plain  # an angle in radians is a number
         degrees = _in_unit(value, is_decimal, figures, places, number, pi / 180, "degrees")
         if degrees.is_right:
-            return Verdict(
-                Outcome.CONVENTION, f"the angle is read in degrees, although no unit is typed; {degrees.because}"
-            )
+            told = "the angle is read in degrees, although no unit is typed"
+            return Verdict(Outcome.CONVENTION, told).adding(degrees.because)
         return plain
     for factor, name in tried:
         found = _in_unit(value, is_decimal, figures, places, number, factor, name)

@@ -20,7 +20,7 @@ from derive.documents.meaning import Meaningless
 from derive.documents.source import Source, Span
 from derive.documents.syntax import Letter, Node, Num
 from derive.documents.tokens import TooLarge
-from derive.grading.comparing import DIFFERS, verdict_of_entries, verdict_on_value
+from derive.grading.comparing import DIFFERS, shown, verdict_of_entries, verdict_on_value
 from derive.grading.decimals import components_of, figures_of, verdict_on_number, with_units
 from derive.grading.key import Key, Number, Part, Target
 from derive.grading.names import parts_of
@@ -107,7 +107,7 @@ class _Statement:
 
     @property
     def name(self) -> Any:
-        """The letter before the equals sign, if the left side is only a letter or its magnitude; else None."""
+        """The letter before the first relation sign, if the left side is only a letter or its magnitude; else None."""
         if self.is_single or not self.first:
             return None
         left = self.first[0].value
@@ -390,7 +390,8 @@ class _Grading:
                     continue
                 swapped = [self.verdict(found[other][1][0], a), self.verdict(found[one][1][0], b)]
                 if all(each.is_right for each in swapped):
-                    told = f"if {a.symbol} and {b.symbol} are numbered the other way round"
+                    one_name, other_name = (shown(each.symbol, self.key) for each in (a, b))
+                    told = f"if {one_name} and {other_name} are numbered the other way round"
                     for name, verdict, of in ((one, swapped[0], other), (other, swapped[1], one)):
                         found[name] = (replace(verdict, outcome=Outcome.CONVENTION, because=told), found[of][1])
         return found
@@ -511,7 +512,8 @@ class _Grading:
         return self.text[span.start : span.end].strip()
 
     def unequal_side(self, statement: _Statement) -> Read | None:
-        """Return a side of an equation, other than a name, that differs from the last side; None if no side does."""
+        """Return a side of an equation, other than a name, that differs from the last side; None if no side does. A
+        side is not compared if it has no letters, or letters that the last side lacks."""
         if statement.is_single or statement.read is None:
             return None
         first = 0 if statement.name is None and len(statement.read.sides) == 2 else 1
@@ -527,12 +529,13 @@ class _Grading:
 
     def as_relation(self, statement: _Statement, target: Target) -> Verdict:
         goal = target.value
+        asked = "an equation" if goal.operator == "=" else "a condition"
         verdicts: list[Verdict] = []
         if statement.is_single:
             for read in statement.last:
                 zero = Read(Num(Span(0, 0), "0"), sympy.Integer(0))
                 if not isinstance(read.value, Expr):
-                    return Verdict(Outcome.DIFFERENT, "it is a list, but an equation is asked for")
+                    return Verdict(Outcome.DIFFERENT, f"it is a list, but {asked} is asked for")
                 if isinstance(goal.left, Symbol) and not goal.right.has(goal.left):
                     alone = replace(
                         target, symbol=goal.left, value=goal.right, dimension=self.key.dimensions.get(goal.left)
@@ -565,12 +568,12 @@ class _Grading:
                     if found.is_right:
                         return verdicts[-1]
         if not verdicts:
-            return Verdict(Outcome.DIFFERENT, "an equation is asked for, but a value is given")
+            return Verdict(Outcome.DIFFERENT, f"{asked} is asked for, but a value is given")
         return best_of(verdicts)
 
     def as_number(self, statement: _Statement, target: Target) -> Verdict | None:
-        """Judge a number, with or without a unit; None if the problem gives no number, or if no number other than zero
-        is typed.
+        """Judge a number, with or without a unit. Return None if the problem gives no number, if no number is typed, or
+        if the number is zero without a unit.
         """
         if target.is_relation and (angle := angle_of(target, self.angle_in(statement, target))) is not None:
             target = angle
@@ -723,8 +726,10 @@ def _free(reads: tuple[Read, ...]) -> set[Any]:
 
 
 def _short_name(target: Target) -> str:
-    name, sign, _ = target.text.partition(" = ")
-    return name if sign and len(name) < 20 and not target.is_relation else target.key
+    sides = target.text.split(" = ")
+    names = (" = ".join(sides[:n]) for n in range(1, len(sides)))
+    name = next((each for each in names if each.count("(") == each.count(")")), "")  # `U|(theta = 0)` is one name
+    return name if name and len(name) < 20 and not target.is_relation else target.key
 
 
 def _is_list(target: Target) -> bool:

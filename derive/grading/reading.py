@@ -26,7 +26,7 @@ from derive.grading.names import Names, bare
 from derive.grading.typed_text import Typed, TypedSide, TypedStatement, Unread
 
 MOST_BITS = 3000  # the greatest number of bits of a number
-HIGHEST_POWER = 40
+HIGHEST_POWER, HIGHEST_POWER_OF_TEN = 40, 300
 MOST_TERMS = 3000  # the greatest number of terms of an expanded power of a sum
 MOST_READINGS = 6
 _SIGN = Symbol("±", real=True)  # the symbol that `derive.documents` uses for ±
@@ -163,9 +163,9 @@ class _InProblem(Meaning):
         base, exponent = self._of(node.base), self._of(node.exponent)
         if isinstance(base, MatrixBase) and isinstance(node.exponent, Letter) and node.exponent.base == "T":
             return base.T
-        if isinstance(exponent, Expr) and exponent.is_Number and abs(exponent) > HIGHEST_POWER:
-            if not (base == 10 and abs(exponent) <= 300):
-                raise Meaningless(f"too large: an exponent is at most {HIGHEST_POWER}", node.exponent.span)
+        most = HIGHEST_POWER_OF_TEN if base == 10 else HIGHEST_POWER
+        if isinstance(exponent, Expr) and exponent.is_Number and abs(exponent) > most:
+            raise Meaningless(f"too large: this exponent must be at most {most}", node.exponent.span)
         if isinstance(base, Rational) and exponent.is_Number and _bits(base) * abs(exponent) > MOST_BITS:
             raise Meaningless("too large: this number has too many digits", node.span)
         if base == 10 and exponent.is_Integer:
@@ -297,6 +297,6 @@ def _check_size(value: Any, span: Span) -> None:
             if node.is_Pow and node.exp.is_Number:
                 power, terms = abs(node.exp), len(node.base.args) if node.base.is_Add else 1
                 if power > HIGHEST_POWER and not node.base.is_Number:
-                    raise Meaningless(f"too large: an exponent is at most {HIGHEST_POWER}", span)
+                    raise Meaningless(f"too large: this exponent must be at most {HIGHEST_POWER}", span)
                 if terms > 1 and sympy.binomial(int(power) + terms, terms) > MOST_TERMS:
                     raise Meaningless("too large: this power of a sum has too many terms", span)

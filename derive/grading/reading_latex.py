@@ -1,4 +1,4 @@
-r"""The reading of an answer as LaTeX: `7/24 M a^2 w^2` is shown as `\frac{7}{24} M a^{2} \omega^{2}`."""
+r"""The reading of an answer as LaTeX: `7/24 M a^2 w^2` is shown as `\frac{7}{24} M a^2 \omega^2`."""
 
 from __future__ import annotations
 

@@ -172,7 +172,9 @@ def _wrong_inequality(typed: Relation, goal: Relation, key: Key) -> Verdict:
         ratio = factor_between(typed.right, goal.right)
         if ratio is not None and ratio.is_number:
             return Verdict(Outcome.FACTOR, f"the limiting value is {shown(ratio, key)} times the right one")
-    return Verdict(Outcome.DIFFERENT, "it is another condition")
+    is_equation = goal.operator == "=" and typed.operator != "="
+    told = "an inequality is typed, but an equation is asked for" if is_equation else "it is another condition"
+    return Verdict(Outcome.DIFFERENT, told)
 
 
 def _wrong_equation(comparison: _Comparison, typed: Relation, goal: Relation) -> Verdict:
@@ -230,8 +232,8 @@ def _inhomogeneous(comparison: _Comparison, typed: Relation) -> Verdict | None:
 
 
 def _scalings(given: Expr, wanted: Expr) -> list[Expr]:
-    """Return at most four multiples of an equation, the one with the most terms of the right equation first. Each
-    multiple has at least one such term.
+    """Return at most four multiples of an equation, the one with the most terms of the right equation first; if several
+    have equally many, the unchanged equation comes first. Each multiple has at least one such term.
     """
     terms = [sympy.Add.make_args(each) for each in (given, wanted)]
     found: dict[Expr, Expr] = {}
@@ -242,7 +244,7 @@ def _scalings(given: Expr, wanted: Expr) -> list[Expr]:
                 found.setdefault(ratio, sympy.expand(given * ratio))
     common = [each for each in found if sum(sympy.expand(t * each) in terms[1] for t in terms[0])]
     count = {each: sum(sympy.expand(t * each) in terms[1] for t in terms[0]) for each in common}
-    return [found[each] for each in sorted(common, key=lambda each: -count[each])[:4]]
+    return [found[each] for each in sorted(common, key=lambda each: (-count[each], each != 1))[:4]]
 
 
 def verdict_on_equation_for(left: Read, right: Read, target: Target, key: Key) -> Verdict | None:

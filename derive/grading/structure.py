@@ -115,7 +115,8 @@ def _of_terms(answer: Expr, right: Expr, shown: Shown) -> Iterator[Found]:
 
 
 def swaps(ratio: Expr) -> bool:
-    """Whether numerator and denominator of a ratio contain functions, as if one function was written for another."""
+    """Whether numerator and denominator of a ratio contain functions, as if one function were written in place of
+    another."""
     above, below = ratio.as_numer_denom()
     return bool(above.atoms(Function) and below.atoms(Function))
 
@@ -167,7 +168,7 @@ def _replaced(value: Expr, part: Expr, by: Expr) -> Expr:
     return value.xreplace({part: by})
 
 
-def special_values(answer: Expr, right: Expr, kinds: Mapping[Symbol, object], angles: set[Symbol]) -> str:
+def special_values(answer: Expr, right: Expr, kinds: Mapping[Symbol, object], angles: set[Symbol], shown: Shown) -> str:
     """Return special values of the letters for which a wrong answer equals the right one, as text; "" if none is found.
 
     kinds    letter -> its kind; two letters of the same kind may be set equal
@@ -176,11 +177,11 @@ def special_values(answer: Expr, right: Expr, kinds: Mapping[Symbol, object], an
     free = answer.free_symbols | right.free_symbols
     for one, other in combinations(sorted(free & set(kinds), key=str), 2):
         if kinds[one] == kinds[other] and _agree_with({one: other}, answer, right):
-            return f"{one} = {other}"
+            return f"{shown(one)} = {shown(other)}"
     for letter in sorted(free & angles, key=str):
         for value, text in ((Integer(0), "0"), (pi / 2, "pi/2")):
             if _agree_with({letter: value}, answer, right):
-                return f"{letter} = {text}"
+                return f"{shown(letter)} = {text}"
     return ""
 
 

@@ -178,7 +178,8 @@ def _undotted(found: re.Match[str]) -> str:
 
 
 def _read_commas(source: Source, notes: list[str]) -> None:
-    """Read `0,25` as a decimal and `1,500` as thousands, outside of brackets."""
+    """Read `0,25` as a decimal and `1,500` as thousands, outside of brackets. In a bracket whose entries are separated
+    by semicolons, read each comma between digits as a decimal comma."""
     depths, depth = [], 0
     for char in source.text:
         depth += (char in "([{") - (char in ")]}")

@@ -100,7 +100,7 @@ def test_pieces_of_prose_are_all_of_it_in_order() -> None:
         (r"about \frac{1}{2} of it", r"\frac{1}{2}", r"write `$\frac{1}{2}$`"),
         ("starts with v_0 at <<x_0>>", "v_0", "write `$v_0$`"),
         ("the curve y = x^2", "x^2", "write `$x^2$`"),
-        ("the square <<x>>^2", "<<x>>^2", "write `$x^2$`"),
+        ("the square <<x>>^2", "<<x>>^2", "write a formula between dollar signs: `$x^2$`"),
         (r"of \(x\)", r"\(", "write a formula between dollar signs: `$x^2$`"),
     ],
 )

@@ -1,6 +1,7 @@
 """The comparison of one statement of a document with the derived step.
 
-A letter that is not in the step's value may mean the result of an earlier step: `rho`, `J_xx`, or `omega_x` of a spin.
+A letter that is not in the step's value may mean the result of an earlier step: `rho`, `J_xx`, or the component
+`omega_x` of a spin.
 """
 
 from __future__ import annotations
@@ -218,7 +219,7 @@ def _expressions(values: Any) -> list[Expr]:
 
 
 def _found_before(steps: Iterable[Quantity]) -> dict[str, list[Any]]:
-    """Map each name to its distinct values in these steps."""
+    """Map the name of each result, or of each component of a vector, to its distinct values in these steps."""
     found: dict[str, list[Any]] = {}
     for quantity in steps:
         names: tuple[Symbol, ...] = (quantity.symbol,) if isinstance(quantity.symbol, Symbol) else ()

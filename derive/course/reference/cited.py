@@ -32,9 +32,9 @@ _LAYOUT = re.compile(r"\\(?:begin|end)\s*\{array\}(?:\{[lcr|\s]*\})?|\\\\|\s+|[&
 
 @dataclass(frozen=True)
 class Formula:
-    """A chain of the document, and the unit of its last side.
+    """A chain of sides in the document, such as `a = b = c`, and the unit of its last side.
 
-    head    the name before the chain, such as `T` in `T = ... = ...`; empty if the chain begins with a value
+    head    the name at the beginning of the chain, such as `T` in `T = ... = ...`; empty if the chain has no name
     """
 
     scalar: Scalar
@@ -60,7 +60,8 @@ class Cited:
         self.file = Source(document.source.path, document.source.written)
 
     def formula(self, lines: Iterable[tuple[int, int]], wanted: tuple[int, ...], place: Place) -> Formula:
-        """Return the chain at these lines, or only its sides with the numbers `wanted`, counted from 1."""
+        """Return the chain at these lines, or only its sides with the numbers `wanted`, counted from 1. First sides
+        that only name the value of the next side are left out."""
         sides: list[tuple[str, Side]] = []
         others: list[Side] = []  # further values of the last side: `x = a or b`
         for first, last in lines:
@@ -171,7 +172,7 @@ class Cited:
         return scalar
 
     def without_unit(self, side: Side) -> tuple[int, int, Unit | None]:
-        """Return where the value of a side begins and ends, and the unit after it (None if there is no unit)."""
+        """Return where the value of a side begins and ends, and the unit after it (None if there is no known unit)."""
         start, end = side.span.start, side.span.end
         text = self.text[start:end]
         if found := _DEGREES.search(text):
@@ -231,7 +232,9 @@ _NUMBER = re.compile(r"\d+(?:\.\d+)*(?=[\s.:)]|$)")
 
 
 def _numbers(document: Document) -> list[str]:
-    """Return the number of each heading, as it is written or as LaTeX prints it; "" for a heading without a number."""
+    """Return the number of each heading, as it is written or as LaTeX counts it; "" for a heading without a number. A
+    heading with a star counts, too, although LaTeX prints no number for it.
+    """
     found: list[str] = []
     counts: dict[int, int] = {}
     for heading in document.headings:

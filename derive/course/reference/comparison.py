@@ -9,7 +9,7 @@ comparison of an entry has one of these outcomes:
     agrees to n figures  decimals, equal to that many figures
     erratum              the document is wrong: `states` is refuted and `right` agrees; or the error is only quoted
     differs              refuted, for example by values at a point; or stated as an erratum, but the document is right
-    unknown step         no step has the key that the entry names
+    unknown step         no step has the key, or the symbol, that the entry names
     remark               nothing is compared: a claim of the document is quoted, with a comment
 
 Each side of a chain of values is one comparison, except a first letter that only names the value.

@@ -51,7 +51,7 @@ class EntryKeys(Record):
         "the lines of the document from which the formula is read, or the number of a section", LINES
     )
     side: tuple[int, ...] = key("the numbers of the compared sides of the cited formula; the first side is 1", SIDES)
-    document: Word | None = key("the document of this entry, if it is not the first document in the file", TEXT)
+    document: Word | None = key("the document of this entry, if it differs from the document that the file names", TEXT)
     answer: Word | None = key("the key of the step that has this value", TEXT)
     states: Tree | None = key("the value: an expression, a list of 3, or 3 rows of 3", _ANY_VALUE)
     latex: Tree | None = key(

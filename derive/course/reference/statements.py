@@ -122,7 +122,8 @@ def reference_path(problem: Problem) -> str:
 
 
 def reference_paths(problem: Problem) -> list[str]:
-    """Return the reference file of the problem's set and the documents next to it, which it may cite."""
+    """Return the paths of the reference file of the problem's set and of the documents that it may cite. These are the
+    documents in its folder."""
     folder = Path("problems", problem.set_id)
     documents = sorted((problem.root / folder).glob("*.*"))
     cited = [f"{folder.as_posix()}/{file.name}" for file in documents if file.suffix.lower() in DOCUMENTS]
@@ -363,7 +364,7 @@ class _EntryReader:
     # -- the document ---------------------------------------------------------------------------------------------
 
     def cited(self, written: EntryKeys) -> Cited | None:
-        """Return the document of an entry; None if the entry names no document, or if it is not a file of the set."""
+        """Return the document of an entry; None if no document is named, or if it is not a file of the set."""
         name = str(written.document or self.document)
         if not name:
             return None
@@ -396,7 +397,7 @@ class _EntryReader:
             name = written.document or self.document
             folder = f"problems/{self.problem.set_id}"
             message = f"`{folder}` has no document `{name}`" if name else "this reference does not name a document"
-            help_line = "name a file in this folder: `- document: solutions.md`"
+            help_line = "name a file in this folder, in this entry: `document: solutions.md`"
             self.faults.error("no-document", message, written.values_at["lines"], help=help_line)
 
     def check_quoted(self, written: EntryKeys) -> None:
@@ -450,7 +451,7 @@ class _EntryReader:
             if (why := unquotable(text)) is not None:
                 self.faults.error("quotation", f"this cannot be quoted: {why}", entry.places[""])
                 return "", ""
-        suffix = f" {unit.text}" if unit and right else ""  # the transcribed number is followed by its unit
+        suffix = f" {unit.text}" if unit and right else ""  # the correct value is followed by its unit
         return str(entry.quote or printed), f"{right}{suffix}"
 
     def factor(self, entry: EntryKeys, is_cited: bool) -> Statement | None:

@@ -279,7 +279,7 @@ def goes_as(wanted: int) -> Predicate:
 
 
 def bent(sign: int) -> Predicate:
-    """Judge numerically whether the place is a maximum (sign 1) or a minimum (sign -1): the values just before and just
+    """Judge numerically whether the place is a maximum (sign 1) or a minimum (sign -1). The values just before and just
     after the place must both be smaller, or both larger."""
 
     def is_so(facts: Judged) -> bool:
@@ -481,7 +481,8 @@ def equation_in_its_unknown(facts: Judged, outcome: str) -> bool:
 
 
 def _says_its_bound(facts: Judged, outcome: str) -> bool:
-    """Whether, for the outcome `none`, the result is a strict condition "... < 0": for "= 0" there is a double root."""
+    """Whether, for the outcome `none`, the result is the condition "... < 0". The sign "<=" would be wrong, because a
+    double root belongs to "= 0". The test is true for any other outcome."""
     return outcome != "none" or (facts.result.operator == "<" and is_zero(facts.result.right))
 
 

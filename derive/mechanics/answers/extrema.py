@@ -194,8 +194,9 @@ def _range_as_interval(x: Symbol) -> Within | None:
 
 
 def _bounds(x: Symbol) -> tuple[list[Expr], list[Expr]]:
-    """Return all lower and all upper bounds of the symbol, from its declared range and from assumed relations. A
-    positive symbol without a lower bound has the lower bound 0."""
+    """Return the lower and the upper bounds of the symbol, from its declared range and from assumed relations. The
+    bound 0 of a declared range is left out if there is another lower bound. A positive symbol without a lower bound has
+    the lower bound 0."""
     bounds = [(each.operator[0], *each.sides) for each in assumed()]
     below = [low for mark, low, high in bounds if high == x and mark == "<"]
     below += [low for mark, high, low in bounds if high == x and mark == ">"]

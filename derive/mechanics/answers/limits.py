@@ -22,7 +22,7 @@ from derive.algebra.expansion import (
 from derive.algebra.expressions import Relation, explicit, rate
 from derive.algebra.samples import letters_of, points, value_at
 from derive.algebra.tidy import tidied
-from derive.errors import Complaint, Rejected
+from derive.errors import Complaint, Rejected, Spelled
 from derive.mechanics.answers import claims
 from derive.mechanics.answers.approximate import equation_in_limit
 from derive.mechanics.in_results import Letter, Value, in_results
@@ -225,7 +225,10 @@ def _check_assumed(x: Symbol, aim: Expr) -> None:
                 return
     if conditions:
         message = f"`limiting_case`: where {x.name} goes to {aim}, not all assumptions hold"
-        help_line = f"leave a relation that contains {x.name} out of `assume:`, or give a different limit"
+        help_line = Spelled(
+            f"require no relation that contains {x.name}, or give a different limit",
+            f"leave a relation that contains {x.name} out of `assume:`, or give a different limit",
+        )
         raise Rejected(Complaint("contradiction", message, help=help_line))
 
 

@@ -69,7 +69,8 @@ def solved_for(
     if is_zero(determinant):
         names = ", ".join(str(u) for u in wanted)
         message = f"`solved_for`: {_named(given, 'do', 'does')} not determine {names}"
-        help_line = "one of the equations follows from the others, or they contradict each other"
+        several = "one of the equations follows from the others, or they contradict each other"
+        help_line = several if len(given) > 1 else "its coefficient in this equation is zero"
         raise Rejected(Complaint("singular", message, help=help_line))
     values = eliminated(matrix, right)
     below = [tidied(value).as_numer_denom()[1] for value in values]  # the denominators must not vanish, either

@@ -18,7 +18,7 @@ from sympy.matrices import ImmutableMatrix
 
 from derive.algebra.direction import Direction
 from derive.algebra.expressions import AXES, Ratio, column, explicit, vector
-from derive.errors import Complaint, Rejected, Unverified
+from derive.errors import Complaint, Rejected, Spelled, Unverified
 from derive.mechanics.bodies import claims
 from derive.mechanics.bodies.boundary import Boundary, Hollowed, Round, of_map
 from derive.mechanics.bodies.components import centre_component, is_its_own_image, is_round_solid
@@ -375,7 +375,8 @@ class Hollow(Body):
 def require_order(body: str, inner: Expr, outer: Expr) -> None:
     if sign_known(outer - inner) in (0, -1):
         message = f"{body} needs an outer radius that is greater than its inner radius"
-        raise Rejected(Complaint("sizes", message, help="give the inner radius first, then the larger outer radius"))
+        first = "give the inner radius first, then the larger outer radius"
+        raise Rejected(Complaint("sizes", message, help=Spelled(first, "make `inner` smaller than `outer`")))
 
 
 def _letters_of(size: Any) -> set[Symbol]:
