@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import Any
 
 import sympy
-from sympy import Abs, Expr, Matrix, MatrixBase, Rational, Symbol, acos, asin, atan, cos, sin, tan
+from sympy import Abs, Expr, Matrix, MatrixBase, MatrixSymbol, Rational, Symbol, acos, asin, atan, cos, sin, tan
 
 from derive.algebra.dimensions import NUMBER
 from derive.algebra.expressions import PLUS_MINUS, Relation
@@ -117,7 +117,7 @@ class _Statement:
             left = left.args[0]
         if isinstance(left, sympy.Pow) and left.exp == sympy.Rational(1, 2):
             return None
-        return left if isinstance(left, Symbol) else None
+        return left if isinstance(left, Symbol | MatrixSymbol) else None
 
 
 class _Grading:
@@ -374,26 +374,23 @@ class _Grading:
 
     def is_named(self, statement: _Statement, target: Target) -> bool:
         name = statement.name
-        return name is not None and isinstance(target.symbol, Symbol) and name == target.symbol
+        return name is not None and _is_letter(target) and str(name) == target.symbol.name
 
     def renumbered(self, found: dict[str, Any]) -> dict[str, Any]:
-        """Accept right values whose names are numbered in another order, such as omega_1 and omega_2."""
-        wrong = [name for name, (verdict, _) in found.items() if verdict.outcome is Outcome.ANOTHER]
-        targets = {each.key: each for each in self.part.targets}
-        for one in wrong:
-            for other in wrong:
-                a, b = targets[one], targets[other]
-                if one >= other or not (isinstance(a.symbol, Symbol) and isinstance(b.symbol, Symbol)):
-                    continue
-                (base, first, _), (same, second, _) = parts_of(a.symbol.name), parts_of(b.symbol.name)
-                if base != same or not (first.isdigit() and second.isdigit()):
-                    continue
-                swapped = [self.verdict(found[other][1][0], a), self.verdict(found[one][1][0], b)]
-                if all(each.is_right for each in swapped):
-                    one_name, other_name = (shown(each.symbol, self.key) for each in (a, b))
-                    told = f"if {one_name} and {other_name} are numbered the other way round"
-                    for name, verdict, of in ((one, swapped[0], other), (other, swapped[1], one)):
-                        found[name] = (replace(verdict, outcome=Outcome.CONVENTION, because=told), found[of][1])
+        """Accept right values whose names are numbered in another order, such as omega_1 and omega_2, if the shapes of
+        the modes are numbered in the same order."""
+        for pairs in _numbered_alike([each for each in self.part.targets if each.key in found]):
+            values = [pair for pair in pairs if isinstance(pair[0].symbol, Symbol)]
+            wrong = [pair for pair in values if all(found[each.key][0].outcome is Outcome.ANOTHER for each in pair)]
+            moved = [*wrong, *(pair for pair in pairs if pair not in values)] if wrong or not values else []
+            swapped = [(a, b, self.verdict(found[b.key][1][0], a)) for pair in moved for a, b in (pair, pair[::-1])]
+            if not all(verdict.is_right for *_, verdict in swapped):
+                continue
+            statements = {a.key: found[a.key][1] for a, *_ in swapped}
+            for a, b, verdict in swapped:
+                one, other = sorted((shown(a.symbol, self.key), shown(b.symbol, self.key)))
+                told = f"if {one} and {other} are numbered the other way round"
+                found[a.key] = (replace(verdict, outcome=Outcome.CONVENTION, because=told), statements[b.key])
         return found
 
     def of_list(self, statements: list[_Statement], target: Target) -> tuple[Verdict, list[_Statement]] | None:
@@ -723,6 +720,22 @@ class _Grading:
 
 def _free(reads: tuple[Read, ...]) -> set[Any]:
     return {symbol for read in reads for symbol in getattr(read.value, "free_symbols", ())}
+
+
+def _is_letter(target: Target) -> bool:
+    return isinstance(target.symbol, Symbol | MatrixSymbol)
+
+
+def _numbered_alike(targets: Sequence[Target]) -> list[list[tuple[Target, Target]]]:
+    """Return the pairs of targets whose letters differ only in their numbers, such as omega_1 and omega_2; pairs with
+    the same two numbers are in one list."""
+    found: dict[tuple[str, str], list[tuple[Target, Target]]] = {}
+    named = [(each, *parts_of(each.symbol.name)[:2]) for each in targets if _is_letter(each)]
+    for a, base, first in named:
+        for b, same, second in named:
+            if base == same and first.isdigit() and second.isdigit() and first < second:
+                found.setdefault((first, second), []).append((a, b))
+    return list(found.values())
 
 
 def _short_name(target: Target) -> str:
