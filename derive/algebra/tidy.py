@@ -47,7 +47,7 @@ from derive.algebra.squares import differences_of_squares
 
 
 def tidied(value: Any) -> Any:
-    """The explicit value in its tidy form, entry by entry for a matrix and side by side for a relation."""
+    """The explicit value in its tidy form; each entry of a matrix and each side of a relation is tidied."""
     value = without_abs(_signs_squared(explicit(value)))
     if isinstance(value, Relation):
         return Relation(tidied(value.left), value.operator, tidied(value.right))

@@ -1,4 +1,6 @@
-"""Polynomials in letters and in sines and cosines of angles, in a normal form: equal forms mean equal polynomials.
+"""Polynomials in letters and in sines and cosines of angles, in a normal form.
+
+Two polynomials without roots are equal if and only if their forms are equal.
 
 Each angle q that occurs is represented by z = exp(i q), with cos q = (z + 1/z)/2 and sin q = (z - 1/z)/(2 i). Then the
 exponential of a sum of multiples of angles is a product of powers of these z, and sin^2 + cos^2 = 1 needs no extra

@@ -393,7 +393,7 @@ def _documents_of_one(shared: ClassDocuments, student: Student) -> Made:
     if in_pdf is not own:
         name, code = student.name, student.code
         message = f"the fonts of the PDF lack a letter of `{name}`, so the PDF has only the code `{code}`"
-        help_line = "write the name in Latin letters in the roster; the page for a browser has the name"
+        help_line = "write the name in Latin letters in the roster, or use the page for a browser, which shows the name"
         warnings.append(Complaint("character", message, help=help_line, severity="warning"))
     return Made(student, warnings=tuple(warnings))
 

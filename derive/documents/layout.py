@@ -1,4 +1,4 @@
-r"""The formulas of a document in their order: headings, sentences, displays with their rows, and their statements.
+r"""The headings and the formulas of a document, in order.
 
 A display is a block of rows. A row that begins with a relation continues the chain of the row before it. A row that
 begins with a sign after an alignment mark continues the last side of the row before it. So does a row if the row before

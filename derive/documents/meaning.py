@@ -370,7 +370,7 @@ class Meaning:
             return self.determinant(node)
         letters = [_letter_in(each) for row in node.rows for each in row]
         if len(node.rows) > 1 and any(letter is not None and "vec" in letter.marks for letter in letters):
-            raise Meaningless("the entries of this matrix are vectors or matrices", node.span)
+            raise Meaningless("an entry of this matrix is a vector or a matrix", node.span)
         entries = [[self.entry(each) for each in row] for row in node.rows]
         matrix = Matrix(entries)
         return matrix.T if matrix.shape[0] == 1 and matrix.shape[1] > 1 else matrix

@@ -815,7 +815,7 @@ class _Reader:
         if name == "%":
             return Frac(token.span, Num(token.span, "1"), Num(token.span, "100"))
         if name in ("&", "#", "$", "_"):
-            raise Unreadable(f"`\\{name}` is not part of a formula", token.span)
+            raise Unreadable(f"`\\{name}` is not allowed in a formula", token.span)
         raise Unreadable(f"`\\{name}` is not known", token.span)
 
     def difference(self, token: Token) -> Node:

@@ -3,7 +3,8 @@
 The tests are tried in this order, and the first that succeeds gives the verdict. Right: equal; equal with the
 definitions of the problem; equal up to rounded decimals; equal under a convention. Wrong: the opposite sign; another
 quantity of the problem; another dimension; letters that the problem does not have; wrong by a factor; wrong in one
-term; an approximate quantity of the problem; right for special values only; wrong by a factor that contains sums.
+term; another quantity of the problem, whose formula is approximate; right for special values only; wrong by a factor
+that contains sums.
 """
 
 from __future__ import annotations

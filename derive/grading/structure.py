@@ -95,7 +95,10 @@ def _of_terms(answer: Expr, right: Expr, shown: Shown) -> Iterator[Found]:
         elif ratio == 2:
             yield Outcome.SIGN, f"the term {shown(term)} has the wrong sign"
         else:
-            yield Outcome.FACTOR, f"the term {shown(term)} has the wrong factor: it is {shown((1 - ratio) * term)} here"
+            yield (
+                Outcome.FACTOR,
+                f"the term {shown(term)} has the wrong factor: the answer has {shown((1 - ratio) * term)}",
+            )
     for term in _grouped(answer, given):
         if len(given) > 1 and are_surely_equal(difference, -term):
             yield Outcome.EXTRA, f"the term {shown(term)} is superfluous"
@@ -147,7 +150,7 @@ def _changes(right: Expr, shown: Shown) -> Iterator[tuple[Outcome, str, Expr]]:
             yield Outcome.MISSING, f"{because} is missing", _replaced(right, total, total - term)
             yield Outcome.SIGN, f"{because} has the wrong sign", _replaced(right, total, total - 2 * term)
             for scale in _SCALES:
-                told = f"{because} has the wrong factor: it is {shown(scale * term)} here"
+                told = f"{because} has the wrong factor: the answer has {shown(scale * term)}"
                 yield Outcome.FACTOR, told, _replaced(right, total, total + (scale - 1) * term)
     for one in sorted(right.atoms(sin, cos), key=str):
         other = (cos if isinstance(one, sin) else sin)(*one.args)

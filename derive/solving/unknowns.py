@@ -41,6 +41,7 @@ from derive.steps.record import assume
 from derive.steps.step import Fact, Quantity
 
 INVERSE = {cos: acos, sin: asin, tan: atan}
+UNKNOWNS = "a symbol, a positive integer power of a symbol, or the sine, cosine or tangent of a symbol"
 
 
 @dataclass(frozen=True)
@@ -59,7 +60,7 @@ def unknown_of(verb: str, given: Any) -> Expr:
     found = getattr(given, "symbol", given)
     if isinstance(found, Symbol) or _letter_within(found) is not None:
         return found
-    message = f"the unknown of `{verb}` must be a symbol, or a power, sine, cosine or tangent of one, but it is {found}"
+    message = f"the unknown of `{verb}` must be {UNKNOWNS}, but it is {found}"
     raise Rejected(Complaint("wrong-argument", message))
 
 
@@ -75,9 +76,7 @@ def letter_of(unknown: Expr) -> Symbol:
     """The symbol in an unknown, such as theta in cos(theta); rejects any other expression."""
     found = unknown if isinstance(unknown, Symbol) else _letter_within(unknown)
     if found is None:
-        raise Rejected(
-            Complaint("wrong-argument", f"{unknown} is not a symbol, or a power, sine, cosine or tangent of one")
-        )
+        raise Rejected(Complaint("wrong-argument", f"{unknown} is not {UNKNOWNS}"))
     return found
 
 

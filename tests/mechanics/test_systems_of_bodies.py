@@ -311,7 +311,7 @@ def held_rod(**more: Any) -> Any:
             "an intermediate stage of these axes",
         ),
         (lambda: no_slip(Rod(l, m), at=point(0, 0)), "needs a `PlacedBody`"),
-        (lambda: no_slip(held_rod(), at=point(0, 0)), "always at rest"),
+        (lambda: no_slip(held_rod(), at=point(0, 0)), "never slips"),
         (lambda: no_slip(held_rod(), at=point(0, 0, 0)), "as many components as the place of the body"),
     ],
 )

@@ -48,7 +48,7 @@ def checked_tokens(reader: Arithmetic) -> list[Token]:
         reader.refuse("too-large", f"this formula has {len(text)} characters; {LONGEST_FORMULA} are allowed", 0)
     _check_depth(reader)
     if found := re.search(r"(?<!\\)(?:\\\\)*%", text):
-        reader.refuse("latex", "a comment is not part of a formula", found.end() - 1, help="leave it out")
+        reader.refuse("latex", "a comment is not allowed in a formula", found.end() - 1, help="leave it out")
     if text.rstrip(" ").endswith("\\") and not re.search(r"\\\\\s*$|\\ \s*$", text):
         reader.refuse("latex", "this `\\` has no command after it", len(text.rstrip()) - 1)
     struts = [found.span() for found in _STRUT.finditer(text)]
@@ -110,7 +110,7 @@ class _Check:
         elif token.kind is Kind.SCRIPT:
             self.script(at)
         elif token.kind is Kind.PARAMETER:
-            self.refuse("`#` is not part of a formula", token)
+            self.refuse("`#` is not allowed in a formula", token)
         elif token.kind is Kind.COMMAND:
             return self.command(at)
         elif not self.reader.text[token.span.start].isascii():
@@ -149,7 +149,7 @@ class _Check:
         if greek := re.fullmatch(r"GREEK (SMALL|CAPITAL) LETTER ([A-Z]+)", unicodedata.name(char, "")):
             instead = "\\" + (greek[2].lower() if greek[1] == "SMALL" else greek[2].capitalize())
         help_line = f"write `{instead}`" if instead else None
-        self.refuse(f"`{char}` is not part of a formula", token, token.span.start + 1, help_line)
+        self.refuse(f"`{char}` is not allowed in a formula", token, token.span.start + 1, help_line)
 
     def script(self, at: int) -> None:
         value, after = argument_at(self.tokens, at + 1)

@@ -43,7 +43,7 @@ from derive.steps.step import Quantity
 class Told:
     """The data of a comparison, for a page and its JSON.
 
-    here   whether the input of the entry is the input in the problem's file
+    here   whether the entry is compared for the given values of the problem's file, not for other values of its group
     """
 
     facts: dict[str, Any]

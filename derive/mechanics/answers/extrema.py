@@ -300,7 +300,7 @@ def _not_exceeded(
         slack = Rational(1, 10**18) * (1 + Abs(best))
         if any(curved * (best - other) > slack for other in others) or Abs(own - best) > slack:
             where = tuple((str(name), str(number)) for name, number in point.items())
-            return Verdict(Grade.REFUTED, "a value at another place is beyond the extreme value", where)
+            return Verdict(Grade.REFUTED, "the value at the place is not the extreme value", where)
         if seen == POINTS:
             break
     if not seen:

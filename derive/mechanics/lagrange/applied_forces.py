@@ -274,8 +274,8 @@ def forced_equation(of: Quantity, q: Coordinate, derivatives: Sequence[Quantity]
     derivatives   the steps for dL/dq, dL/dq_dot and the rate of dL/dq_dot, if there are such steps
 
     If forces without a potential energy act on the system, a step derives their generalized force Q.
-    Second route: d'Alembert's principle, sum of (m a - F) . dr/dq = 0, from positions and forces. For a given L, a
-    further route is the energy identity.
+    Second route: d'Alembert's principle, sum of (m a - F) . dr/dq = 0, from positions and forces. If the
+    problem gives L itself, the energy identity is a further route.
     Outcomes: applied (forces without a potential energy act along q), kept (constraint forces act along q), both (both
     kinds act along q), free (neither kind acts along q).
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 1.5 and 2.4.

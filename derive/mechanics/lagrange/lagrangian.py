@@ -154,8 +154,8 @@ def equation_of_motion(
     q             a coordinate of this Lagrangian
     derivatives   whether steps derive the force dL/dq, the momentum dL/dq_dot and the rate of the momentum
 
-    Second route: d'Alembert's principle, sum of (m a - F) . dr/dq = 0, from positions and forces. For a given L, a
-    further route is the energy identity.
+    Second route: d'Alembert's principle, sum of (m a - F) . dr/dq = 0, from positions and forces. If the
+    problem gives L itself, the energy identity is a further route.
     Outcomes: generic, cyclic (L does not contain q, so the momentum of q is constant).
     Errors: q is not a coordinate of L.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.4.

@@ -57,7 +57,8 @@ def noether(
     Second route: the time derivative of Q as a function of t is the sum of xi (m a - f) . dr/dq with the forces f. This
     sum vanishes by d'Alembert's principle. Also, Q + F is the sum of m v . dr over the mass points, and of e A . dr
     over charges e in magnetic fields. Here epsilon dr is the displacement by the shift.
-    Check: for a given L, Q + F follows from the first-order changes of L if the rates change.
+    Check, if the problem gives L itself: if each rate q_dot becomes q_dot + epsilon xi, the first-order change of L is
+    epsilon (Q + F).
     Outcomes: symmetry, with_gain (F is not zero).
     Errors: L is not invariant (the message shows its change); the shift or F contains a rate; the shift is zero, or
     shifts something that is not a coordinate of L.

@@ -55,7 +55,7 @@ def no_slip(
     times rates. It may then be a part of a `System`, where it expresses one coordinate by other coordinates.
     Second route: differentiate the place of the particle at the contact, whose position in the body is constant.
     Check: if the particle at the contact has the velocity of the surface, each condition is satisfied.
-    Errors: the body does not reach this place, or cannot roll there; the particle at the contact is always at rest; no
+    Errors: the body does not reach this place, or cannot roll there; the contact never slips; no
     condition isolates the rate of `fixes`.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 1.3; Landau, Lifshitz, *Mechanics*, section 32.
     """
@@ -118,7 +118,8 @@ def _independent(
         known[rate(q)] = condition.rate
         yield condition
     if not known:
-        raise Rejected(Complaint("wrong-argument", "the particle of the body at the contact is always at rest"))
+        message = "the contact never slips, so rolling adds no condition"
+        raise Rejected(Complaint("wrong-argument", message))
 
 
 def _check(body: Any, at: Location, ground: Ground | None) -> None:

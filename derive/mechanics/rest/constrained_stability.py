@@ -210,7 +210,7 @@ def _allowed(potential: Quantity, constraints: Sequence[Constraint], place: Mapp
     missing = sorted(q.name for q in needed - set(place))
     if missing:
         message = f"`stability`: the value of {missing[0]} at equilibrium is unknown"
-        raise Rejected(Complaint("wrong-argument", message, help=f"add this value to `at`: `{missing[0]}: 0`"))
+        raise Rejected(Complaint("wrong-argument", message, help=f"add the value to `at`, such as `{missing[0]}: 0`"))
     allowed = Allowed(energy, tuple(constraints), place)
     where = ", ".join(f"{q} = {value}" for q, value in allowed.place.items())
     for each in constraints:

@@ -298,8 +298,8 @@ def _with_zero(
 
 
 def _linear(forces: Sequence[Expr], unknown: Sequence[Symbol], state: State) -> State | None:
-    """Return the unique solution of linear forces for several coordinates. Return None if a force is not linear, if the
-    numbers of forces and of coordinates differ, or if the solution may not be unique."""
+    """Return the unique values of several coordinates for which linear forces vanish. Return None if a force is not
+    linear, if the numbers of forces and of coordinates differ, or if the values may not be unique."""
     held = [q for q in unknown if any(force.has(q) for force in forces)]
     if len(held) < 2 or len(held) != len(forces):
         return None

@@ -117,8 +117,8 @@ def stability(
 
 
 def _state(place: Place) -> Relation:
-    """Return the equation of the equilibrium. For one coordinate, the right side is the symbol of the equilibrium if a
-    step found it, otherwise the value."""
+    """Return the equilibrium as an equation, coordinate = value. For one coordinate, the right side is the
+    symbol of the equilibrium if a step found it, otherwise the value."""
     if len(place.coordinates) == 1:
         (q,) = place.coordinates
         named = place.values[q] if place.rest is None else place.rest.symbol
@@ -136,7 +136,9 @@ def _place(of: Quantity, at: Quantity | Mapping[Any, Expr]) -> Place:
     missing = [q for q in held if q not in known and not all(is_zero(slope) for slope in slopes.values())]
     if missing:
         message = f"`stability`: the value of {missing[0].name} at equilibrium is unknown"
-        raise Rejected(Complaint("wrong-argument", message, help=f"add this value to `at`: `{missing[0].name}: 0`"))
+        raise Rejected(
+            Complaint("wrong-argument", message, help=f"add the value to `at`, such as `{missing[0].name}: 0`")
+        )
     values = {q: value for q, value in known.items() if q in held}
     place = Place(potential, tuple(values), values, rest.needed(Rest).exists if rest else None, rest)
     check_regular("stability", all_matter(potential), values)

@@ -83,7 +83,7 @@ class RateByParticles(Fact):
     """The rate of change of a quantity of a body, without equations of motion. A subclass computes it for one quantity,
     such as the angular momentum."""
 
-    missing = "does not come from particles"
+    missing = "is not derived from a body, so the accelerations of its particles are unknown"
 
     def rate(self) -> Any:
         """Return the rate from the accelerations of the particles of the body, as a sum or an integral over its

@@ -108,7 +108,7 @@ def _linear_equation(equations: Sequence[Quantity], disturbed: Disturbed, k: int
             )
             for sign in (1, -1)
         )
-        beside = moving[disturbed.axis]  # now a symbol for the change of this component; the change is of second order
+        beside = moving[disturbed.axis]  # for the change of the component along the axis, which is of second order
         return Relation(((ahead - back) / 2).expand().subs(beside, 0), "=", 0)
 
     return establish(

@@ -307,7 +307,9 @@ def _place_of(equations: Sequence[Quantity], moving: Sequence[Coordinate], at: A
     for q in moving:
         if q.symbol not in known and any(value.has(q.symbol) for value in left):
             message = f"`linearised`: the value of {q.symbol.name} at equilibrium is unknown"
-            raise Rejected(Complaint("wrong-argument", message, help=f"add this value to `at`: `{q.symbol.name}: 0`"))
+            raise Rejected(
+                Complaint("wrong-argument", message, help=f"add the value to `at`, such as `{q.symbol.name}: 0`")
+            )
     return {q.symbol: known.get(q.symbol, ZERO) for q in moving}
 
 

@@ -44,8 +44,8 @@ class ExcitedMode:
     """One mode in a motion: the shape, the initial values of the oscillator along the shape, and the frequency.
 
     column      the shape of the mode: one amplitude for each coordinate
-    first       the initial value of the oscillator
-    initial     the initial rate of the oscillator
+    first       the initial displacement of the oscillator
+    initial     the initial rate of this displacement
     frequency   the step that derives the frequency; None with drag
     sign        the sign of omega^2; None if it is unknown
     damped      the motion of the oscillator with drag; not used without drag

@@ -166,7 +166,7 @@ def positive_first(terms: list[Any]) -> list[Any]:
 
 
 def number_and_letters(expr: Expr) -> tuple[list[Expr], list[Expr]]:
-    """Return the numerical factors such as 13, sqrt(14), pi, and the other factors; a factor of 1 is omitted."""
+    """Return two lists: the numerical factors (13, sqrt(14), pi) and the other factors; a factor of 1 is omitted."""
     factors = [f for factor in Mul.make_args(expr) for f in with_content_apart(factor) if f != 1]
     numbers = [f for f in factors if f.is_number and not f.has(ex.Amount)]
     rational = Mul(*(f for f in numbers if f.is_Rational))

@@ -39,8 +39,8 @@ class FoundLetter(Declared):
 
 @dataclass(frozen=True)
 class Formula:
-    """An expression whose names are symbols or answers. A name that is both denotes the symbol, unless the symbol is a
-    `FoundLetter`."""
+    """An expression whose names are symbols or answers. If a name is a symbol and also an answer, it denotes the
+    symbol, unless the symbol is a `FoundLetter`."""
 
     node: Scalar
     letters: Mapping[str, Declared]

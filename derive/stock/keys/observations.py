@@ -18,7 +18,7 @@ NONE = "none"
 
 
 def with_known_observations(problem: Problem, faults: Faults) -> Problem:
-    """Return the problem without the names that are not kinds of observations; report these names."""
+    """Return the problem without unknown names under `observations`; report each of these names as an error."""
     parts = tuple(replace(part, observations=_known(part.observations, faults)) for part in problem.parts)
     return replace(problem, observations=_known(problem.observations, faults), parts=parts)
 

@@ -69,7 +69,7 @@ class MovingBodyKeys(BodyKeys, QuotedKeys):
         record_of(RimKeys, "rim", "a mapping with `centre` and `radius`"),
     )
     turned: Tree | None = key(
-        "in a plane, its angle of rotation from right towards up; in space, the axes that rotate with the body",
+        "in a plane, its angle of rotation, positive counterclockwise; in space, the axes that rotate with the body",
         SCALAR,
         instead_of="axes",
     )
