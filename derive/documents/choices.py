@@ -9,7 +9,7 @@ from typing import Any
 
 from derive.documents.facts import ANGLES, Facts
 from derive.documents.source import Span
-from derive.documents.syntax import Apply, Diff, EvalBar, Fun, Letter, Mul, Node, Num, Open, Pow
+from derive.documents.syntax import Apply, Diff, EvalBar, Fun, Group, Letter, Mul, Node, Num, Open, Pow, Root
 
 MOST_READINGS = 6
 GREEK_INDICES = frozenset({"mu", "nu", "rho", "sigma", "lambda", "kappa", "alpha", "beta"})
@@ -178,9 +178,18 @@ def _slash(node: Open, facts: Facts) -> tuple[int, str, bool]:
     top = getattr(far, "top", None)
     near = node.alternatives[0]
     bottom = near.factors[0][1].bottom if isinstance(near, Mul) and hasattr(near.factors[0][1], "bottom") else None
-    if isinstance(top, Num) and isinstance(bottom, Num):
+    if _is_numerical(top) and isinstance(bottom, Num):
         return 0, "a fraction of numbers", False
     return 1, "a denominator of several factors", False
+
+
+def _is_numerical(node: Node | None) -> bool:
+    """Whether a node is a number, or the root of a number."""
+    if isinstance(node, Fun) and node.name == "sqrt":
+        return _is_numerical(node.argument)
+    if isinstance(node, Group | Root):
+        return _is_numerical(node.inner)
+    return isinstance(node, Num)
 
 
 RULES = {

@@ -455,7 +455,8 @@ class _Grading:
             assert statement.fault is not None
             raise statement.fault
         found = self.as_relation(statement, target) if target.is_relation else self.as_value(statement, target)
-        if number is not None and (number.rank <= found.rank or not _has_letters(statement)):
+        rounded = found.is_right and not _is_plain_decimal(statement.texts[-1])  # such as arccos(0.93)
+        if number is not None and (number.rank <= found.rank or not (_has_letters(statement) or rounded)):
             return number
         return found
 

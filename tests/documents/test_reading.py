@@ -32,6 +32,7 @@ READ = {
     "an old fraction": ("{a \\over 2} = h", "a/2", "h"),
     "the package physics": ("\\dv{x}{t} = \\abs{y}", "x.", "Abs(y)"),
     "a fraction with a slash": ("k = 1/2 m", "k", "m/2"),
+    "the root of a number before a slash": ("k = \\sqrt{42}/28 m", "k", "sqrt(42)*m/28"),
     "a derivative with a slash": ("\\partial f/\\partial x = k", "df/dx", "k"),
     "an operator with a subscript": ("\\partial_x (x^2 y) = k", "2*x*y", "k"),
     "a total derivative with a slash": ("d(x^2)/dx = k".replace("d(x^2)", "dx"), "1", "k"),

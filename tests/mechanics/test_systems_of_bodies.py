@@ -304,7 +304,7 @@ def held_rod(**more: Any) -> Any:
         (lambda: RigidBody(m, (A, C)), "needs three moments"),
         (lambda: RigidBody(m, (A, A, C), about="corner"), "must be about"),
         (lambda: System(RigidBody(moments=(A, A, C)).placed(coordinate("p"), point(0, 0), across="z")), "the mass of"),
-        (lambda: System(held_rod(), name="No. 1"), "not a name for a system"),
+        (lambda: System(held_rod(), name="No. 1"), "not a valid name for a system"),
         (lambda: angular_velocity(space), "rotating axes"),
         (
             lambda: angular_velocity(space.turned(Z, coordinate("a")), space.turned(X, alpha)),
