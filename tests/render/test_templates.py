@@ -105,6 +105,27 @@ def test_a_template_that_nothing_uses_is_reported(tmp_path: Path) -> None:
     assert unused_templates(ROOT) == []
 
 
+@pytest.mark.parametrize(
+    ("name", "help_line"),
+    [
+        ("heading.tex.j2", "put it in `templates/latex`"),
+        ("tex/heading.tex.j2", "put it in `templates/latex`"),
+        ("latex/own/heading.tex.j2", "put it in `templates/latex`"),
+        ("latex/style.css", "put it in `templates/html`"),
+        ("phrases/de/own.yml", "rename it to `own.yaml`"),
+        ("README.md", None),
+    ],
+)
+def test_a_template_in_a_wrong_place_is_reported(tmp_path: Path, name: str, help_line: str | None) -> None:
+    file = tmp_path / "templates" / name
+    file.parent.mkdir(parents=True)
+    file.write_text("x")
+    found = unused_templates(tmp_path)
+    assert [(each.message.split("`")[1], each.help) for each in found] == (
+        [(f"templates/{name}", help_line)] if help_line else []
+    )
+
+
 def test_phrases_outside_of_the_folder_of_a_language_have_no_effect(tmp_path: Path) -> None:
     for name in ("own.yaml", "phrases/own.yaml", "phrases/dee/a.yaml", "phrases/de/a.yaml"):
         file = tmp_path / "templates" / name
