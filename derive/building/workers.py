@@ -262,11 +262,10 @@ def too_long(job: Job, trace: str, late: OutOfTime | None = None) -> BuildFailed
     """Return the error of a worker at its time limit."""
     late = late or OutOfTime()
     asked = f", most recently for `{late.answers[-1]}`" if late.answers else ""
-    message = f"{job.name} took over {job.limit:g} s of processor time{asked}"
-    if late.waited:
-        message = f"{job.name} waited for over {job.limit:g} s{asked}"
-    elif ended_by_clock(trace):
-        message = f"{job.name} took over {wall_clock_limit(job.limit):g} s by the clock{asked}"
+    took = f"{job.name} took over {job.limit:g} s of processor time{asked}"
+    waited = f"{job.name} waited for over {job.limit:g} s{asked}"
+    by_clock = f"{job.name} took over {wall_clock_limit(job.limit):g} s by the clock{asked}"
+    message = waited if late.waited else by_clock if ended_by_clock(trace) else took
     notes = [f"it was at {', in '.join(late.doing)}"] if late.doing else []
     if late.finished:
         last = ", ".join(f"`{key}`" for key in late.finished[-_NAMED:])

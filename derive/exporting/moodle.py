@@ -103,8 +103,10 @@ def _inputs(question: Question, answers: Sequence[Answer]) -> str:
 
 def _stack(question: Question, answers: Sequence[Answer]) -> str:
     numbered = list(enumerate(answers, 1))
-    positive = all(answer.is_of_positive_letters for answer in answers)
-    variables = "\n".join(f"ta{number}: {maxima(answer.sympy)};" for number, answer in numbered)
+    positive = sorted(frozenset[str]().union(*(answer.positive for answer in answers)))
+    # With a positive letter x, STACK simplifies sqrt(x^2) to x. This would be wrong for a negative letter.
+    assumed = [f"assume({', '.join(f'{letter}>0' for letter in positive)});"] if positive else []
+    variables = "\n".join([*assumed, *(f"ta{number}: {maxima(answer.sympy)};" for number, answer in numbered)])
     feedback = " ".join(f"[[feedback:prt{number}]]" for number, _ in numbered)
     return "\n".join(
         [
@@ -112,8 +114,7 @@ def _stack(question: Question, answers: Sequence[Answer]) -> str:
             _element("questionvariables", _text(variables)),
             f'<specificfeedback format="html">{_text(feedback)}</specificfeedback>',
             "<questionnote><text></text></questionnote>",
-            # With positive letters, STACK simplifies sqrt(x^2) to x. This would be wrong for a negative letter.
-            f"<questionsimplify>1</questionsimplify><assumepositive>{int(positive)}</assumepositive><assumereal>1</assumereal>",
+            "<questionsimplify>1</questionsimplify><assumepositive>0</assumepositive><assumereal>1</assumereal>",
             *(_input(number, answer, question.letters) for number, answer in numbered),
             *(_comparison(number, len(numbered), answer) for number, answer in numbered),
         ]

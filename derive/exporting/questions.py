@@ -71,11 +71,6 @@ class Answer:
         called = {name for name in letters if re.search(rf"\b{name}\(", text)}
         return None if called or not letters else letters
 
-    @property
-    def is_of_positive_letters(self) -> bool:
-        """Whether all letters of the formula are positive: a platform may then replace sqrt(x^2) by x."""
-        return (self.letters or set()) <= self.positive
-
 
 @dataclass(frozen=True)
 class Part:

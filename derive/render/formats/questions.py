@@ -87,7 +87,7 @@ def typed_formula(step: Step, letters: set[Symbol]) -> Typed | None:
     from derive.algebra.node import explicit
 
     symbol, result = _solved(step)
-    value = explicit(result)
+    value = None if result is None else explicit(result)
     if not isinstance(value, Expr | MatrixBase) or value.has(PLUS_MINUS, I, oo, zoo):
         return None
     if any(value.atoms(NumberSymbol) - {pi}):

@@ -78,7 +78,8 @@ class FragmentPage(LatexPage):
             return Tex(shown)
         number = rf"\refstepcounter{{figure}}\label{{{self._figure(drawing.key)}}}"
         label = rf"\textbf{{{escaped(self.words.labels['figure'])}~\thefigure.}}"
-        return Tex(rf"{shown}\par\smallskip{number}{{\small{label} {self.inline(drawing.caption)}}}")
+        caption = rf"{{\small\leavevmode{number}{label} {self.inline(drawing.caption)}}}"
+        return Tex(rf"{shown}\par\nobreak\smallskip{caption}")  # no page ends between a drawing and its caption
 
     def display(self, display: Display) -> Tex:
         """Return the rows of a display; each numbered line has the next equation number of the surrounding document."""
