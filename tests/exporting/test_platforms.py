@@ -28,6 +28,7 @@ from derive.exporting.prairielearn import prairielearn_package
 from derive.exporting.qti import PACKAGE, QTI, qti_package
 from derive.exporting.questions import Answer, Question, questions_of
 from derive.exporting.word import word_document
+from tests.courses import ROOT
 
 PROBLEM = """\
 title: A bead & a <wire>
@@ -391,6 +392,14 @@ def test_a_formula_with_rates_and_a_solved_equation_of_motion_are_compared(tmp_p
     answer = data["correct_answers"]["answer1"]
     assert answer["_assumptions"]["b"] == {"positive": True} and answer["_assumptions"]["x_dot"] == {"real": True}
     assert r"x_dot for \(\dot{x}\)" in package.read("questions/week1/bead-a/question.html").decode()
+
+
+def test_an_equation_with_an_unknown_force_is_not_compared() -> None:
+    """With the tension S in it, the acceleration has several right forms."""
+    (question,) = questions_of([rendered(ROOT, "library/atwood", only=("questions",))])
+    forms = [each.sympy for each in question.parts[0].answers]
+    assert len(forms) >= 2 and set(forms) == {""}
+    assert question.parts[1].answers[0].sympy
 
 
 PLATE = """\

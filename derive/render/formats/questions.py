@@ -18,14 +18,18 @@ def _rendered(solution: Solution) -> str:
     import json
 
     from derive.render.printing.contract import contract
+    from derive.render.printing.plain_sympy import coordinate_of
     from derive.render.printing.tex_in_html import TexInHtml
 
     page, document = TexInHtml(solution.document, solution.words, solution.notation), solution.document
     derivation = solution.derivation
-    known = json.loads(contract(solution))
+    contents = json.loads(contract(solution))
     letters = {declared.symbol for declared in solution.problem.letters}
+    names = {letter.name for letter in letters}
+    moving = {letter for letter in letters if f"{coordinate_of(letter)[0]}_dot" in names}
+    known = moving | {declared.symbol for declared in solution.problem.symbols.values()}
     typed = {
-        step.key: typed_formula(step, letters)
+        step.key: typed_formula(step, letters, known)
         for asked in solution.problem.parts
         for step in derivation.answering(asked.answers)
     }
@@ -41,17 +45,17 @@ def _rendered(solution: Solution) -> str:
                 {
                     "key": step.key,
                     "components": _components(step, solution.notation),
-                    **known["answers"][step.key],
+                    **contents["answers"][step.key],
                     **_told(typed[step.key], solution.notation),
                 }
                 for step in derivation.answering(asked.answers)
             ],
         }
-        for part, told, asked in zip(document.parts, known["parts"], solution.problem.parts, strict=True)
+        for part, told, asked in zip(document.parts, contents["parts"], solution.problem.parts, strict=True)
     ]
     data = {
-        "problem": known["problem"],
-        "title": known["title"],
+        "problem": contents["problem"],
+        "title": contents["title"],
         "statement": page.statement(),
         "remarks": page.remarks(),
         "letters": sorted(letter.name for letter in letters | used),
@@ -78,12 +82,16 @@ class Typed:
     names: dict[str, str]
 
 
-def typed_formula(step: Step, letters: set[Symbol]) -> Typed | None:
-    """Return an answer as students type it; None if plain text cannot express it."""
+def typed_formula(step: Step, letters: set[Symbol], known: set[Symbol]) -> Typed | None:
+    """Return an answer as students type it; None if plain text cannot express it.
+
+    letters  the letters of the problem
+    known    the letters that a solved equation may contain: with an unknown force in it, its form is not unique
+    """
     from sympy import Expr, I, MatrixBase, Symbol, oo, zoo
     from sympy.core.numbers import NumberSymbol, pi
 
-    from derive.algebra.expressions import PLUS_MINUS
+    from derive.algebra.expressions import PLUS_MINUS, Relation
     from derive.algebra.node import explicit
 
     symbol, result = _solved(step)
@@ -100,6 +108,8 @@ def typed_formula(step: Step, letters: set[Symbol]) -> Typed | None:
     }
     whole = value.xreplace(values)
     names = {str(name): _plain(of) for name, of in values.items()}
+    if isinstance(step.result, Relation) and not whole.atoms(Symbol) <= known:
+        return None
     return Typed(symbol, _plain(whole), set(whole.atoms(Symbol)), names)
 
 
