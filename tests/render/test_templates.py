@@ -49,6 +49,7 @@ def test_what_a_template_prints_is_escaped_unless_it_is_tex_of_ours(tmp_path: Pa
         ("a\n<< heading.nothing >>\n", "no attribute is called `nothing`", 2),
         ("a\n<< heading.titel >>\n", "no attribute is called `titel`; did you mean `title`?", 2),
         ("a\n<< heading.title >\\par\n", "unexpected character `\\`", 2),
+        ("a\n<% if heading.title >>\n", "unexpected character `>`", 2),
         ("<< headin >>\n", "no value is called `headin`", 1),
         ("a\n\n<< 1/0 >>\n", "division by zero", 3),
         ("a\n<% endfor %>\n", "unknown tag 'endfor'", 2),
