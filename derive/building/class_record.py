@@ -17,12 +17,11 @@ RECORD = ".class.json"  # in the set's folder of outputs, so that it stays if th
 
 @dataclass(frozen=True)
 class ClassRecord:
-    """The inputs of a class; `students` maps each code to the name of the student."""
+    """The seed and the students of a class; `students` maps each code to the name of the student."""
 
     set_id: str
     seed: str
     students: Mapping[str, str]
-    inputs: str = ""  # the digest of the inputs that the students share
 
     @classmethod
     def read(cls, root: Path, set_id: str) -> ClassRecord | None:
@@ -30,12 +29,12 @@ class ClassRecord:
         try:
             kept = json.loads((set_folder(root, set_id) / RECORD).read_bytes())
             students = {str(code): str(name) for code, name in kept["students"].items()}
-            return cls(set_id, str(kept["seed"]), students, str(kept["inputs"]))
+            return cls(set_id, str(kept["seed"]), students)
         except (OSError, ValueError, KeyError, TypeError, AttributeError):
             return None
 
     def save(self, root: Path) -> None:
-        kept = {"seed": self.seed, "inputs": self.inputs, "students": dict(self.students)}
+        kept = {"seed": self.seed, "students": dict(self.students)}
         write(set_folder(root, self.set_id) / RECORD, json.dumps(kept, ensure_ascii=False, indent=1) + "\n")
 
     def check_seed(self, seed: str | None, help_line: str) -> None:

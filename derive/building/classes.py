@@ -19,6 +19,7 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
 from typing import Any
+from unicodedata import normalize
 
 from derive.building.cache import CACHE, Cache, digest, file_digest, folder_digest
 from derive.building.class_record import ClassRecord
@@ -54,18 +55,30 @@ class Student:
     name: str
     code: str
 
+    @property
+    def named(self) -> str:
+        return f"{self.name} ({self.code})"
+
+
+def named_students(students: Sequence[Student]) -> str:
+    """Return the names and codes of the first students, and the number of the others."""
+    more = [f"and {len(students) - MOST} more"] if students[MOST:] else []
+    return ", ".join([*(each.named for each in students[:MOST]), *more])
+
 
 @dataclass
 class ClassReport:
     """The outcome of a run.
 
-    made   the number of students whose documents were made
-    kept   the number of students whose documents were already up to date
+    made     the number of students whose documents were made
+    kept     the number of students whose documents were already up to date
+    without  the students whose documents could not be made because of an error
     """
 
     students: int = 0
     made: int = 0
     kept: int = 0
+    without: list[Student] = field(default_factory=list)
     complaints: list[Complaint] = field(default_factory=list)
     warnings: list[Complaint] = field(default_factory=list)
     bugs: list[Bug] = field(default_factory=list)
@@ -74,6 +87,21 @@ class ClassReport:
     @property
     def failed(self) -> bool:
         return bool(self.complaints or self.bugs)
+
+    def add(self, made: Made) -> None:
+        """Add the outcome for one student. Errors that differ only in their notes are reported once."""
+        self.warnings += [each for each in made.warnings if each not in self.warnings]
+        if made.error is None:
+            self.made += 1
+            return
+        self.without.append(made.student)
+        if isinstance(made.error, Bug):
+            self.bugs.append(made.error)
+            return
+        known = {(each.code, each.message, each.place) for each in self.complaints}
+        self.complaints += [
+            each for each in made.error.complaints if (each.code, each.message, each.place) not in known
+        ]
 
 
 def read_roster(path: Path) -> tuple[Student, ...]:
@@ -96,7 +124,8 @@ def read_roster(path: Path) -> tuple[Student, ...]:
     for line, row in cells.rows:
         place = Place(shown, line, 1, cells.delimiter.join(row), 1)
         of_column = dict(zip(columns, row, strict=False))
-        name, code = " ".join(of_column.get("name", "").split()), of_column.get("code", "").strip()
+        name = normalize("NFC", " ".join(of_column.get("name", "").split()))
+        code = of_column.get("code", "").strip()
         if any(cell.strip() for cell in row[len(columns) :]):
             help_line = f"put a cell that contains `{cells.delimiter}` in double quotes"
             faults.error("roster", "this line has more cells than the first line", place, help=help_line)
@@ -122,6 +151,16 @@ def read_roster(path: Path) -> tuple[Student, ...]:
 def code_of(name: str) -> str:
     """Return a code of six letters and digits that depends on the name only."""
     return base64.b32encode(hashlib.sha256(name.encode()).digest()).decode()[:6]
+
+
+@dataclass(frozen=True)
+class MadeFrom:
+    """The record of the documents of one student: the digest of their inputs, the digests of the files, and the
+    student's rows of the table of answers."""
+
+    key: str
+    files: list[str]
+    answers: list[list[str]]
 
 
 @dataclass(frozen=True)
@@ -159,29 +198,34 @@ class ClassDocuments:
 
     def answers(self, student: Student) -> list[list[str]] | None:
         """Return the student's rows of the table of answers; None if the documents are out of date."""
+        made = self.made(student)
+        is_current = made is not None and made.key == self.key(student)
+        if made is None or not is_current or made.files != [file_digest(file) for file in self.files(student)]:
+            return None
+        return made.answers
+
+    def made(self, student: Student) -> MadeFrom | None:
+        """Return the record of the student's documents; None if there is no valid record."""
         try:
             known = json.loads(self.record(student).read_bytes())
-            is_current = known["key"] == self.key(student)
-            if is_current and known["files"] == [file_digest(file) for file in self.files(student)]:
-                return [[str(cell) for cell in row] for row in known["answers"]]
-        except (OSError, ValueError, KeyError, TypeError):  # there is no valid record
-            pass
-        return None
+            answers = [[str(cell) for cell in row] for row in known["answers"]]
+            return MadeFrom(str(known["key"]), [str(file) for file in known["files"]], answers)
+        except (OSError, ValueError, KeyError, TypeError):
+            return None
 
 
 @dataclass(frozen=True)
 class Made:
-    """The outcome for one student: the warnings, or the errors of the student's variant."""
+    """The outcome for one student: the warnings, or the error of the student's variant."""
 
     student: Student
-    complaints: tuple[Complaint, ...] = ()
+    error: DeriveError | Bug | None = None
     warnings: tuple[Complaint, ...] = ()
     seconds: float = 0.0
 
     @property
     def ended(self) -> Ended:
-        how = "failed" if self.complaints else "made"
-        return Ended(how, f"{self.student.name} ({self.student.code})", self.seconds)
+        return Ended("failed" if self.error else "made", self.student.named, self.seconds)
 
 
 def made_class(
@@ -214,13 +258,11 @@ def made_class(
     if before is not None and not reseed:
         before.check_seed(seed, RESEED)
     seed = seed if seed is not None else before.seed if before else ""
-    inputs = _inputs(root, set_id, heading, chosen, seed)
-    shared = ClassDocuments(root, set_id, heading, seed, chosen, limit, inputs)
+    shared = ClassDocuments(root, set_id, heading, seed, chosen, limit, _inputs(root, set_id, heading, chosen, seed))
     report = ClassReport(len(students))
     waiting: dict[Job, Sequence[Student]] = {}
     with locked(folder(shared.outputs), lambda: tell(f"waiting for another build of `{set_id}`")):
-        record = ClassRecord(set_id, seed, {each.code: each.name for each in students})
-        record.save(root)  # without its inputs, so that after an interruption the class counts as older than the set
+        ClassRecord(set_id, seed, {each.code: each.name for each in students}).save(root)
         unmade = [student for student in students if shared.answers(student) is None]
         report.kept = len(students) - len(unmade)
         if unmade and not scheduler:
@@ -232,7 +274,8 @@ def made_class(
             crew.put(job)
 
         def tick(_: Mapping[str, float]) -> None:
-            tell(f"{set_id}: documents of {report.made} of {len(unmade)} students ({time.monotonic() - begun:.0f} s)")
+            count = report.made + len(report.without)
+            tell(f"{set_id}: documents of {count} of {len(unmade)} students ({time.monotonic() - begun:.0f} s)")
 
         with Cluster(scheduler, tick) if scheduler else Crew(jobs or os.cpu_count() or 1, tick) as crew:
             for start in range(0, len(unmade), AT_ONCE):
@@ -242,19 +285,12 @@ def made_class(
                 if outcome.error is not None and len(group) > 1:  # the job failed, so each student gets a separate job
                     for student in group:
                         put(crew, [student])
-                elif isinstance(outcome.error, DeriveError):
-                    report.complaints += outcome.error.complaints
-                elif outcome.error:
-                    report.bugs.append(outcome.error)
-                for made in outcome.value or ():
+                    continue
+                failed = [Made(group[0], _about(group[0], outcome.error), seconds=outcome.seconds)]
+                for made in outcome.value if outcome.error is None else failed:
                     ended(made.ended)
-                    known = {(each.code, each.message, each.place) for each in report.complaints}
-                    report.complaints += [
-                        each for each in made.complaints if (each.code, each.message, each.place) not in known
-                    ]
-                    report.warnings += [each for each in made.warnings if each not in report.warnings]
-                    report.made += not made.complaints
-        _remove_others(shared, students, before)
+                    report.add(made)
+        report.warnings += _remove_others(shared, students, before)
         current = {each.code for each in students if shared.answers(each) is not None}
         older = [each for each in students if each.code not in current and any(map(Path.exists, shared.files(each)))]
         if older:
@@ -263,8 +299,6 @@ def made_class(
         report.warnings += _same_for_all(shared)
         _write_answers(shared, students)
         _write_page(shared, students, current)
-        if len(current) == len(students):
-            replace(record, inputs=inputs).save(root)
         Cache(shared.outputs / CACHE).evict()
     list_again(root, set_id)
     report.seconds = time.monotonic() - begun
@@ -272,9 +306,7 @@ def made_class(
 
 
 def _older(shared: ClassDocuments, students: Sequence[Student]) -> Complaint:
-    names = [f"{each.name} ({each.code})" for each in students[:MOST]]
-    names += [f"and {len(students) - MOST} more"] if students[MOST:] else []
-    message = f"documents from an earlier run remain for {', '.join(names)}"
+    message = f"documents from an earlier run remain for {named_students(students)}"
     help_line = f"correct the errors; until then `{CLASS}/{INDEX}.html` does not link to these documents"
     return Complaint("older", message, help=help_line, severity="warning")
 
@@ -298,41 +330,56 @@ def _check_codes(students: Sequence[Student], heading: ProblemSet) -> None:
 
 
 def class_is_older(root: Path, set_id: str, engine: Engine) -> list[Complaint]:
-    """Return a warning if the documents of a class are older than the set."""
-    made = ClassRecord.read(root, set_id)
-    if made is None or made.inputs == _inputs(root, set_id, problem_set(root, set_id), engine, made.seed):
+    """Return a warning if documents of a class are older than the set, or were not made."""
+    record = ClassRecord.read(root, set_id)
+    if record is None:
         return []
-    message = f"the documents of the class in `{shown_path(set_folder(root, set_id))}` are older than the set"
+    shared = _shared(root, record, engine)
+    students = [Student(name, code) for code, name in record.students.items()]
+    made = {student: found.key for student in students if (found := shared.made(student))}
+    where = f"the documents of the class in `{shown_path(shared.outputs)}`"
     help_line = f"`derive class {set_id}`, with the same roster, makes them again"
-    return [Complaint("older", message, help=help_line, severity="warning")]
+    if any(key != shared.key(student) for student, key in made.items()):
+        return [Complaint("older", f"{where} are older than the set", help=help_line, severity="warning")]
+    if made and len(made) < len(students):
+        missing = [student for student in students if student not in made]
+        message = f"{where} are incomplete: those of {named_students(missing)} were not made"
+        return [Complaint("older", message, help=help_line, severity="warning")]
+    return []
 
 
 def why_of_class(root: Path, built: Path, engine: str | None) -> str | None:
     """Return a text that says whether, and why, a document of a student is out of date; None if no class has such a
     document."""
     folder_of, set_id = built.parent.name, built.parent.parent.name
-    made = ClassRecord.read(root, set_id)
-    if made is None or folder_of not in (CLASS, STUDENTS) or not NAME.fullmatch(set_id):
+    record = ClassRecord.read(root, set_id)
+    if record is None or folder_of not in (CLASS, STUDENTS) or not NAME.fullmatch(set_id):
         return None
-    names = {code: [code, *(f"{code}-{kind}" for kind in KINDS)] for code in made.students}
+    names = {code: [code, *(f"{code}-{kind}" for kind in KINDS)] for code in record.students}
     code = next((code for code, stems in names.items() if built.stem in stems), None)
     if code is None:
         return None
-    shown, heading, chosen = (
-        f"build/{set_id}/{folder_of}/{built.name}",
-        problem_set(root, set_id),
-        chosen_engine(engine),
-    )
-    inputs = _inputs(root, set_id, heading, chosen, made.seed)
-    shared = ClassDocuments(root, set_id, heading, made.seed, chosen, 0, inputs)
-    if shared.answers(Student(made.students[code], code)) is not None:
+    shown, student = f"build/{set_id}/{folder_of}/{built.name}", Student(record.students[code], code)
+    shared = _shared(root, record, chosen_engine(engine))
+    if shared.answers(student) is not None:
         return f"{shown} is up to date"
-    changed = inputs != made.inputs
-    why = (
-        "an input of the class has changed" if changed else "the variant has an error, or a file was edited or removed"
-    )
     again = f"to bring it up to date: `derive class {set_id}`, with the same roster"
-    return f"{shown} is out of date:\n  {why}\n{again}"
+    return f"{shown} is out of date:\n  {_why(shared, student)}\n{again}"
+
+
+def _why(shared: ClassDocuments, student: Student) -> str:
+    made = shared.made(student)
+    if made is None:
+        return "the last run did not finish these documents: it was interrupted, or the variant has an error"
+    if made.key != shared.key(student):
+        return "an input of the class has changed"
+    return "a file was edited or removed"
+
+
+def _shared(root: Path, record: ClassRecord, engine: Engine) -> ClassDocuments:
+    heading = problem_set(root, record.set_id)
+    inputs = _inputs(root, record.set_id, heading, engine, record.seed)
+    return ClassDocuments(root, record.set_id, heading, record.seed, engine, 0, inputs)
 
 
 def _inputs(root: Path, set_id: str, heading: ProblemSet, engine: Engine, seed: str) -> str:
@@ -370,7 +417,7 @@ def _documents_of_one(shared: ClassDocuments, student: Student) -> Made:
                 shared.heading.evidence, (KEY, SHEET), chosen,
             )  # fmt: skip
             pages.append(page)
-        own = replace(shared.heading, student=f"{student.name} ({student.code})")
+        own = replace(shared.heading, student=student.named)
         drawings = [file for page in pages for file in page.files if file[0].endswith(".pdf")]
         logo = [(LOGO, own.logo)] if own.logo else []
         in_pdf = own if unprintable(student.name) is None else replace(own, student=student.code)
@@ -383,9 +430,7 @@ def _documents_of_one(shared: ClassDocuments, student: Student) -> Made:
             )  # fmt: skip
         write(shared.file(student, SHEET).with_suffix(".html"), document_page(shared.root, own, pages, SHEET))
     except DeriveError as error:
-        note = f"in the variant of {student.name} ({student.code})" + (f": {told}" if told else "")
-        complaints = (replace(each, notes=(*each.notes, note)) for each in error.complaints)
-        return Made(student, complaints=tuple(complaints))
+        return Made(student, _about(student, error, told))
     rows = [row for page in pages for row in _rows(student, page.id, json.loads(page.texts["json"]))]
     files = [file_digest(file) for file in shared.files(student)]
     write(shared.record(student), json.dumps({"key": shared.key(student), "files": files, "answers": rows}))
@@ -396,6 +441,14 @@ def _documents_of_one(shared: ClassDocuments, student: Student) -> Made:
         help_line = "write the name in Latin letters in the roster, or use the page for a browser, which shows the name"
         warnings.append(Complaint("character", message, help=help_line, severity="warning"))
     return Made(student, warnings=tuple(warnings))
+
+
+def _about(student: Student, error: DeriveError | Bug | None, choices: str = "") -> DeriveError | Bug | None:
+    """Return an error with a note that names the student."""
+    if not isinstance(error, DeriveError):
+        return error
+    note = f"in the variant of {student.named}" + (f": {choices}" if choices else "")
+    return type(error)(replace(each, notes=(*each.notes, note)) for each in error.complaints)
 
 
 def _rows(student: Student, problem: str, page: Mapping[str, Any]) -> list[tuple[str, ...]]:
@@ -426,14 +479,21 @@ def _same_for_all(shared: ClassDocuments) -> list[Complaint]:
     return []
 
 
-def _remove_others(shared: ClassDocuments, students: Sequence[Student], before: ClassRecord | None) -> None:
+def _remove_others(shared: ClassDocuments, students: Sequence[Student], before: ClassRecord | None) -> list[Complaint]:
     """Remove the documents of students who are no longer in the class, even if the user has removed the folder
-    `class/`."""
+    `class/`. Return a warning that names the students."""
+    known = dict(before.students) if before else {}
     earlier = {record.stem for record in (shared.outputs / CLASS / MADE).glob("*.json")}
-    earlier |= {code for code in (before.students if before else ()) if NAME.fullmatch(code)}
-    for student in (Student("", code) for code in earlier - {student.code for student in students}):
+    earlier |= {code for code in known if NAME.fullmatch(code)}
+    others = [Student(known.get(code, ""), code) for code in sorted(earlier - {student.code for student in students})]
+    for student in others:
         for file in (*shared.files(student), shared.record(student)):
             file.unlink(missing_ok=True)
+    if not others:
+        return []
+    message = f"not in the roster any more, so their documents were removed: {named_students(others)}"
+    help_line = "if only a name changed, give the student the earlier code in a column `code`"
+    return [Complaint("roster", message, help=help_line, severity="warning")]
 
 
 def _write_answers(shared: ClassDocuments, students: Sequence[Student]) -> None:

@@ -8,6 +8,7 @@ from functools import partial
 from pathlib import Path
 
 from derive.building.cache import CACHE
+from derive.building.class_record import RECORD
 from derive.building.files import writing
 from derive.building.lock import locked
 from derive.building.set_names import set_names
@@ -15,7 +16,8 @@ from derive.errors import Complaint, Misused, did_you_mean
 
 
 def cleaned(root: Path, sets: Sequence[str], cache: bool, waiting: Callable[[str], None]) -> list[tuple[Path, int]]:
-    """Remove folders, and return each with its size in bytes. If a build is running, wait for its end.
+    """Remove folders, and return each with the size of the removed files in bytes. If a build is running, wait for its
+    end. The record of the class of a set stays: without the seed in it, students would get different values.
 
     sets      the sets whose folders are removed; if empty, every folder in `build`
     cache     whether only the data stored for later builds are removed
@@ -35,8 +37,21 @@ def cleaned(root: Path, sets: Sequence[str], cache: bool, waiting: Callable[[str
         with locked(outputs, partial(waiting, outputs.name)):
             folder = outputs / CACHE if cache else outputs
             if folder.is_dir() and not folder.is_symlink():
-                size = sum(each.lstat().st_size for each in folder.rglob("*") if not each.is_dir())
+                kept = [folder / RECORD] if outputs.name in set_names(root) else []
+                files = [each for each in folder.rglob("*") if not each.is_dir() and each not in kept]
+                size = sum(each.lstat().st_size for each in files)
                 with writing(folder):
-                    shutil.rmtree(folder)
-                found.append((folder, size))
+                    _empty(folder, kept)
+                if size or not folder.exists():
+                    found.append((folder, size))
     return found
+
+
+def _empty(folder: Path, kept: Sequence[Path]) -> None:
+    """Remove the files of a folder, and the folder itself if none of the files `kept` exists."""
+    if not any(each.is_file() for each in kept):
+        shutil.rmtree(folder)
+        return
+    for each in folder.iterdir():
+        if each not in kept:
+            shutil.rmtree(each) if each.is_dir() and not each.is_symlink() else each.unlink()

@@ -6,8 +6,12 @@ the job of a lost worker on another worker. derive does not limit the time and t
 
 from __future__ import annotations
 
+import asyncio
+import logging
 import time
 from collections.abc import Callable, Iterator, Mapping
+from concurrent import futures
+from contextlib import suppress
 from importlib import import_module
 from typing import Any
 
@@ -39,6 +43,8 @@ class Cluster:
             raise Misused(
                 Complaint("scheduler", f"no worker of `{address}` answers: {error}", help=help_line)
             ) from None
+        logging.getLogger("distributed.client").setLevel(logging.CRITICAL)  # derive reports a lost connection itself
+        self._address = address
         self._tick, self._ended = tick, self._dask.as_completed(loop=self._client.loop)
         self._jobs: dict[Any, tuple[Job, float]] = {}
 
@@ -53,8 +59,9 @@ class Cluster:
         return self
 
     def __exit__(self, *_: object) -> None:
-        self._client.cancel(list(self._jobs))
-        self._client.close()
+        with suppress(Exception):  # the scheduler may be lost
+            self._client.cancel(list(self._jobs))
+            self._client.close()
 
     def put(self, job: Job) -> None:
         future = self._client.submit(job.work, pure=False)
@@ -64,15 +71,23 @@ class Cluster:
     def outcomes(self) -> Iterator[Outcome]:
         """Yield the outcome of each job when it ends; jobs may be added meanwhile."""
         while self._jobs:
-            future = next(self._ended)
+            future, value, error = self._next()
             job, begun = self._jobs.pop(future)
             now = time.monotonic()
             self._tick({each.name: now - at for each, at in self._jobs.values()})
+            yield Outcome(job, value, None if error is None else self._told(job, error), now - begun)
+
+    def _next(self) -> tuple[Any, Any, BaseException | None]:
+        """Return the next job that has ended, its value, and its error or None. Raise an error if the connection to the
+        scheduler was lost: Dask then cancels all jobs."""
+        try:
+            future = next(self._ended)
             error = future.exception()
-            if error is None:
-                yield Outcome(job, future.result(), None, now - begun)
-            else:
-                yield Outcome(job, None, self._told(job, error), now - begun)
+            return future, future.result() if error is None else None, error
+        except (futures.CancelledError, asyncio.CancelledError):
+            message = f"the connection to the scheduler `{self._address}` was lost"
+            help_line = "start the scheduler and its workers again, and repeat the command; finished documents are kept"
+            raise BuildFailed(Complaint("scheduler", message, help=help_line)) from None
 
     def _told(self, job: Job, error: BaseException) -> DeriveError | Bug:
         if isinstance(error, DeriveError):

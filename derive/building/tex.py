@@ -215,12 +215,12 @@ def _passes(engine: Engine, source: Path, timeout: float, *options: str, most: i
                 stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
             )  # fmt: skip
         except subprocess.TimeoutExpired:
-            raise _too_slow(engine, source, timeout) from None
+            raise _too_slow(engine, source, f"{by_the_clock(timeout):g} s by the clock") from None
         except OSError as error:
             message = f"cannot start `{engine.path}`: {(error.strerror or str(error)).lower()}"
             raise BuildFailed(Complaint("no-tex", message, help="`derive doctor` lists the engines")) from None
         if run.returncode == -signal.SIGXCPU:
-            raise _too_slow(engine, source, timeout)
+            raise _too_slow(engine, source, f"{timeout:g} s of processor time")
         if run.returncode:
             return run.stdout.decode(errors="replace")
         drives_itself = engine.name in ("latexmk", "tectonic")
@@ -240,8 +240,8 @@ def _limit_processor(seconds: float) -> None:
         resource.setrlimit(resource.RLIMIT_CPU, (limit, limit + 5))
 
 
-def _too_slow(engine: Engine, source: Path, seconds: float) -> BuildFailed:
-    message = f"`{engine.name}` did not finish `{source.name}` within {seconds:g} s of processor time"
+def _too_slow(engine: Engine, source: Path, limit: str) -> BuildFailed:
+    message = f"`{engine.name}` did not finish `{source.name}` within {limit}"
     return BuildFailed(Complaint("time-limit", message))
 
 

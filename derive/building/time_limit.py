@@ -15,11 +15,11 @@ from typing import NoReturn
 
 from derive.errors import OutOfTime
 
-__all__ = ["ended_by_limit", "limited"]
+__all__ = ["wall_clock_limit", "ended_by_clock", "ended_by_processor_time", "limited"]
 
 GRACE = 2.0  # seconds of processor time in which `OutOfTime` can propagate out of the work
 IDLE = 0.02  # work that uses a smaller share of the processor than this counts as waiting
-PATIENCE = 10  # work is stopped after PATIENCE * (limit + 6 s) of wall-clock time
+PATIENCE = 10  # see `wall_clock_limit`
 _WATCHDOG = "Timeout ("  # `faulthandler` begins its output with this text
 
 
@@ -45,7 +45,7 @@ def limited(seconds: float, trace: int) -> Iterator[None]:
     handlers = {signal.SIGPROF: stop, signal.SIGALRM: look}
     previous = {signum: signal.signal(signum, handler) for signum, handler in handlers.items()}
     faulthandler.register(signal.SIGVTALRM, trace, all_threads=False, chain=True)  # the signal then ends this process
-    faulthandler.dump_traceback_later(PATIENCE * (seconds + 6), exit=True, file=trace)
+    faulthandler.dump_traceback_later(wall_clock_limit(seconds), exit=True, file=trace)
     signal.setitimer(signal.ITIMER_PROF, seconds)
     signal.setitimer(signal.ITIMER_REAL, max(seconds, 1), max(seconds, 1))
     signal.setitimer(signal.ITIMER_VIRTUAL, seconds + GRACE)
@@ -59,6 +59,17 @@ def limited(seconds: float, trace: int) -> Iterator[None]:
             signal.signal(signum, handler)
 
 
-def ended_by_limit(code: int, trace: str) -> bool:
-    """Return whether a process with this exit code or signal was ended because it reached its time limit."""
-    return code == -signal.SIGVTALRM or trace.startswith(_WATCHDOG)
+def wall_clock_limit(seconds: float) -> float:
+    """Return the wall-clock time after which work with this limit is stopped, however much of the processor it used."""
+    return PATIENCE * (seconds + 6)
+
+
+def ended_by_processor_time(code: int) -> bool:
+    """Return whether a process with this exit code or signal was ended because it reached its limit of processor
+    time."""
+    return code == -signal.SIGVTALRM
+
+
+def ended_by_clock(trace: str) -> bool:
+    """Return whether a process that wrote this trace was ended because it reached its limit of wall-clock time."""
+    return trace.startswith(_WATCHDOG)

@@ -31,7 +31,7 @@ from typing import Any
 
 from derive.building.files import of_system
 from derive.building.scratch import Scratch
-from derive.building.time_limit import ended_by_limit, limited
+from derive.building.time_limit import ended_by_clock, ended_by_processor_time, limited, wall_clock_limit
 from derive.errors import BuildFailed, Complaint, DeriveError, Misused, OutOfTime, Place
 
 TIME_LIMIT = 120.0
@@ -263,7 +263,9 @@ def too_long(job: Job, trace: str, late: OutOfTime | None = None) -> BuildFailed
     late = late or OutOfTime()
     asked = f", most recently for `{late.answers[-1]}`" if late.answers else ""
     took = f"{job.name} took over {job.limit:g} s of processor time{asked}"
-    message = f"{job.name} waited for over {job.limit:g} s{asked}" if late.waited else took
+    waited = f"{job.name} waited for over {job.limit:g} s{asked}"
+    by_clock = f"{job.name} took over {wall_clock_limit(job.limit):g} s by the clock{asked}"
+    message = waited if late.waited else by_clock if ended_by_clock(trace) else took
     notes = [f"it was at {', in '.join(late.doing)}"] if late.doing else []
     if late.finished:
         last = ", ".join(f"`{key}`" for key in late.finished[-_NAMED:])
@@ -277,7 +279,7 @@ def too_long(job: Job, trace: str, late: OutOfTime | None = None) -> BuildFailed
 
 def died(job: Job, code: int, trace: str) -> BuildFailed:
     """Return the error of a worker that ended unexpectedly, with an exit code or by a signal."""
-    if ended_by_limit(code, trace):
+    if ended_by_processor_time(code) or ended_by_clock(trace):
         return too_long(job, trace)
     why = f"signal {-code}" if code < 0 else f"exit code {code}"
     message = f"{job.name} ended without a message: {why}"

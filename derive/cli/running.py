@@ -19,7 +19,7 @@ from typing import NoReturn
 from derive.building.files import cannot_write, of_system
 from derive.cli.output import deliver
 from derive.cli.streams import silence
-from derive.cli.terminal import complain, tell
+from derive.cli.terminal import complain, paced, tell
 from derive.errors import BuildFailed, Complaint, DeriveError
 
 _REPORT = "   = help: this is a bug in derive: report it with the traceback and the files of the problem"
@@ -55,7 +55,8 @@ def exit_code(arguments: argparse.Namespace) -> int:
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             if signal.getsignal(number) != signal.SIG_IGN:  # a signal that is ignored, as under `nohup`, stays ignored
                 signal.signal(number, _signaled)
-        code = _command(arguments.command)(arguments)
+        with paced():
+            code = _command(arguments.command)(arguments)
         sys.stdout.flush()
         return code
     except DeriveError as error:

@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
+import math
 import os
 import re
 import shutil
 import sys
 import textwrap
-from collections.abc import Iterable, Sequence
+import time
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 
 from derive.errors import Complaint
 
 _HEAD = re.compile(r"\b(error|warning)\[[a-z-]+\]:")
 MOST = 50  # the greatest number of errors that are shown
 WIDTH = 98
+EVERY = 60  # seconds between two lines about the work under way, if standard error is not a terminal
 _INDENT = 22  # indentation of the lines that explain an error of the source
 _PAINT = {"error": "1;31", "warning": "1;33", "done": "32"}
 
@@ -35,9 +39,30 @@ def in_colour() -> bool:
     return sys.stderr.isatty() and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"
 
 
+class _Pace:
+    """The time at which the next line about the work under way may be printed into a file or a pipe."""
+
+    due = math.inf
+
+
+@contextmanager
+def paced() -> Iterator[None]:
+    """Allow a line about the work under way every `EVERY` seconds, also into a file or a pipe."""
+    _Pace.due = time.monotonic() + EVERY
+    try:
+        yield
+    finally:
+        _Pace.due = math.inf
+
+
 def tell(text: str) -> None:
-    """Replace the line about the work under way; an empty text clears the line. Print nothing into a pipe."""
-    if sys.stderr.isatty():
+    """Replace the line about the work under way; an empty text clears the line. If standard error is not a terminal,
+    print a new line, but only if a line is due."""
+    if not sys.stderr.isatty():
+        if text and time.monotonic() >= _Pace.due:
+            _Pace.due = time.monotonic() + EVERY
+            print(text, file=sys.stderr, flush=True)
+    else:
         width = shutil.get_terminal_size().columns - 1
         if len(text) > width and ", " in text[: width - 3]:
             text = text[: width - 3].rpartition(", ")[0] + ", ..."

@@ -13,12 +13,13 @@ from derive.algebra.expressions import Relation
 from derive.algebra.kinds import named
 from derive.algebra.order import Contradiction, Order, in_order
 from derive.algebra.ranges import POSITIVE, Range, sign_within, within
-from derive.course.expression import Declared, read_expression
+from derive.course.expression import Declared, check_constant, read_expression
 from derive.course.yaml_tree import Scalar, Tree
 from derive.errors import Faults, Place, rejected
 
 ANY = Range(-oo, oo)
 EXAMPLE = "write a relation such as `l < r_0` or `a < b < c`"
+RESTRICTED = "to restrict a coordinate, write its range where you declare it, such as `theta: angle in (0, pi/2)`"
 _MARK = re.compile(r"<=|>=|[<>=≤≥!]+")
 
 
@@ -62,15 +63,9 @@ def read_assumed(node: Tree, constant: Mapping[str, Declared], moving: Iterable[
 
 
 def _side(piece: Scalar, constant: Mapping[str, Declared], moving: set[str]) -> tuple[Expr, Dimension]:
-    text = piece.text.strip()
-    if not text:
+    if not piece.text.strip():
         rejected("relation", "one side of this relation is missing", piece.place, EXAMPLE)
-    if varies := next((name for name in re.findall(r"[A-Za-z_][A-Za-z0-9_]*", text) if name in moving), None):
-        message = f"`assume` is about constant letters, but `{varies}` varies"
-        help_line = (
-            "to restrict a coordinate, write its range where you declare it, such as `theta: angle in (0, pi/2)`"
-        )
-        rejected("changes", message, piece.place, help_line)
+    check_constant(piece, moving, "assume", RESTRICTED)
     return read_expression(piece, constant)
 
 

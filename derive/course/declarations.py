@@ -10,12 +10,12 @@ from sympy import Expr, oo
 from derive.algebra.expressions import TIME
 from derive.algebra.kinds import about_kind, dimension_of_kind, kind_with_article, unit_of_kind
 from derive.algebra.ranges import POSITIVE, Range
-from derive.course.expression import RESERVED, Declared, read_expression
+from derive.course.expression import RESERVED, Declared, letters_in, read_expression
 from derive.course.given import symbol_of_kind
 from derive.course.measures import Wanted, number_with_unit
 from derive.course.problem_file import SortOfLetter
 from derive.course.yaml_tree import Scalar, Word, abridged
-from derive.errors import Faults, Rejected, rejected
+from derive.errors import Faults, rejected
 
 _SYMBOL = re.compile(r"[A-Za-z][A-Za-z0-9]{0,15}(_[A-Za-z0-9]{1,8}){0,2}")
 INFINITE = {"infinity": oo, "-infinity": -oo}
@@ -50,12 +50,9 @@ def _end(name: str, node: Scalar, kind: str) -> Expr:
     number = number_with_unit(node, wanted, {})
     if number is not None:
         return number.si
-    try:
-        expr, dimension = read_expression(node, {})
-    except Rejected as refusal:
-        if refusal.complaints[0].code != "undeclared-symbol":
-            raise
+    if letters_in(node):
         rejected("range", f"the ends of a range must be numbers, but `{text}` has letters", node.place)
+    expr, dimension = read_expression(node, None)
     bare = expr.is_Rational and unit_of_kind(kind) != ""
     if not expr.is_zero and (bare or dimension != dimension_of_kind(kind)):
         wanted.refuse("missing-unit", f"`{node.text.strip()}` needs a unit: {wanted.must_be_it}", node.place)

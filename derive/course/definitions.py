@@ -11,7 +11,7 @@ from derive.algebra.dimensions import Dimension
 from derive.algebra.natural import is_positive
 from derive.algebra.ranges import within
 from derive.course.declarations import check_name
-from derive.course.expression import Declared, read_expression
+from derive.course.expression import Declared, check_constant, read_expression
 from derive.course.yaml_tree import Formula, Word
 from derive.errors import Faults, rejected
 
@@ -52,6 +52,7 @@ def _defined(
     if name in known or name in moving:
         message = f"`{name}` already has a meaning in this problem, so it cannot be defined"
         rejected("letter-clash", message, word.place, "choose another letter")
+    check_constant(formula.scalar, moving, "define", "use letters with constant values, such as `omega_0: sqrt(k/m)`")
     constant = {each: letter for each, letter in known.items() if each not in moving}
     value, dimension = read_expression(formula.scalar, constant)
     if not value.free_symbols:

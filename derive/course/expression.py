@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
@@ -26,10 +26,10 @@ from derive.algebra.dimensions import NUMBER, Dimension
 from derive.algebra.kinds import kind_of_dimension
 from derive.course.arithmetic import Arithmetic, Declared, Term, rational
 from derive.course.yaml_tree import Scalar, Word
-from derive.errors import Complaint, Faults, did_you_mean
+from derive.errors import Complaint, Faults, did_you_mean, rejected
 from derive.units import UNIT_NAMES, read_unit
 
-__all__ = ["RESERVED", "Declared", "letters_in", "names_in", "rational", "read_expression"]
+__all__ = ["RESERVED", "Declared", "check_constant", "letters_in", "names_in", "rational", "read_expression"]
 
 LONGEST_EXPRESSION = 300
 DEEPEST_EXPRESSION = 40
@@ -81,14 +81,21 @@ class _Token:
 
 
 def read_expression(
-    scalar: Scalar, symbols: Mapping[str, Declared], letter_for: LetterFor | None = None
+    scalar: Scalar, symbols: Mapping[str, Declared] | None, letter_for: LetterFor | None = None
 ) -> tuple[Expr, Dimension]:
     """Return the value and dimension of an expression in the declared symbols; raise `Rejected` if it has an error.
 
+    symbols      the symbols that the expression may contain; None if it must be a number
     letter_for   a function with two arguments, a number with a unit and its kind of quantity; it returns a letter for
                  the number, or None
     """
     return _Parser(scalar, symbols, letter_for).whole()
+
+
+def check_constant(scalar: Scalar, moving: Collection[str], key: str, help_line: str) -> None:
+    """Reject an expression under `key` that contains one of the names in `moving`, which are not constant."""
+    if varies := next((name for name in letters_in(scalar) if name in moving), None):
+        rejected("changes", f"`{key}` is about constant letters, but `{varies}` varies", varies.place, help_line)
 
 
 def names_in(scalar: Scalar) -> list[Word]:
@@ -110,9 +117,10 @@ def letters_in(scalar: Scalar) -> list[Word]:
 
 
 class _Parser(Arithmetic):
-    def __init__(self, scalar: Scalar, symbols: Mapping[str, Declared], letter_for: LetterFor | None):
+    def __init__(self, scalar: Scalar, symbols: Mapping[str, Declared] | None, letter_for: LetterFor | None):
         super().__init__(scalar)
-        self.symbols = symbols
+        self.symbols = symbols or {}
+        self.is_number = symbols is None
         self.letter_for = letter_for
         self.at = 0
         if not self.text.strip():
@@ -169,6 +177,9 @@ class _Parser(Arithmetic):
         return self.complaint("expression", f"unknown function `{token.text}`", token.start, token.end, help_line)
 
     def undeclared(self, token: _Token) -> Complaint:
+        if self.is_number:
+            message = f"a number is expected here, but `{token.text}` is a letter"
+            return self.complaint("expression", message, token.start, token.end, did_you_mean(token.text, RESERVED))
         help_line = did_you_mean(token.text, (*self.symbols, *RESERVED)) or "declare it under `symbols:`"
         return self.complaint("undeclared-symbol", f"`{token.text}` is not declared", token.start, token.end, help_line)
 
@@ -253,7 +264,8 @@ class _Parser(Arithmetic):
         letter = self.letter_for(piece, kind) if self.letter_for and kind else None
         if letter is None:
             message = f"a number with a unit, `{piece.text}`, is not allowed within an expression"
-            self.refuse("expression", message, start, end, "declare a letter for it, and give its number in `values`")
+            help_line = None if self.is_number else "declare a letter for it, and give its number in `values`"
+            self.refuse("expression", message, start, end, help_line)
         return Term(letter, unit.dimension, start, end, kind=kind)
 
     def closed(self, opening: _Token) -> int:

@@ -12,13 +12,11 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Sequence
-from html import escape
 from xml.sax.saxutils import escape as escape_xml
 from xml.sax.saxutils import quoteattr
 
 from derive.exporting.packages import zipped
 from derive.exporting.questions import Answer, Part, Question, with_files
-from derive.render.printing.tex_in_html import formula_html
 
 QTI = "http://www.imsglobal.org/xsd/ims_qtiasiv1p2"
 CANVAS = "http://canvas.instructure.com/xsd/cccv1p0"
@@ -67,18 +65,13 @@ def _items(question: Question, part: Part) -> list[tuple[str, float, list[str]]]
     for number, answer in enumerate(answers, 1):
         ident = _ident(question.id, part.label, answer.key if answer else "")
         title = question.heading(part) + (f", {number} of {len(answers)}" if len(answers) > 1 else "")
-        asked = f"{body}\n{_sought(answer)}" if answer else body
+        asked = f"{body}\n{answer.sought}" if answer else body
         found.append((_item(ident, title, points, asked, solution, answer), points, files))
     return found
 
 
 def _address(file: str) -> str:
     return f"{FILES}/{FOLDER}/{file}"
-
-
-def _sought(answer: Answer) -> str:
-    unit = f", in {escape(answer.unit)}" if answer.unit else ""
-    return f"<p>{formula_html(answer.symbol or answer.latex)} = ?{unit}</p>"
 
 
 def _item(ident: str, title: str, points: float, body: str, solution: str, answer: Answer | None) -> str:

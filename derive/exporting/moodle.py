@@ -15,7 +15,6 @@ from collections.abc import Sequence
 from xml.sax.saxutils import escape, quoteattr
 
 from derive.exporting.questions import Answer, Part, Question, with_files
-from derive.render.printing.tex_in_html import formula_html
 
 
 def moodle_xml(course: str, title: str, questions: Sequence[Question], stack: bool = False) -> str:
@@ -36,11 +35,12 @@ def is_for_stack(part: Part) -> bool:
 
 def _question(question: Question, part: Part, stack: bool) -> str:
     if stack and is_for_stack(part):
-        return _typed("stack", question, part, _stack(part.answers), _inputs(part.answers))
+        return _typed("stack", question, part, _stack(question, part.answers), _inputs(question, part.answers))
     if not part.is_numerical:
         return _typed("essay", question, part, _ESSAY)
     if len(part.answers) == 1:
-        return _typed("numerical", question, part, _numerical(part.answers[0]))
+        (answer,) = part.answers
+        return _typed("numerical", question, part, _numerical(answer), answer.sought)
     return _typed("cloze", question, part, "", _gaps(part))
 
 
@@ -67,14 +67,14 @@ def _typed(sort: str, question: Question, part: Part, more: str, gaps: str = "")
 
 
 def _numerical(answer: Answer) -> str:
-    unit = f"<unit><multiplier>1</multiplier><unit_name>{escape(answer.unit)}</unit_name></unit>" if answer.unit else ""
+    """Return the number without its unit, which the question states: Moodle does not recognize a typed unit that
+    contains a space or begins with a digit."""
     return (
         '<answer fraction="100" format="moodle_auto_format">'
         f"<text>{answer.value:.12g}</text><tolerance>{answer.tolerance:.12g}</tolerance>"
         '<feedback format="html"><text></text></feedback></answer>'
-        f"{_element('units', unit) if unit else ''}"
-        f"<unitgradingtype>{1 if unit else 0}</unitgradingtype><unitpenalty>0.5</unitpenalty>"
-        f"<showunits>{0 if unit else 3}</showunits><unitsleft>0</unitsleft>"
+        "<unitgradingtype>0</unitgradingtype><unitpenalty>0</unitpenalty>"
+        "<showunits>3</showunits><unitsleft>0</unitsleft>"
     )
 
 
@@ -87,23 +87,26 @@ def _marks(part: Part) -> list[int]:
 
 def _gaps(part: Part) -> str:
     return "\n".join(
-        f"<p>{formula_html(answer.symbol or answer.latex)} = "
+        f"<p>{answer.named} = "
         f"{{{marks}:NUMERICAL:={answer.value:.12g}:{answer.tolerance:.12g}}} {escape(answer.unit)}</p>"
         for answer, marks in zip(part.answers, _marks(part), strict=True)
     )
 
 
-def _inputs(answers: Sequence[Answer]) -> str:
-    return "\n".join(
-        f"<p>{formula_html(answer.symbol or answer.key)} = [[input:ans{number}]] [[validation:ans{number}]]</p>"
+def _inputs(question: Question, answers: Sequence[Answer]) -> str:
+    fields = (
+        f"<p>{answer.named} = [[input:ans{number}]] [[validation:ans{number}]]</p>"
         for number, answer in enumerate(answers, 1)
     )
+    return "\n".join([question.typing, *fields])
 
 
-def _stack(answers: Sequence[Answer]) -> str:
+def _stack(question: Question, answers: Sequence[Answer]) -> str:
     numbered = list(enumerate(answers, 1))
-    positive = all(answer.is_of_positive_letters for answer in answers)
-    variables = "\n".join(f"ta{number}: {maxima(answer.sympy)};" for number, answer in numbered)
+    positive = sorted(frozenset[str]().union(*(answer.positive for answer in answers)))
+    # With a positive letter x, STACK simplifies sqrt(x^2) to x. This would be wrong for a negative letter.
+    assumed = [f"assume({', '.join(f'{letter}>0' for letter in positive)});"] if positive else []
+    variables = "\n".join([*assumed, *(f"ta{number}: {maxima(answer.sympy)};" for number, answer in numbered)])
     feedback = " ".join(f"[[feedback:prt{number}]]" for number, _ in numbered)
     return "\n".join(
         [
@@ -111,9 +114,8 @@ def _stack(answers: Sequence[Answer]) -> str:
             _element("questionvariables", _text(variables)),
             f'<specificfeedback format="html">{_text(feedback)}</specificfeedback>',
             "<questionnote><text></text></questionnote>",
-            # With positive letters, STACK simplifies sqrt(x^2) to x. This would be wrong for a negative letter.
-            f"<questionsimplify>1</questionsimplify><assumepositive>{int(positive)}</assumepositive><assumereal>1</assumereal>",
-            *(_input(number, answer) for number, answer in numbered),
+            "<questionsimplify>1</questionsimplify><assumepositive>0</assumepositive><assumereal>1</assumereal>",
+            *(_input(number, answer, question.letters) for number, answer in numbered),
             *(_comparison(number, len(numbered), answer) for number, answer in numbered),
         ]
     )
@@ -124,8 +126,9 @@ def maxima(sympy: str) -> str:
     return re.sub(r"\bpi\b", "%pi", sympy.replace("**", "^"))
 
 
-def _input(number: int, answer: Answer) -> str:
-    names = ", ".join(name for name, _ in answer.names)
+def _input(number: int, answer: Answer, letters: Sequence[str]) -> str:
+    # STACK accepts only those names of more than two characters that are listed here.
+    names = ", ".join(dict.fromkeys([*(letter for letter in letters if len(letter) > 1), *dict(answer.names)]))
     return (
         f"<input><name>ans{number}</name><type>algebraic</type><tans>ta{number}</tans><boxsize>30</boxsize>"
         "<strictsyntax>0</strictsyntax><insertstars>1</insertstars><syntaxhint></syntaxhint>"

@@ -13,10 +13,12 @@ import re
 import uuid
 from collections.abc import Sequence
 from html import escape
+from keyword import kwlist
 
 from derive.exporting.packages import zipped
-from derive.exporting.questions import Answer, Part, Question, with_files
-from derive.render.printing.tex_in_html import formula_html
+from derive.exporting.questions import CONSTANTS, Answer, Part, Question, with_files
+
+UNUSABLE = CONSTANTS | {*kwlist}  # names that PrairieLearn does not read as letters
 
 
 def prairielearn_package(set_id: str, title: str, questions: Sequence[Question]) -> bytes:
@@ -33,10 +35,12 @@ def _folder(set_id: str, title: str, question: Question, part: Part) -> dict[str
     address = "{{ options.client_files_question_url }}/"
     texts = _without_tags(f"{question.statement}\n{part.question}"), _without_tags(part.feedback)
     (asked, used), (solution, also) = (with_files(each, lambda file: address + file, question.files) for each in texts)
-    fields = [_field(number, answer) for number, answer in enumerate(part.answers, 1)]
+    usable = [letter for letter in question.letters if letter not in UNUSABLE]
+    fields = [_field(number, answer, usable) for number, answer in enumerate(part.answers, 1)]
     graded = all(fields) and bool(fields)
+    typing = [question.typing] if any(answer.value is None for answer in part.answers) else []
     shown = (
-        "\n".join(each for each in fields if each)
+        "\n".join(map(_without_tags, [*typing, *fields]))
         if graded
         else _element("pl-rich-text-editor", 'file-name="answer.html"')
     )
@@ -68,18 +72,21 @@ def _without_tags(html: str) -> str:
     return re.sub(r"\}(?=\})", "} ", re.sub(r"\{(?=\{)", "{ ", html))
 
 
-def _field(number: int, answer: Answer) -> str:
+def _field(number: int, answer: Answer, usable: Sequence[str]) -> str:
     name = f'answers-name="answer{number}"'
-    label = f"<p>{_without_tags(formula_html(answer.symbol or answer.key))} =</p>"
+    label = f"<p>{answer.named} =</p>"
     if answer.value is not None:
         unit = f' suffix="{escape(answer.unit)}"' if answer.unit else ""
         figures = answer.figures or 4
         compared = f'{name} comparison="sigfig" digits="{figures}"{unit}'
         return f"{label}\n" + _element("pl-number-input", compared)
-    if (letters := answer.letters) is None:
+    if not _is_comparable(answer):
         return ""
-    variables = f'{name} variables="{", ".join(sorted(letters))}"'
-    return f"{label}\n" + _element("pl-symbolic-input", variables)
+    return f"{label}\n" + _element("pl-symbolic-input", f'{name} variables="{", ".join(usable)}"')
+
+
+def _is_comparable(answer: Answer) -> bool:
+    return answer.letters is not None and not answer.letters & UNUSABLE
 
 
 def _element(tag: str, attributes: str) -> str:
@@ -87,9 +94,15 @@ def _element(tag: str, attributes: str) -> str:
 
 
 def _server(answers: Sequence[Answer]) -> str:
-    lines = [
-        f'    data["correct_answers"]["answer{number}"] = '
-        f"{answer.value if answer.value is not None else json.dumps(answer.sympy)}"
-        for number, answer in enumerate(answers, 1)
-    ]
+    values = (answer.value if answer.value is not None else _formula(answer) for answer in answers)
+    lines = [f'    data["correct_answers"]["answer{number}"] = {value}' for number, value in enumerate(values, 1)]
     return "def generate(data):\n" + ("\n".join(lines) or "    pass") + "\n"
+
+
+def _formula(answer: Answer) -> str:
+    """Return a formula as data of PrairieLearn. All letters are real, and some are positive; without this, sqrt(g/l)
+    and sqrt(g)/sqrt(l) would be different for PrairieLearn."""
+    letters = sorted(answer.letters or ())
+    known = {letter: {"positive" if letter in answer.positive else "real": True} for letter in letters}
+    data = {"_type": "sympy", "_value": answer.sympy, "_variables": letters, "_assumptions": known}
+    return repr(data | {"_custom_functions": []})

@@ -16,7 +16,6 @@ from xml.sax.saxutils import escape, quoteattr
 
 from derive.exporting.packages import zipped
 from derive.exporting.questions import Answer, Part, Question, with_files
-from derive.render.printing.tex_in_html import formula_html
 
 QTI = "http://www.imsglobal.org/xsd/imsqti_v2p1"
 PACKAGE = "http://www.imsglobal.org/xsd/imscp_v1p1"
@@ -84,7 +83,7 @@ def _declared(number: int, answer: Answer) -> str:
 
 def _field(number: int, answer: Answer) -> str:
     field = f'<textEntryInteraction responseIdentifier="RESPONSE{number}" expectedLength="12"/>'
-    return f"<p>{formula_html(answer.symbol or answer.latex)} = {field} {escape(answer.unit)}</p>\n"
+    return f"<p>{answer.named} = {field} {escape(answer.unit)}</p>\n"
 
 
 def _processing(answers: Sequence[Answer], points: float) -> str:

@@ -6,13 +6,14 @@ import json
 import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from html import escape
 from typing import Any
 
-from derive.render.printing.tex_in_html import IMAGE
+from derive.render.printing.tex_in_html import IMAGE, formula_html
 from derive.render.rendered import Rendered
 
 # the functions that learning platforms know
-FUNCTIONS = {"sin", "cos", "tan", "asin", "acos", "atan", "exp", "log", "sqrt"}
+FUNCTIONS = {"sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "exp", "log", "sqrt"}
 CONSTANTS = {"e", "i", "j"}  # letters that learning platforms read as numbers
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 
@@ -21,7 +22,8 @@ _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 class Answer:
     """One answer of a part, or one component of an answer that is a vector.
 
-    sympy    the formula in plain SymPy text, in the letters of the problem
+    sympy    the formula in plain text, in the letters of the problem; an empty text if platforms cannot compare it
+    positive the letters of the formula that are positive
     names    the defined quantities in the formula, such as mu, each with its own formula
     latex    the formula in TeX
     value    the number, or None; `unit` is its unit, and `figures` is the number of its significant figures
@@ -34,9 +36,9 @@ class Answer:
     value: float | None
     unit: str
     figures: int | None
-    is_of_positive_letters: bool = False
+    positive: frozenset[str] = frozenset()
     names: tuple[tuple[str, str], ...] = ()
-    components: str = ""  # the formulas of all components of the vector in plain SymPy text
+    components: str = ""  # the formulas of all components of the vector in plain text
 
     @property
     def tolerance(self) -> float:
@@ -47,12 +49,23 @@ class Answer:
         return 0.5 * 10.0 ** (int(exponent) - (self.figures or 4) + 1)
 
     @property
+    def named(self) -> str:
+        """The name of the answer as HTML: its symbol or, for a relation without a symbol, the words of its key."""
+        return formula_html(self.symbol) if self.symbol else escape(self.key.replace("_", " "))
+
+    @property
+    def sought(self) -> str:
+        """The line of a question that names the number that a student types, and its unit, as HTML."""
+        unit = f", in {escape(self.unit)}" if self.unit else ""
+        return f"<p>{self.named} = ?{unit}</p>"
+
+    @property
     def letters(self) -> set[str] | None:
         """The letters of the formula, or of all components of the vector; None if there are none, or if learning
         platforms cannot compare the formula."""
         text = self.components or self.sympy
         names = set(_NAME.findall(text))
-        if not re.fullmatch(r"[A-Za-z0-9_+\-*/(). ]+", text) or names & {"t", "Eq", *CONSTANTS}:
+        if not re.fullmatch(r"[A-Za-z0-9_+\-*/() ]+", text) or names & CONSTANTS:
             return None
         letters = names - FUNCTIONS - {"pi"}
         called = {name for name in letters if re.search(rf"\b{name}\(", text)}
@@ -83,7 +96,11 @@ class Part:
 
 @dataclass(frozen=True)
 class Question:
-    """A problem with its statement, remarks, parts, and the files of its drawings by name."""
+    """A problem with its statement, remarks, parts, and the files of its drawings by name.
+
+    letters  the letters of the problem and of its answers
+    typing   a sentence that says how to type these letters, as HTML
+    """
 
     id: str
     number: int
@@ -92,6 +109,8 @@ class Question:
     remarks: str
     parts: tuple[Part, ...]
     files: dict[str, bytes]
+    letters: tuple[str, ...] = ()
+    typing: str = ""
 
     @property
     def name(self) -> str:
@@ -120,7 +139,9 @@ def _question(number: int, problem: Rendered) -> Question:
         )
         for part in told["parts"]
     )
-    return Question(problem.id, number, problem.title, told["statement"], told["remarks"], parts, files)
+    letters = tuple(filter(_NAME.fullmatch, told["letters"]))
+    of_problem = told["statement"], told["remarks"], parts, files, letters, told["typing"]
+    return Question(problem.id, number, problem.title, *of_problem)
 
 
 def _answers(told: dict[str, Any]) -> list[Answer]:
@@ -135,7 +156,7 @@ def _answers(told: dict[str, Any]) -> list[Answer]:
         float(value) if isinstance(value, int | float) else None,
         unit,
         number.get("figures"),
-        told["positive"],
+        frozenset(told.get("positive", ())),
         tuple(told.get("names", {}).items()),
     )
     entries = re.findall(r"\[([^\[\]]+)\]", told["sympy"])

@@ -75,11 +75,12 @@ class PhraseTable(dict[str, Any]):
         raise Rejected(Complaint("no-phrase", message, _place(self.source, self.keys_above), help=help_line))
 
 
-def no_phrase(key: str, rule: str, outcome: str, of_rule: Mapping[str, str]) -> Complaint:
+def no_phrase(key: str, rule: str, outcome: str, rules: PhraseTable) -> Complaint:
     """Return the error for a step without a sentence; it shows the rule's phrases, or names the file to edit."""
     message, place = f"`{key}`: no phrase for `{rule}` with the outcome `{outcome}`", None
-    help_line = f"write `rules: {{{rule}: {{{outcome}: ...}}}}` in {SHOWN_AS}/en/{rule.partition('.')[0]}.yaml"
-    if isinstance(of_rule, PhraseTable):
+    folder = _place(rules.source, ()).path.rpartition("/")[0]
+    help_line = f"write `rules: {{{rule}: {{{outcome}: ...}}}}` in {folder}/{rule.partition('.')[0]}.yaml"
+    if (of_rule := rules.get(rule)) is not None:
         place, known = _place(of_rule.source, of_rule.keys_above), ", ".join(f"`{name}`" for name in of_rule)
         help_line = f"the rule has phrases for {known}: write one for `{outcome}` too"
     return Complaint("no-phrase", message, place, help=help_line)

@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -17,6 +17,8 @@ from jinja2.utils import missing
 from derive import FOLDER
 from derive.errors import Complaint, Rejected, did_you_mean, nearest
 
+PRINTED = ("latex", "html")  # the folders of templates
+TEMPLATE, WORDS = (".j2", ".css", ".js", ".tex", ".html"), (".yaml", ".yml")  # suffixes
 COMPLETE = "new"  # a folder that only the templates of derive itself have
 
 
@@ -49,39 +51,47 @@ def templates_of(root: Path) -> Templates:
 
 
 def unused_templates(root: Path) -> list[Complaint]:
-    """Return a warning for each template of a course that has no effect."""
+    """Return a warning for each file in the templates of a course that has no effect."""
     templates = templates_of(root)
     if len(templates.folders) == 1:
         return []
     own, ours = templates.folders
-    found = [file for kind in ("latex", "html") for file in sorted((own / kind).glob("*")) if file.is_file()]
-    texts = [file.read_text(encoding="utf-8", errors="replace") for file in found]
-    unused = [
-        file
-        for file in found
-        if not (ours / file.parent.name / file.name).exists() and not any(f'"{file.name}"' in text for text in texts)
-    ]
+    found = [file for file in sorted(own.rglob("*")) if file.is_file() and file.suffix in (*TEMPLATE, *WORDS)]
+    texts = {
+        file: file.read_text(encoding="utf-8", errors="replace") for file in found if _folder(own, file) in PRINTED
+    }
     languages = {page.parent.name for folder in (own, ours) for page in (folder / "phrases").glob("*/page.yaml")}
-    words = [*own.glob("*.yaml"), *(own / "phrases").glob("*.yaml"), *(own / "phrases").glob("*/*.yaml")]
-    apart = [
-        Complaint(
-            "unused-template",
-            f"nothing uses `templates/{file.relative_to(own).as_posix()}`: it is not in the folder of a language",
-            help=f"put it in `templates/phrases/{nearest(file.parent.name, languages) or 'en'}`",
-            severity="warning",
-        )
-        for file in sorted(words)
-        if file.parent.parent != own / "phrases" or file.parent.name not in languages
-    ]
-    return apart + [
-        Complaint(
-            "unused-template",
-            f"nothing uses `templates/{file.parent.name}/{file.name}`: derive has no template of this name",
-            help=did_you_mean(file.name, [each.name for each in (ours / file.parent.name).glob("*")]),
-            severity="warning",
-        )
-        for file in unused
-    ]
+
+    def is_used(file: Path) -> bool:
+        if file.suffix in WORDS:
+            of_language = file.parent.parent == own / "phrases" and file.parent.name in languages
+            return of_language and file.suffix == WORDS[0]
+        name = file.relative_to(own / _folder(own, file)).as_posix()
+        included = any(f'"{name}"' in text for each, text in texts.items() if each != file)
+        return file in texts and (included or (ours / file.relative_to(own)).is_file())
+
+    return [_unused(own, ours, file, languages) for file in found if not is_used(file)]
+
+
+def _folder(own: Path, file: Path) -> str:
+    """Return the first folder of the path of a file below `own`; "." if the file is in `own` itself."""
+    return (file.parent.relative_to(own).parts or (".",))[0]
+
+
+def _unused(own: Path, ours: Path, file: Path, languages: Collection[str]) -> Complaint:
+    there = [folder for folder in PRINTED if (ours / folder / file.name).is_file()]
+    if file.suffix in WORDS:
+        why = "it is not in the folder of a language"
+        help_line: str | None = f"put it in `templates/phrases/{nearest(file.parent.name, languages) or 'en'}`"
+        if file.suffix != WORDS[0]:
+            why, help_line = "files of phrases end with `.yaml`", f"rename it to `{file.stem}.yaml`"
+    elif there:
+        why, help_line = "it is in the wrong folder", f"put it in `templates/{there[0]}`"
+    else:
+        why = "derive has no template of this name"
+        help_line = did_you_mean(file.name, [each.name for folder in PRINTED for each in (ours / folder).glob("*")])
+    message = f"nothing uses `templates/{file.relative_to(own).as_posix()}`: {why}"
+    return Complaint("unused-template", message, help=help_line, severity="warning")
 
 
 class Unknown(StrictUndefined):

@@ -32,7 +32,7 @@ from derive.course.problem_file import ANY_OUTCOME
 from derive.course.prose import Mention, TexFormula
 from derive.errors import Complaint, DeriveError, Place, Rejected, did_you_mean, with_article
 from derive.page.no_break_spaces import unbroken
-from derive.page.phrasebook import OF_EVERY_PAGE, SHOWN_AS, Phrase, no_phrase, read_phrases
+from derive.page.phrasebook import OF_EVERY_PAGE, SHOWN_AS, Phrase, PhraseTable, no_phrase, read_phrases
 from derive.page.template import Templates, environment
 from derive.steps.derivation import Derivation
 from derive.steps.numeric import in_radians
@@ -170,7 +170,7 @@ Inline = NewParagraph | Text | Math | DimensionMark | UnitMark | Ref | ProblemRe
 class Phrases:
     """The phrases of one language: see the files of `templates/phrases/en`."""
 
-    rules: Mapping[str, Mapping[str, str]]
+    rules: PhraseTable
     routes: Mapping[str, Mapping[str, str]]
     reasons: Mapping[str, Mapping[str, str]]
     theorems: Mapping[str, str]
@@ -193,7 +193,7 @@ class Phrases:
 
     def phrase(self, step: Step, before: Step | None = None) -> str:
         """Return the phrase for the sentence of a step; the phrase may depend on the step shown just before."""
-        of_rule = self.rules.get(step.rule, {})
+        of_rule: Mapping[str, str] = self.rules.get(step.rule, {})
         preceded_by = "" if before is None else before.outcome if before.rule == step.rule else before.rule
         keys = [f"{step.outcome}{AFTER}{preceded_by}", step.outcome]
         if before is not None and (before.rule, before.outcome) == (step.rule, step.outcome):
@@ -203,12 +203,13 @@ class Phrases:
             keys[:0] = [f"{step.outcome}{AFTER}{SAME}"] if words[0] == words[1] else []
         phrase = next((of_rule[key] for key in keys if key in of_rule), None)
         if phrase is None:
-            raise Rejected(no_phrase(step.key, step.rule, step.outcome, of_rule))
+            raise Rejected(no_phrase(step.key, step.rule, step.outcome, self.rules))
         return phrase
 
     def of_both(self, step: Step, following: Step) -> str:
         """Return the phrase for one sentence about a step and the next step, or "" if there is no such phrase."""
-        return self.rules.get(step.rule, {}).get(f"{step.outcome}{AND}{following.rule}", "")
+        of_rule: Mapping[str, str] = self.rules.get(step.rule, {})
+        return of_rule.get(f"{step.outcome}{AND}{following.rule}", "")
 
     def setup(self, step: Step) -> str:
         """Return the phrase that introduces axes, coordinates and the like for a step without lines."""

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import csv
 import json
+import os
 import re
+from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
@@ -12,7 +14,18 @@ from pypdf import PdfReader
 
 from derive.building import classes
 from derive.building.class_record import ClassRecord, class_to_grade
-from derive.building.classes import Student, code_of, made_class, plain, read_roster, why_of_class
+from derive.building.classes import (
+    ClassDocuments,
+    Made,
+    Student,
+    class_is_older,
+    code_of,
+    made_class,
+    plain,
+    read_roster,
+    why_of_class,
+)
+from derive.building.tex import chosen_engine
 from derive.building.workers import Ended
 from derive.cli.options import main
 from derive.course.variants import chosen_for
@@ -40,6 +53,11 @@ def roster(folder: Path, text: str) -> Path:
 )
 def test_a_roster_of_any_spreadsheet_is_read(tmp_path: Path, text: str) -> None:
     assert read_roster(roster(tmp_path, text)) == (Student("Ada Lovelace", "A1"), Student("Emmy Noether", "E2"))
+
+
+def test_a_name_has_the_same_code_however_unicode_encodes_it(tmp_path: Path) -> None:
+    composed, decomposed = (read_roster(roster(tmp_path, f"name\n{name}\n")) for name in ("\u00c5sa", "A\u030asa"))
+    assert composed == decomposed
 
 
 def test_without_codes_the_name_gives_the_code(tmp_path: Path) -> None:
@@ -131,7 +149,9 @@ def test_each_student_has_documents_with_own_numbers_and_the_sheet_has_no_answer
 
     monkeypatch.setattr(classes, "_documents_of", lambda *_: pytest.fail("nothing changed"))
     assert made_class(tmp_path, "week1", students, seed="3", jobs=1).made == 0
-    made_class(tmp_path, "week1", students[:1], seed="3", jobs=1)
+    (warning,) = made_class(tmp_path, "week1", students[:1], seed="3", jobs=1).warnings
+    assert warning.message.endswith("their documents were removed: Emmy Noether (E2)")
+    assert made_class(tmp_path, "week1", students[:1], seed="3", jobs=1).warnings == []
     assert not list((build / "students").glob("E2*")) and not list((build / "class").glob("E2*"))
     assert list((build / "students").glob("A1*"))
 
@@ -161,6 +181,48 @@ def test_an_error_in_one_variant_stops_no_other_student(tmp_path: Path) -> None:
     assert (again.made, again.kept) == (0, report.made)
     assert any(each.code == "older" and f"({failed})" in each.message for each in again.warnings)
     assert f"{failed}.pdf" not in (tmp_path / "build" / "week1" / "class" / "index.html").read_text()
+
+
+def test_after_an_interruption_no_input_is_said_to_have_changed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    bead(tmp_path, "{b: [10 cm, 16 cm, 27 cm, 33 cm]}")
+    students = [Student(name, code) for name, code in zip(NAMES, ("A1", "E2"), strict=True)]
+    monkeypatch.setattr(classes, "AT_ONCE", 1)
+
+    def interrupt(_: Ended) -> None:
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        made_class(tmp_path, "week1", students, jobs=1, ended=interrupt)
+    sheets = tmp_path / "build" / "week1" / "students"
+    assert (why_of_class(tmp_path, sheets / "A1.pdf", None) or "").endswith("is up to date")
+    assert "did not finish these documents" in (why_of_class(tmp_path, sheets / "E2.pdf", None) or "")
+    (warning,) = class_is_older(tmp_path, "week1", chosen_engine(None))
+    assert warning.message.endswith("are incomplete: those of Emmy Noether (E2) were not made")
+
+
+def test_a_student_whose_job_fails_as_a_whole_is_counted_and_named(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    bead(tmp_path, "{b: [10 cm, 16 cm, 27 cm, 33 cm]}")
+    students = [Student(name, code) for name, code in zip(NAMES, ("A1", "E2"), strict=True)]
+    documents_of, ended = classes._documents_of, list[Ended]()
+
+    def dies_for_one(shared: ClassDocuments, group: Sequence[Student]) -> list[Made]:
+        if students[1] in group:
+            os._exit(3)
+        return documents_of(shared, group)
+
+    monkeypatch.setattr(classes, "_documents_of", dies_for_one)
+    report = made_class(tmp_path, "week1", students, jobs=1, ended=ended.append)
+    assert (report.made, report.without) == (1, students[1:])
+    assert sorted((each.how, each.of) for each in ended) == [
+        ("failed", "Emmy Noether (E2)"),
+        ("made", "Ada Lovelace (A1)"),
+    ]
+    (complaint,) = report.complaints
+    assert complaint.code == "worker-died" and "in the variant of Emmy Noether (E2)" in complaint.notes
 
 
 @pytest.mark.parametrize(

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from derive.building.class_record import RECORD
 from derive.building.cleaning import cleaned
 from derive.errors import Misused
 
@@ -47,6 +48,14 @@ def test_only_the_sets_that_are_named_go(root: Path) -> None:
     assert clean(root, "hw1") == [("build/hw1", 1100)]
     assert clean(root, "hw2") == [], "which was not built"
     assert clean(root, "gone") == [("build/gone", 1100)]
+
+
+def test_the_record_of_a_class_stays_as_long_as_there_is_a_set(root: Path) -> None:
+    for name in ("hw1", "gone"):
+        (root / "build" / name / RECORD).write_text("the seed")
+    assert clean(root) == [("build/gone", 1108), ("build/hw1", 1100)]
+    assert "hw1/.class.json" in files(root) and files(root) <= {"note.txt", "hw1/.class.json", "hw1/.lock"}
+    assert clean(root) == []
 
 
 @pytest.mark.parametrize("name", ["hw", "..", "", "../problems", "/"])

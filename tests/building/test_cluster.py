@@ -7,13 +7,15 @@ import signal
 import sys
 import threading
 import time
+from concurrent import futures
 from pathlib import Path
 
 import pytest
 
 from derive.building.classes import Student, made_class
-from derive.building.cluster import INSTALL
-from derive.errors import Misused
+from derive.building.cluster import INSTALL, Cluster
+from derive.building.workers import Job
+from derive.errors import BuildFailed, Misused
 from tests.course.test_variants import bead
 
 
@@ -23,6 +25,21 @@ def test_without_the_client_of_dask_the_error_names_it(tmp_path: Path, monkeypat
     with pytest.raises(Misused) as caught:
         made_class(tmp_path, "week1", [Student("Ada", "A1")], scheduler="tcp://127.0.0.1:1")
     assert caught.value.complaints[0].help == INSTALL
+
+
+def test_a_scheduler_that_is_lost_is_an_error_with_its_address() -> None:
+    class Lost:
+        def exception(self) -> None:
+            """Return None, as Dask does for a cancelled job."""
+
+        def result(self) -> None:
+            raise futures.CancelledError
+
+    cluster, lost = Cluster.__new__(Cluster), Lost()
+    cluster._address, cluster._tick, cluster._ended = "tcp://127.0.0.1:1", lambda _: None, iter([lost])
+    cluster._jobs = {lost: (Job("x", dict), 0.0)}
+    with pytest.raises(BuildFailed, match=r"the connection to the scheduler `tcp://127\.0\.0\.1:1` was lost"):
+        next(cluster.outcomes())
 
 
 @pytest.mark.long

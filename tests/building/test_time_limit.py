@@ -68,6 +68,18 @@ def test_work_that_waits_and_catches_all_is_ended_too() -> None:
     assert stopped(waits)[1] < 10
 
 
+def test_work_that_is_stopped_by_the_clock_is_not_said_to_use_the_processor(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The work uses a little of the processor, so that it does not count as waiting."""
+
+    def slow() -> None:
+        while True:
+            time.sleep(0.05)
+            sum(range(100_000))
+
+    monkeypatch.setattr(time_limit, "PATIENCE", 0.05)
+    assert stopped(slow, 2)[0].message == "`x` took over 0.4 s by the clock"
+
+
 def test_a_busy_machine_costs_no_work_its_time() -> None:
     """A little work of the processor may take longer by the clock than its limit is."""
 

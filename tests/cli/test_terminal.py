@@ -7,7 +7,8 @@ import sys
 
 import pytest
 
-from derive.cli.terminal import MOST, complain, faults_of_source, in_colour, note, table, tell
+from derive.cli import terminal
+from derive.cli.terminal import EVERY, MOST, complain, faults_of_source, in_colour, note, paced, table, tell
 from derive.errors import Complaint, Place
 
 
@@ -58,6 +59,20 @@ def test_progress_is_one_line_that_fits(monkeypatch: pytest.MonkeyPatch) -> None
     tell("x" * 40)
     tell("")
     assert terminal.getvalue() == "\r\x1b[K" + "x" * 19 + "\r\x1b[K"
+
+
+def test_into_a_file_progress_is_a_line_now_and_then(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    clock = [0.0]
+    monkeypatch.setattr(terminal.time, "monotonic", lambda: clock[0])
+    tell("before a command")
+    with paced():
+        for second in range(3 * EVERY):
+            clock[0] = second
+            tell(f"{second} s")
+            tell("")
+    assert capsys.readouterr().err == f"{EVERY} s\n{2 * EVERY} s\n"
 
 
 @pytest.mark.parametrize(

@@ -171,6 +171,18 @@ def test_what_is_no_expression_is_refused_at_its_column(text: str, code: str, co
     assert said in f"{found.message} {found.help}"
 
 
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [("2*q", "a number is expected here, but `q` is a letter"), ("2 + 3 cm", "a number with a unit, `3 cm`")],
+)
+def test_where_no_letter_is_allowed_none_is_to_be_declared(text: str, message: str) -> None:
+    with pytest.raises(Rejected) as caught:
+        read_expression(scalar(text), None)
+    (found,) = caught.value.complaints
+    assert found.message.startswith(message) and found.help is None
+    assert read_expression(scalar("2*pi/3"), None)[0] == 2 * pi / 3
+
+
 def test_all_undeclared_names_of_an_expression_are_told_together() -> None:
     with pytest.raises(Rejected) as caught:
         value("p + q*a + r")

@@ -10,9 +10,11 @@ import zipfile
 from base64 import b64decode
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 from xml.etree import ElementTree
 
 import pytest
+from sympy import simplify, symbols, sympify
 
 from derive.building import solution
 from derive.building.solution import rendered
@@ -26,6 +28,7 @@ from derive.exporting.prairielearn import prairielearn_package
 from derive.exporting.qti import PACKAGE, QTI, qti_package
 from derive.exporting.questions import Answer, Question, questions_of
 from derive.exporting.word import word_document
+from tests.courses import ROOT
 
 PROBLEM = """\
 title: A bead & a <wire>
@@ -94,7 +97,8 @@ def test_moodle_has_a_question_of_the_right_type_for_each_part(questions: list[Q
     answer = asked[1].find("answer")
     assert answer is not None
     assert (answer.get("fraction"), answer.findtext("text"), answer.findtext("tolerance")) == ("100", "7.004", "0.0005")
-    assert asked[1].findtext("units/unit/unit_name") == "rad/s"
+    assert (asked[1].find("units"), asked[1].findtext("showunits")) == (None, "3"), "the number is typed without a unit"
+    assert "= ?, in rad/s</p>" in (asked[1].findtext("questiontext/text") or "")
     cloze = asked[2].findtext("questiontext/text") or ""
     assert "{2:NUMERICAL:=7.004:0.0005} rad/s" in cloze
     assert "{2:NUMERICAL:=0.9:0.005} s" in cloze
@@ -276,11 +280,23 @@ def test_a_folder_of_prairielearn_has_its_three_files_and_right_answers(question
         names["generate"](data)  # type: ignore[operator]
         asked = re.findall(r'answers-name="(\w+)"', page)
         assert asked == list(data["correct_answers"])
-        assert ("gradingMethod" in info) == (folder == "bead-a") == ("pl-rich-text-editor" in page)
+        assert ("pl-symbolic-input" in page) == (folder == "bead-a") and "gradingMethod" not in info
         if folder == "bead-c":
             assert data["correct_answers"] == {"answer1": 7.004, "answer2": 0.9}
             assert 'digits="2" suffix="s"' in page
     assert len(ids) == 3
+
+
+@pytest.mark.parametrize("formula", ["", "e*x", "lambda*x"])
+def test_a_formula_that_prairielearn_cannot_compare_is_graded_by_a_person(
+    questions: list[Question], formula: str
+) -> None:
+    (question,), (first, *_) = questions, questions[0].parts
+    changed = replace(first, answers=(replace(first.answers[0], sympy=formula),))
+    content = prairielearn_package("week1", "Week 1", [replace(question, parts=(changed,))])
+    with zipfile.ZipFile(io.BytesIO(content)) as package:
+        info, page = (package.read(f"questions/week1/bead-a/{file}") for file in ("info.json", "question.html"))
+    assert json.loads(info)["gradingMethod"] == "Manual" and b"<pl-rich-text-editor " in page
 
 
 @pytest.mark.parametrize(
@@ -292,6 +308,8 @@ def test_a_folder_of_prairielearn_has_its_three_files_and_right_answers(question
         ("m*v*(1 - e)", None),
         ("Eq(a, b)", None),
         ("f(t)*a", None),
+        ("x + 0.5", None),
+        ("m*theta_dot**2 + t", {"m", "theta_dot", "t"}),
         ("x.y__class__[0]", None),
         ("3/4", None),
     ],
@@ -303,14 +321,16 @@ def test_only_plain_formulas_have_a_field_for_symbols(formula: str, letters: set
 def test_a_formula_in_letters_is_a_question_of_stack(questions: list[Question]) -> None:
     first, *_ = questions[0].parts
     formulas = (
-        Answer("frequency", r"\omega_0", "sqrt(g/b)", r"\sqrt{g/b}", None, "rad/s", None, True),
-        Answer("period", r"\tau", "2*pi*sqrt(b)/sqrt(g)**3", "", None, "s", None, True),
+        Answer("frequency", r"\omega_0", "sqrt(g/b)", r"\sqrt{g/b}", None, "rad/s", None, frozenset("gb")),
+        Answer("period", r"\tau", "2*pi*sqrt(b)/sqrt(g)**3", "", None, "s", None, frozenset("gb")),
     )
     changed = replace(questions[0], parts=(replace(first, answers=formulas), *questions[0].parts))
     quiz = ElementTree.fromstring(moodle_xml("A", "B", [changed], stack=True).encode())
     _, stack, *others = quiz
-    assert [each.get("type") for each in (stack, *others)] == ["stack", "essay", "numerical", "cloze"]
-    assert stack.findtext("questionvariables/text") == "ta1: sqrt(g/b);\nta2: 2*%pi*sqrt(b)/sqrt(g)^3;"
+    assert [each.get("type") for each in (stack, *others)] == ["stack", "stack", "numerical", "cloze"]
+    assert stack.findtext("questionvariables/text") == (
+        "assume(b>0, g>0);\nta1: sqrt(g/b);\nta2: 2*%pi*sqrt(b)/sqrt(g)^3;"
+    )
     text = stack.findtext("questiontext/text") or ""
     for number in (1, 2):
         assert f"[[input:ans{number}]] [[validation:ans{number}]]" in text
@@ -320,16 +340,13 @@ def test_a_formula_in_letters_is_a_question_of_stack(questions: list[Question]) 
     assert [each.findtext("node/answertest") for each in trees] == ["AlgEquiv"] * 2
     assert sum(float(each.findtext("value") or 0) for each in trees) == pytest.approx(1)
     assert [(each.findtext("node/truescore"), each.findtext("node/falsescore")) for each in trees] == [("1", "0")] * 2
-    assert stack.findtext("assumepositive") == "1"
-    signed = replace(
-        changed, parts=(replace(first, answers=(formulas[0], replace(formulas[1], is_of_positive_letters=False))),)
-    )
-    (_, stack) = ElementTree.fromstring(moodle_xml("A", "B", [signed], stack=True).encode())
     assert stack.findtext("assumepositive") == "0", "sqrt(x^2) is not x for a coordinate x"
 
 
 def test_an_export_for_stack_without_a_formula_says_so(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    with_week1(tmp_path)
+    folder = with_week1(tmp_path)
+    of_motion = PROBLEM[PROBLEM.index("  - ask: Find the equation") : PROBLEM.index("  - ask: Find the angular")]
+    (folder / "bead.yaml").write_text(PROBLEM.replace(of_motion, ""))
     assert main(["--root", str(tmp_path), "export", "week1", "--format", "stack"]) == 0
     assert "no part has only answers that STACK can compare" in capsys.readouterr().out
 
@@ -342,12 +359,47 @@ def test_a_formula_with_a_defined_quantity_is_compared_in_the_letters_of_the_pro
     quiz = ElementTree.fromstring(moodle_xml("A", "B", asked, stack=True).encode())
     stack = quiz[2]
     assert r"\sqrt{\kappa}" in (stack.findtext("generalfeedback/text") or ""), "the page has the defined quantity"
-    assert stack.findtext("questionvariables/text") == "ta1: sqrt(g)/sqrt(b);"
-    assert stack.findtext("input/allowwords") == "kappa"
+    assert stack.findtext("questionvariables/text") == "assume(b>0, g>0);\nta1: sqrt(g)/sqrt(b);"
+    assert stack.findtext("input/allowwords") == "x_ddot, x_dot, kappa"
     assert stack.findtext("prt/feedbackvariables/text") == "sa1: subst([kappa=g/b], ans1);"
     assert stack.findtext("prt/node/sans") == "sa1"
     package = zipfile.ZipFile(io.BytesIO(prairielearn_package("week1", "A", asked)))
-    assert 'variables="b, g"' in package.read("questions/week1/bead-b/question.html").decode()
+    assert 'variables="b, g, m, x, x_ddot, x_dot"' in package.read("questions/week1/bead-b/question.html").decode()
+
+
+def test_a_formula_with_rates_and_a_solved_equation_of_motion_are_compared(tmp_path: Path) -> None:
+    """The formulas are worked out by hand; SymPy reads the exported texts."""
+    folder = with_week1(tmp_path)
+    changed = PROBLEM.replace("answer: equations_of_motion", "answer: [lagrangian, equations_of_motion]")
+    (folder / "bead.yaml").write_text(changed)
+    (question,) = questions_of([rendered(tmp_path, "week1/bead", draws=True, only=("questions",))])
+    first, second = question.parts[0].answers
+    m, g, b, x, v = symbols("m g b x x_dot")
+    slope = 1 + x**2 / b**2
+    assert simplify(sympify(first.sympy) - m * slope * v**2 / 2 + m * g * x**2 / (2 * b)) == 0
+    assert simplify(sympify(second.sympy) + (g * x / b + x * v**2 / b**2) / slope) == 0
+    assert (second.symbol, second.letters) == (r"\ddot{x}", {"g", "b", "x", "x_dot"})
+    assert first.positive == {"m", "g", "b"}
+    quiz = ElementTree.fromstring(moodle_xml("A", "B", [question], stack=True).encode())
+    assert quiz[1].get("type") == "stack"
+    text = quiz[1].findtext("questiontext/text") or ""
+    assert r"x_dot for \(\dot{x}\)" in text and r"\(\ddot{x}\) = [[input:ans2]]" in text
+    assert "x_dot" in (quiz[1].findtext("input/allowwords") or "").split(", ")
+    package = zipfile.ZipFile(io.BytesIO(prairielearn_package("week1", "A", [question])))
+    names: dict[str, Any] = {}
+    exec(package.read("questions/week1/bead-a/server.py"), names)  # noqa: S102  the file that was just written
+    names["generate"](data := {"correct_answers": {}})
+    answer = data["correct_answers"]["answer1"]
+    assert answer["_assumptions"]["b"] == {"positive": True} and answer["_assumptions"]["x_dot"] == {"real": True}
+    assert r"x_dot for \(\dot{x}\)" in package.read("questions/week1/bead-a/question.html").decode()
+
+
+def test_an_equation_with_an_unknown_force_is_not_compared() -> None:
+    """With the tension S in it, the acceleration has several right forms."""
+    (question,) = questions_of([rendered(ROOT, "library/atwood", only=("questions",))])
+    forms = [each.sympy for each in question.parts[0].answers]
+    assert len(forms) >= 2 and set(forms) == {""}
+    assert question.parts[1].answers[0].sympy
 
 
 PLATE = """\
@@ -382,13 +434,13 @@ def test_a_vector_has_a_field_for_each_component(tmp_path: Path, values: str) ->
     else:
         assert [each.get("type") for each in quiz][1:] == ["stack"]
         told = quiz[1].findtext("questionvariables/text") or ""
-        assert told.splitlines()[::2] == ["ta1: sqrt(5)*a^2*m*omega/15;", "ta3: 0;"]
+        assert told.splitlines()[1::2] == ["ta1: sqrt(5)*a^2*m*omega/15;", "ta3: 0;"]
         assert page.count("<pl-symbolic-input") == page.count('variables="a, m, omega"') == 3
 
 
-def test_an_answer_with_a_coordinate_is_not_of_positive_letters(questions: list[Question]) -> None:
-    positive = {each.key: each.is_of_positive_letters for part in questions[0].parts for each in part.answers}
-    assert positive == {"motion_x": False, "frequency": True, "period": True}
+def test_a_coordinate_is_not_among_the_positive_letters(questions: list[Question]) -> None:
+    positive = {each.key: each.positive for part in questions[0].parts for each in part.answers}
+    assert positive == {"motion_x": {"b", "g"}, "frequency": {"b", "g"}, "period": {"b", "g"}}
 
 
 @pytest.mark.parametrize(

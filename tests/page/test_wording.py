@@ -11,6 +11,7 @@ from sympy import Integer, Symbol
 from derive.algebra.equality import Compared
 from derive.algebra.expressions import Relation
 from derive.algebra.kinds import dimension_of_kind
+from derive.course.names import Language
 from derive.course.prose import Mention
 from derive.errors import Place, Rejected
 from derive.page.template import templates_of
@@ -181,12 +182,15 @@ def test_an_outcome_without_a_phrase_is_an_error_that_names_both() -> None:
     assert all(f"`{outcome}`" in complaint.help for outcome in (*WORDS.rules["rotation.torque"], "sideways"))
 
 
-def test_a_rule_without_phrases_is_told_with_what_to_write_where() -> None:
+@pytest.mark.parametrize("language", ["en", "de"])
+def test_a_rule_without_phrases_is_told_with_what_to_write_where(language: str) -> None:
     odd = replace(known_block()["torque"].step, rule="sling.pull", outcome="generic")
     with pytest.raises(Rejected) as caught:
-        WORDS.phrase(odd)
+        phrases(templates_of(ROOT), Language(language)).phrase(odd)
     (complaint,) = caught.value.complaints
-    assert complaint.help == "write `rules: {sling.pull: {generic: ...}}` in templates/phrases/en/sling.yaml"
+    assert (
+        complaint.help == f"write `rules: {{sling.pull: {{generic: ...}}}}` in templates/phrases/{language}/sling.yaml"
+    )
 
 
 def test_what_goes_on_from_an_alike_step_has_the_words_for_that() -> None:

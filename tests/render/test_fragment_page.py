@@ -13,7 +13,7 @@ from derive.building.tex import chosen_engine, typeset
 from derive.page.chain_lines import ChainLine, Equations
 from derive.page.template import templates_of
 from derive.page.tree import Paragraph
-from derive.page.wording import FigureRef, Text
+from derive.page.wording import DisplayedMath, FigureRef, Text
 from derive.render.printing.fragment_page import fragment
 from tests.courses import ROOT, rendered_once
 from tests.render.pages import AXES, NOTATION, VECTORS, WHOLE, WORDS, M, T, a, display, page
@@ -66,3 +66,19 @@ def test_lines_are_shorter_for_a_narrow_text() -> None:
     long = page(replace(display("mass"), groups=(Equations("mass", chain, 1, 0),)), illustrations=())
     rows = [fragment(long, *ALONG, width).count(" \\\\\n") for width in (None, 12.1, 5.0)]
     assert rows[0] == rows[1] < rows[2]
+
+
+def test_a_reason_without_room_has_a_row_of_its_own() -> None:
+    chain = (ChainLine(T, "equals", M * a**2, reason=(Text("as a product of both"),)),)
+    short = page(replace(display("mass"), groups=(Equations("mass", chain, 1, 0),)), illustrations=())
+    wide, narrow = (fragment(short, *ALONG, width) for width in (None, 5.0))
+    reason = r"\quad\text{\footnotesize[as a product of both]}"
+    assert rf"{reason}\label{{" in wide
+    assert re.search(r"\\label\{\S+\} \\\\\n&" + re.escape(reason) + r"\\notag", narrow)
+
+
+def test_a_formula_of_the_author_is_reduced_if_it_is_wider_than_the_text() -> None:
+    shown = page(Paragraph((DisplayedMath(sum(M * a**n for n in range(1, 9))),)), illustrations=())
+    wide, narrow = (fragment(shown, *ALONG, width) for width in (None, 5.0))
+    assert r"\resizebox" not in wide and needed(wide) == [r"\usepackage{amsmath}"]
+    assert r"\resizebox{.95\linewidth}" in narrow and r"\usepackage{graphicx}" in needed(narrow)

@@ -49,6 +49,7 @@ def test_what_a_template_prints_is_escaped_unless_it_is_tex_of_ours(tmp_path: Pa
         ("a\n<< heading.nothing >>\n", "no attribute is called `nothing`", 2),
         ("a\n<< heading.titel >>\n", "no attribute is called `titel`; did you mean `title`?", 2),
         ("a\n<< heading.title >\\par\n", "unexpected character `\\`", 2),
+        ("a\n<% if heading.title >>\n", "unexpected character `>`", 2),
         ("<< headin >>\n", "no value is called `headin`", 1),
         ("a\n\n<< 1/0 >>\n", "division by zero", 3),
         ("a\n<% endfor %>\n", "unknown tag 'endfor'", 2),
@@ -103,6 +104,27 @@ def test_a_template_that_nothing_uses_is_reported(tmp_path: Path) -> None:
     assert "templates/latex/headng.tex.j2" in complaint.message
     assert complaint.help == "did you mean `heading.tex.j2`?"
     assert unused_templates(ROOT) == []
+
+
+@pytest.mark.parametrize(
+    ("name", "help_line"),
+    [
+        ("heading.tex.j2", "put it in `templates/latex`"),
+        ("tex/heading.tex.j2", "put it in `templates/latex`"),
+        ("latex/own/heading.tex.j2", "put it in `templates/latex`"),
+        ("latex/style.css", "put it in `templates/html`"),
+        ("phrases/de/own.yml", "rename it to `own.yaml`"),
+        ("README.md", None),
+    ],
+)
+def test_a_template_in_a_wrong_place_is_reported(tmp_path: Path, name: str, help_line: str | None) -> None:
+    file = tmp_path / "templates" / name
+    file.parent.mkdir(parents=True)
+    file.write_text("x")
+    found = unused_templates(tmp_path)
+    assert [(each.message.split("`")[1], each.help) for each in found] == (
+        [(f"templates/{name}", help_line)] if help_line else []
+    )
 
 
 def test_phrases_outside_of_the_folder_of_a_language_have_no_effect(tmp_path: Path) -> None:

@@ -117,7 +117,7 @@ def test_a_wrong_form_is_not_printed(tmp_path: Path, monkeypatch: pytest.MonkeyP
         ("{x: b/m}", "letter-clash", "`x` already has a meaning"),
         ("{beta: 1/2}", "wrong-argument", "would be the number 1/2"),
         ("{beta: c/(2*m)}", "undeclared-symbol", "`c`"),
-        ("{beta: x/2}", "undeclared-symbol", "`x`"),
+        ("{beta: x/2}", "changes", "`define` is about constant letters, but `x` varies"),
         ("{beta: b + m}", "dimension", "cannot be added"),
         ("{sin: b/m}", "symbol", "`sin` has a meaning of its own"),
         ("none of it", "wrong-type", "`define` must be a mapping"),

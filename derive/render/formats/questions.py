@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from derive.render.formats import Format, Solution
@@ -10,21 +11,29 @@ if TYPE_CHECKING:
     from sympy import Symbol
 
     from derive.render.notation.notation import Notation
-    from derive.render.printing.chain_names import StepNames
     from derive.steps.step import Step
 
 
 def _rendered(solution: Solution) -> str:
     import json
 
-    from derive.render.printing.chain_names import Page
     from derive.render.printing.contract import contract
+    from derive.render.printing.plain_sympy import coordinate_of
     from derive.render.printing.tex_in_html import TexInHtml
 
     page, document = TexInHtml(solution.document, solution.words, solution.notation), solution.document
     derivation = solution.derivation
-    known, names = json.loads(contract(solution)), Page(derivation.steps)
+    contents = json.loads(contract(solution))
     letters = {declared.symbol for declared in solution.problem.letters}
+    names = {letter.name for letter in letters}
+    moving = {letter for letter in letters if f"{coordinate_of(letter)[0]}_dot" in names}
+    known = moving | {declared.symbol for declared in solution.problem.symbols.values()}
+    typed = {
+        step.key: typed_formula(step, letters, known)
+        for asked in solution.problem.parts
+        for step in derivation.answering(asked.answers)
+    }
+    used = set[Any]().union(*(each.letters for each in typed.values() if each is not None))
     parts = [
         {
             "label": part.label,
@@ -35,52 +44,118 @@ def _rendered(solution: Solution) -> str:
             "answers": [
                 {
                     "key": step.key,
-                    "positive": _is_of_positive_letters(step),
                     "components": _components(step, solution.notation),
-                    **known["answers"][step.key],
-                    **_in_letters(names.names_of(step), letters),
+                    **contents["answers"][step.key],
+                    **_told(typed[step.key], solution.notation),
                 }
                 for step in derivation.answering(asked.answers)
             ],
         }
-        for part, told, asked in zip(document.parts, known["parts"], solution.problem.parts, strict=True)
+        for part, told, asked in zip(document.parts, contents["parts"], solution.problem.parts, strict=True)
     ]
     data = {
-        "problem": known["problem"],
-        "title": known["title"],
+        "problem": contents["problem"],
+        "title": contents["title"],
         "statement": page.statement(),
         "remarks": page.remarks(),
+        "letters": sorted(letter.name for letter in letters | used),
+        "typing": page.typing(used),
         "parts": parts,
     }
     return json.dumps(data, ensure_ascii=False, indent=1)
 
 
-def _is_of_positive_letters(step: Step) -> bool:
-    """Return whether all letters of an answer are positive: a platform may then replace sqrt(x^2) by x."""
-    values = [of for name, of in step.names if name in getattr(step.result, "free_symbols", ())]
-    letters = (getattr(each, "free_symbols", ()) for each in (step.result, *values))
-    return all(letter.is_positive for found in letters for letter in found)
+@dataclass(frozen=True)
+class Typed:
+    """An answer as students type it on a platform that compares formulas.
+
+    symbol   the left side
+    text     the formula in plain text; the rate of a coordinate theta is `theta_dot`
+    letters  the letters of the formula
+    names    the quantities, such as mu, that the formula on the page contains, each with its own formula. A platform
+             does not know these quantities, so `text` contains their formulas
+    """
+
+    symbol: Any
+    text: str
+    letters: set[Symbol]
+    names: dict[str, str]
 
 
-def _in_letters(named: StepNames, letters: set[Symbol]) -> dict[str, Any]:
-    """Return an answer in the letters of the problem, and the quantities, such as mu, that its formula on the page
-    contains. The mapping is empty if there are no such quantities. A platform that compares formulas does not know
-    these quantities."""
-    from sympy import Expr, Symbol
+def typed_formula(step: Step, letters: set[Symbol], known: set[Symbol]) -> Typed | None:
+    """Return an answer as students type it; None if plain text cannot express it.
 
+    letters  the letters of the problem
+    known    the letters that a solved equation may contain: with an unknown force in it, its form is not unique
+    """
+    from sympy import Expr, I, MatrixBase, Symbol, oo, zoo
+    from sympy.core.numbers import NumberSymbol, pi
+
+    from derive.algebra.expressions import PLUS_MINUS, Relation
     from derive.algebra.node import explicit
 
-    step = named.step
-    used: set[Any] = getattr(explicit(step.result), "free_symbols", set()) - letters
+    symbol, result = _solved(step)
+    value = None if result is None else explicit(result)
+    if not isinstance(value, Expr | MatrixBase) or value.has(PLUS_MINUS, I, oo, zoo):
+        return None
+    if any(value.atoms(NumberSymbol) - {pi}):
+        return None
+    used: set[Any] = value.free_symbols - letters
     values = {
         name: explicit(of)
         for name, of in step.names
         if isinstance(name, Symbol) and isinstance(of, Expr) and name in used
     }
-    if not values:
-        return {}
-    names = {str(named.text_of_value(name)): named.text_of_value(of) for name, of in values.items()}
-    return {"sympy": named.text_of_value(explicit(step.result).xreplace(values)), "names": names}
+    whole = value.xreplace(values)
+    names = {str(name): _plain(of) for name, of in values.items()}
+    if isinstance(step.result, Relation) and not whole.atoms(Symbol) <= known:
+        return None
+    return Typed(symbol, _plain(whole), set(whole.atoms(Symbol)), names)
+
+
+def _solved(step: Step) -> tuple[Any, Any]:
+    """Return the symbol and the value of an answer. An equation is solved for its left side or for its only second
+    rate; any other relation has the value None."""
+    from sympy import Symbol, diff
+
+    from derive.algebra.expressions import RATES, Relation, bound
+    from derive.algebra.node import explicit
+    from derive.algebra.tidy import tidied
+
+    if not isinstance(step.result, Relation):
+        return step.symbol, step.result
+    relation = explicit(step.result)
+    if step.result.operator != "=" or not isinstance(relation, Relation):
+        return None, None
+    if isinstance(relation.left, Symbol) and not relation.right.has(relation.left):
+        return relation.left, relation.right
+    residual = relation.residual.expand()
+    highest = [letter for letter in residual.atoms(Symbol) if letter.name.endswith(RATES[2])]
+    if len(highest) != 1 or (factor := diff(residual, *highest)).has(*highest):
+        return None, None
+    return highest[0], tidied(-bound(residual, {highest[0]: 0}) / factor)
+
+
+def _plain(value: Any) -> str:
+    """Return plain text of a formula, in which each letter has its own name."""
+    import re
+
+    from derive.render.printing.plain_sympy import sympy_text
+
+    return re.sub(r"Symbol\('(\w+)'\)", r"\1", sympy_text(value))
+
+
+def _told(typed: Typed | None, notation: Notation) -> dict[str, Any]:
+    from derive.render.notation.latex import latex
+
+    if typed is None:
+        return {"sympy": ""}
+    return {
+        "symbol": "" if typed.symbol is None else latex(notation.layout(typed.symbol)),
+        "sympy": typed.text,
+        "positive": sorted(letter.name for letter in typed.letters if letter.is_positive),
+        "names": typed.names,
+    }
 
 
 def _components(step: Step, notation: Notation) -> list[str]:

@@ -10,12 +10,13 @@ from collections.abc import Sequence
 from derive.page.numbering import Number
 from derive.page.template import Templates
 from derive.page.tree import Display, Document, Illustration
-from derive.page.wording import FigureRef, Inline, Phrases, ProblemRef
-from derive.render.notation.latex import escaped
+from derive.page.wording import DisplayedMath, FigureRef, Inline, Phrases, ProblemRef
+from derive.render.notation.latex import escaped, latex
+from derive.render.notation.layout import width as width_of
 from derive.render.notation.notation import Notation
 from derive.render.printing.amsmath import display_rows
-from derive.render.printing.latex_page import LatexPage
-from derive.render.printing.lines import Printed
+from derive.render.printing.latex_page import END_OF_DISPLAY, LatexPage
+from derive.render.printing.lines import Printed, reason_width
 from derive.render.printing.templates import filled_template
 from derive.render.rendered import Tex
 
@@ -26,7 +27,7 @@ PACKAGES = {
     r"\usepackage[T1]{fontenc}": (r"\textquotedbl", r"\guill", r"\k{", r"\DJ", r"\dj"),
     r"\usepackage{amsmath}": ("",),
     r"\usepackage{bm}": (r"\bm{",),
-    r"\usepackage{graphicx}": (r"\includegraphics",),
+    r"\usepackage{graphicx}": (r"\includegraphics", r"\resizebox"),
 }
 
 
@@ -72,13 +73,13 @@ class FragmentPage(LatexPage):
     def drawing(self, drawing: Illustration) -> Tex:
         """Return the drawing, with its caption if it has a figure number."""
         natural = rf"\includegraphics{{{drawing.stem}.pdf}}"
-        fitted = r"\ifdim\wd0>\linewidth\resizebox{\linewidth}{!}{\usebox0}\else\usebox0\fi"
-        shown = rf"\sbox0{{{natural}}}{fitted}"
+        shown = _fitted(natural)
         if drawing.number is None:
             return Tex(shown)
         number = rf"\refstepcounter{{figure}}\label{{{self._figure(drawing.key)}}}"
         label = rf"\textbf{{{escaped(self.words.labels['figure'])}~\thefigure.}}"
-        return Tex(rf"{shown}\par\smallskip{number}{{\small{label} {self.inline(drawing.caption)}}}")
+        caption = rf"{{\small\leavevmode{number}{label} {self.inline(drawing.caption)}}}"
+        return Tex(rf"{shown}\par\nobreak\smallskip{caption}")  # no page ends between a drawing and its caption
 
     def display(self, display: Display) -> Tex:
         """Return the rows of a display; each numbered line has the next equation number of the surrounding document."""
@@ -89,6 +90,9 @@ class FragmentPage(LatexPage):
         match node:
             case ProblemRef(text=text):
                 return escaped(text)
+            case DisplayedMath(expr) if width_of(layout := self.notation.result(expr)) > self._width:
+                formula = rf"$\displaystyle {latex(layout)}$"
+                return rf"\[{_fitted(formula, '.95')}{END_OF_DISPLAY}"
             case FigureRef(key=key, is_alone=is_alone):
                 label = "" if is_alone else rf"{escaped(self.words.labels['figure'])}~"
                 return rf"{label}\ref{{{self._figure(key)}}}"
@@ -99,13 +103,22 @@ class FragmentPage(LatexPage):
 
     def _ending(self, line: Printed) -> str:
         reason = rf"\quad\text{{\footnotesize[{self.inline(line.reason)}]}}" if line.reason else ""
-        if line.number is None or line.number in self._labelled:
-            return rf"{reason}\notag"
-        self._labelled.add(line.number)
-        return rf"{reason}\label{{{self._label(line.number)}}}"
+        number = r"\notag"
+        if line.number is not None and line.number not in self._labelled:
+            self._labelled.add(line.number)
+            number = rf"\label{{{self._label(line.number)}}}"
+        if reason and line.width + reason_width(line.reason) > self._width:  # the reason has a row of its own
+            return f"{number} \\\\\n&{reason}\\notag"
+        return f"{reason}{number}"
 
     def _figure(self, key: str) -> str:
         return f"{self.document.id}:figure:{key}"
 
     def _label(self, number: Number) -> str:
         return f"{self.document.id}:{self._keys[number]}"
+
+
+def _fitted(tex: str, share: str = "") -> str:
+    """Return TeX that is reduced if it is wider than this share of the line."""
+    room = rf"{share}\linewidth"
+    return rf"\sbox0{{{tex}}}\ifdim\wd0>{room}\resizebox{{{room}}}{{!}}{{\usebox0}}\else\usebox0\fi"

@@ -43,7 +43,7 @@ def _filled(templates: Templates, kind: str, template: str, facts: Mapping[str, 
     except TemplateSyntaxError as error:
         at = _line(templates.file(f"{kind}/{error.name or template}"), error.lineno)
         message, help_line = f"the template cannot be read: {_said(error)}", None
-        if unexpected := re.fullmatch(r"(.*unexpected )char '(.*)' at \d+", message):
+        if unexpected := re.fullmatch(r"(.*unexpected )(?:char )?'(\\?.)'(?: at \d+)?", message):
             message = f"{unexpected[1]}character `{unexpected[2][-1]}`"
             help_line = "`<<` needs `>>`, and `<%` needs `%>`"
         raise Rejected(Complaint("template", message, at, help=help_line)) from error

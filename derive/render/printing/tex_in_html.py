@@ -10,12 +10,25 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from html import escape
 
+from sympy import Symbol
+
 from derive.course.placement import STATEMENT
 from derive.page.chain_lines import Equations
 from derive.page.cross_references import found_before
 from derive.page.introduced_symbols import references_in
 from derive.page.tree import Block, Display, Folded, Illustration, PartPage
-from derive.page.wording import DimensionMark, Inline, Math, NewParagraph, ProblemRef, Ref, Text, UnitMark
+from derive.page.wording import (
+    DimensionMark,
+    Inline,
+    Math,
+    NewParagraph,
+    ProblemRef,
+    Ref,
+    Text,
+    UnitMark,
+    filled,
+    joined,
+)
 from derive.render.notation.latex import dimension_latex, latex, unit_latex
 from derive.render.printing.amsmath import aligned, display_rows
 from derive.render.printing.lines import TEXT_WIDTH
@@ -58,6 +71,14 @@ class TexInHtml(MarkdownPage):
         keys = {each.groups[0].key for each in shown}
         told = found_before((step for step in steps if step.key in keys), self.document.shown_in, self.words)
         return "\n".join([*map(self.paragraph, told), *map(self._display, shown)])
+
+    def typing(self, letters: Iterable[Symbol]) -> str:
+        """Return a sentence that says how to type the letters whose names have more than one character; an empty text
+        if there are none."""
+        long = sorted((letter for letter in letters if len(letter.name) > 1), key=lambda letter: letter.name)
+        words = self.words.labels
+        told = [filled(words["typed_letter"], {"name": Text(each.name), "letter": Math(each)}) for each in long]
+        return self.paragraph(filled(words["typed"], {"letters": joined(told, words["and"])})) if told else ""
 
     def remarks(self) -> str:
         """Return the strategy and the note, if the problem has them."""

@@ -256,7 +256,7 @@ class Marked:
         author states no size."""
         if written is None:
             return None
-        size, _ = read_expression(written.scalar, {})
+        size, _ = read_expression(written.scalar, None)
         if not size.is_number or not size.is_positive:
             rejected("not-positive", f"`size` must be a positive number, but `{written}` is not", written.place)
         return size
