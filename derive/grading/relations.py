@@ -14,7 +14,7 @@ from sympy import Expr, Integer, MatrixBase, Rational, Symbol, acos, asin, atan,
 
 from derive.algebra.dimensions import NUMBER
 from derive.algebra.equality import equal
-from derive.algebra.expressions import PLUS_MINUS, Relation
+from derive.algebra.expressions import PLUS_MINUS, RATES, Relation, rate
 from derive.algebra.ranges import never_vanishes_within
 from derive.audit.time_limit import FAULTS
 from derive.grading.comparing import _Comparison, aligned, factor_is_near, shown, verdict_on_value
@@ -233,13 +233,18 @@ def _inhomogeneous(comparison: _Comparison, typed: Relation) -> Verdict | None:
 
 def _scalings(given: Expr, wanted: Expr) -> list[Expr]:
     """Return at most four multiples of an equation, the one with the most terms of the right equation first; if several
-    have equally many, the unchanged equation comes first. Each multiple has at least one such term.
+    have equally many, the unchanged equation comes first. Each multiple has at least one such term, and its factor
+    contains no rate and no coordinate: M = 0 is not an equation of motion in which a term is missing.
     """
+    letters = {each for each in wanted.free_symbols if isinstance(each, Symbol)}
+    moving = {each for each in letters if each.name.endswith(RATES[1:]) or {rate(each), rate(each, 2)} & letters}
     terms = [sympy.Add.make_args(each) for each in (given, wanted)]
     found: dict[Expr, Expr] = {}
     for term in terms[0][:6]:
         for goal in terms[1][:8]:
             ratio = goal / term
+            if ratio.free_symbols & moving:
+                continue
             if not any(factor.as_base_exp()[0].is_Add for factor in sympy.Mul.make_args(ratio)):
                 found.setdefault(ratio, sympy.expand(given * ratio))
     common = [each for each in found if sum(sympy.expand(t * each) in terms[1] for t in terms[0])]
