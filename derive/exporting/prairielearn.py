@@ -82,7 +82,8 @@ def _field(number: int, answer: Answer, usable: Sequence[str]) -> str:
         return f"{label}\n" + _element("pl-number-input", compared)
     if not _is_comparable(answer):
         return ""
-    return f"{label}\n" + _element("pl-symbolic-input", f'{name} variables="{", ".join(usable)}"')
+    variables = f'{name} variables="{", ".join(usable)}"'
+    return f"{label}\n" + _element("pl-symbolic-input", variables)
 
 
 def _is_comparable(answer: Answer) -> bool:
