@@ -16,9 +16,10 @@ from sympy import Expr, MatrixBase, Symbol
 from derive.audit.assumptions import Assumed
 from derive.audit.claims import Claim, Definition, Outcome, Verdict
 from derive.audit.deciding import Decision, counterexample, entries_of, same
-from derive.audit.dimensions import odd_claim
+from derive.audit.dimensions import odd_claims
 from derive.audit.expected import Compared, Expected, compared
 from derive.audit.knowledge import ASSUMED, Known
+from derive.audit.named_quantities import named_quantities
 from derive.audit.nearest_change import Nearness, letters_in, terms_in
 from derive.audit.slips import WHY, Edit, nearest_edit
 from derive.audit.systems import (
@@ -762,14 +763,16 @@ class _Auditor:
     def blame_odd_dimensions(self) -> None:
         """Report the row, if any, whose terms contradict the dimensions that all other rows of its problem or section
         give."""
+        named = named_quantities(self.document, lambda row: scope_of(self.document, row))
         by_scope: dict[int, list[Claim]] = {}
         for claim in self.claims:
             by_scope.setdefault(scope_of(self.document, claim.row), []).append(claim)
-        for claims in by_scope.values():
-            odd = odd_claim(claims, self.meaning)
-            if odd is not None:
+        for scope, claims in by_scope.items():
+            odd = odd_claims(claims, self.meaning, named.get(scope, {}))
+            if odd:
+                others = tuple(dict.fromkeys(each.row.line for each in odd[1:]))
                 because = "the dimensions of its terms contradict the other rows"
-                odd.verdict = Verdict(Outcome.DIFFERS, because)
+                odd[0].verdict = Verdict(Outcome.DIFFERS, because, or_lines=others)
 
     def shown(self, span: Span) -> str:
         return self.document.source.text[span.start : span.end].strip()
