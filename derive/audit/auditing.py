@@ -23,7 +23,7 @@ from derive.audit.named_quantities import named_quantities
 from derive.audit.nearest_change import Nearness, letters_in, terms_in
 from derive.audit.slips import WHY, Edit, nearest_edit
 from derive.audit.systems import (
-    difference_of_energies,
+    energies,
     equations_of_motion,
     expanded,
     frequency_equations,
@@ -208,6 +208,7 @@ class _Auditor:
         self.claims: list[Claim] = []
         self.explanations: dict[int, list[Claim]] = {}  # by the id of the block of a display
         self.written: Counter[Identity] = Counter()  # how many claims contain a letter
+        self.lagrangians: dict[int, tuple[Expr, int]] = {}  # L = T - U, by the number of the claim that it precedes
         self.explained: set[int] = set()  # the numbers of claims that explain letters of the display before them
 
     def begin(self, scope: int) -> None:
@@ -280,7 +281,8 @@ class _Auditor:
             with suppress(LimitReached, RecursionError, *FAULTS), time_limited(search):
                 self.accuse_if_near(claim, claim.verdict)
         failed = claim.verdict.outcome is Outcome.DIFFERS and claim.verdict.inherits is None
-        if failed or (undecided and display and not self.may_be_special(claim)):
+        contradicts = claim.verdict.outcome is Outcome.DEFINES and claim.verdict.contradicts is not None
+        if failed or ((undecided or contradicts) and display and not self.may_be_special(claim)):
             with suppress(LimitReached, RecursionError, *FAULTS), time_limited(search):
                 self.fixes += self.fixes_before(claim)
         with suppress(LimitReached, RecursionError, *FAULTS), time_limited(seconds):
@@ -324,12 +326,14 @@ class _Auditor:
         left = claim.left
         if not claim.row.block.display or claim.before is not None or not isinstance(left, Letter) or left.base != "L":
             return
-        symbol, found = self.meaning.symbol(replace(left, dots=0)), difference_of_energies(self.known)
+        symbol, found = self.meaning.symbol(replace(left, dots=0)), energies(self.known)
         letters = {each.base for each in letters_in(claim.right)}
         if left.sub or left.dots or left.marks or letters & set("TKUV") or found is None:
             return
         if symbol not in self.known.definitions:
-            self.known.state(symbol - found[0], found[1])
+            kinetic, potential = found
+            self.lagrangians[claim.number] = (symbol - kinetic.symbol + potential.symbol, potential.claim)
+            self.known.state(symbol - kinetic.value + potential.value, max(kinetic.claim, potential.claim))
 
     def explain(self, claim: Claim) -> None:
         """Remember the values that the words after this display give to letters: `..., where rho = M/V`."""
@@ -606,7 +610,7 @@ class _Auditor:
             return []
         found: list[Fix] = []
         wanted = self.letters_behind(claim)
-        undecided = claim.verdict is not None and claim.verdict.outcome is Outcome.UNDECIDED
+        undecided = claim.verdict is not None and claim.verdict.outcome is not Outcome.DIFFERS
         tried = 0
         for earlier in reversed(self.claims[: claim.number]):
             if scope_of(self.document, earlier.row) != self.scope or tried == MOST_FIXED:
@@ -662,6 +666,8 @@ class _Auditor:
         try:
             for each in self.claims[: claim.number + 1]:
                 if each is not earlier and scope_of(self.document, each.row) == self.scope:
+                    if each.number in self.lagrangians:
+                        self.known.state(*self.lagrangians[each.number])
                     self.remember(each, believed=each is claim)
             return self.known
         finally:
@@ -710,28 +716,47 @@ class _Auditor:
         return None
 
     def blame_earlier_rows(self) -> None:
-        for earlier in {fix.earlier.number: fix.earlier for fix in self.fixes}.values():
-            edits = Counter((fix.edit.was, fix.edit.meant) for fix in self.fixes if fix.earlier is earlier)
-            chosen, _count = edits.most_common(1)[0]
-            fixes = [f for f in self.fixes if f.earlier is earlier and (f.edit.was, f.edit.meant) == chosen]
+        explained: dict[int, Claim] = {}  # the blamed row, by the number of a claim that follows after its change
+        for fixes in self.fixes_by_row():
+            earlier, meant = fixes[0].earlier, suggestion_of(fixes[0].edit)
+            if all(fix.claim.number in explained for fix in fixes):
+                for blamed in {explained[fix.claim.number].number for fix in fixes}:
+                    verdict = self.claims[blamed].verdict
+                    assert verdict is not None
+                    verdict.or_lines += (earlier.row.line,)
+                continue
             alone = all(fix.claim.verdict is None or not fix.claim.verdict.suggestion for fix in fixes)
-            meant = suggestion_of(fixes[0].edit)
-            if len(fixes) > 1 or alone:
+            if len(fixes) > 1 or alone or any(self.followers(fix.claim) for fix in fixes):
                 lines = ", ".join(str(fix.claim.row.line) for fix in fixes)
                 where = f"line{'s' * (len(fixes) > 1)} {lines}"
-                verdict = Verdict(Outcome.DIFFERS, f"{where} would follow after one change here")
-                verdict.suggestion, verdict.why_plausible = meant, WHY[fixes[0].edit.kind]
-                verdict.span = fixes[0].edit.span
-                earlier.verdict = verdict
-                for fix in fixes:
-                    fix.claim.verdict = Verdict(
-                        Outcome.HOLDS, "it follows from a row that is probably wrong", inherits=earlier.number
-                    )
+                earlier.verdict = Verdict(
+                    Outcome.DIFFERS, f"{where} would follow after one change here", suggestion=meant,
+                    why_plausible=WHY[fixes[0].edit.kind], span=fixes[0].edit.span,
+                )  # fmt: skip
+                for claim in [each for fix in fixes for each in (fix.claim, *self.followers(fix.claim))]:
+                    because = "it follows from a row that is probably wrong"
+                    claim.verdict = Verdict(Outcome.HOLDS, because, inherits=earlier.number)
+                    explained[claim.number] = earlier
                 continue
             for fix in fixes:
                 if fix.claim.verdict is not None and fix.claim.verdict.outcome is Outcome.DIFFERS:
                     fix.claim.verdict.or_lines += (earlier.row.line,)
                     fix.claim.verdict.because += f"; or the slip is in line {earlier.row.line}: {meant}"
+
+    def fixes_by_row(self) -> list[list[Fix]]:
+        """Return the fixes with the most frequent change of each earlier row. Rows after whose change the most later
+        rows follow come first."""
+        found = []
+        for earlier in {fix.earlier.number: fix.earlier for fix in self.fixes}.values():
+            of_row = [fix for fix in self.fixes if fix.earlier is earlier]
+            edits = Counter((fix.edit.was, fix.edit.meant) for fix in of_row)
+            chosen, _count = edits.most_common(1)[0]
+            found.append([fix for fix in of_row if (fix.edit.was, fix.edit.meant) == chosen])
+        return sorted(found, key=lambda fixes: (-len(fixes), fixes[0].edit.cost, fixes[0].earlier.number))
+
+    def followers(self, claim: Claim) -> list[Claim]:
+        """Return the later claims that follow only from a wrong claim: they show that this claim may be right."""
+        return [each for each in self.claims if each.verdict is not None and each.verdict.inherits == claim.number]
 
     def blame_formulas(self) -> None:
         """If two rows give different values of a letter, blame the first if later rows follow only from the second."""
@@ -742,23 +767,43 @@ class _Auditor:
             formula, line = self.claims[verdict.contradicts], self.claims[verdict.contradicts].row.line
             if formula.verdict is None or formula.verdict.outcome is Outcome.DIFFERS:
                 continue
-            later = [each for each in self.claims if each.verdict and each.verdict.inherits == claim.number]
+            later = self.followers(claim)
             between = self.claims[formula.number + 1 : claim.number]
             used = any(each.verdict and formula.number in each.verdict.given for each in between)
             of_same = formula.values is not None and claim.values is not None and formula.values[0] == claim.values[0]
             if used or not of_same or formula.verdict.outcome is Outcome.HOLDS:
                 later = []
             if later:
-                because = f"line {claim.row.line} gives a different value, and later rows follow only from that value"
-                formula.verdict = replace(
-                    verdict, because=because, suggestion="", span=None, or_lines=(claim.row.line,)
-                )
+                self.blame_formula(formula, claim)
                 claim.verdict = Verdict(Outcome.HOLDS, "later rows follow from this value")
                 for each in later:
                     each.verdict = Verdict(Outcome.HOLDS, "it follows from an earlier row", (claim.number,))
             elif line not in (claim.row.line, *verdict.or_lines):
                 verdict.or_lines += (line,)
                 verdict.because += f"; or the slip is in line {line}"
+
+    def blame_formula(self, formula: Claim, claim: Claim) -> None:
+        """Blame a formula that contradicts the value in `claim`, or else the earlier value of one of its letters, if
+        one change of this value, but no change of the formula, gives the value in `claim`."""
+        assert claim.verdict is not None
+        because = f"line {claim.row.line} gives a different value, and later rows follow only from that value"
+        letters = self.letters_behind(formula)
+        behind = [each for each in self.claims[: claim.number] if each.values and each.values[0] in letters]
+        suspects = [formula, *(each for each in reversed(behind) if each is not formula and self.may_be_changed(each))]
+        self.scope = self.meaning.scope = scope_of(self.document, claim.row)
+        edits: list[tuple[Claim, Edit]] = []
+        for suspect in suspects:
+            with suppress(LimitReached, RecursionError, *FAULTS), time_limited(SECONDS_OF_SEARCH):
+                lost: list[Node] | None = [*letters_in(suspect.right)] if suspect is not formula else None
+                edit = self.near_edit(suspect, self.known_without(suspect, claim), lost)
+                edits += [(suspect, edit)] if edit is not None else []
+        verdict = replace(claim.verdict, because=because, suggestion="", span=None)
+        blamed = formula
+        if edits:
+            blamed, edit = edits[0]
+            verdict.suggestion, verdict.why_plausible, verdict.span = suggestion_of(edit), WHY[edit.kind], edit.span
+        verdict.or_lines = (claim.row.line, *(each.row.line for each, _ in edits[1:]))
+        blamed.verdict = verdict
 
     def blame_odd_dimensions(self) -> None:
         """Report the row, if any, whose terms contradict the dimensions that all other rows of its problem or section

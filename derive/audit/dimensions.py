@@ -31,6 +31,7 @@ USUAL = {  # the powers of mass, length and time
 LESS_USUAL = ("l", "T", "R", "x", "y", "z", "r")
 MOST_CANDIDATES = 12
 FEWEST_CLAIMS = 6
+UNDERIVED = (Outcome.DEFINES, Outcome.UNDECIDED)
 FOLLOWS = (Outcome.HOLDS, Outcome.APPROXIMATES)
 Form = dict[str, Fraction]  # the exponents of the letters in a product
 
@@ -95,9 +96,9 @@ def odd_claims(claims: Sequence[Claim], meaning: Meaning, named: Mapping[str, Po
         return []
     shared = set.intersection(*conflicts)
     by_number = {claim.number: claim for claim in claims}
-    candidates = [claim for number in sorted(shared) if (claim := by_number[number]).verdict is not None]
-    underived = [each for each in candidates if each.verdict.outcome in (Outcome.DEFINES, Outcome.UNDECIDED)]
-    for among in (underived, [each for each in candidates if each.verdict.outcome in FOLLOWS]):
+    candidates = [by_number[number] for number in sorted(shared)]
+    for outcomes in (UNDERIVED, FOLLOWS):
+        among = [each for each in candidates if each.verdict is not None and each.verdict.outcome in outcomes]
         found = [
             claim
             for claim in among[:MOST_CANDIDATES]

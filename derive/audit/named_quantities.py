@@ -39,7 +39,7 @@ _ADJECTIVE = (
     "|smallest|largest|greatest|least|static|radial|tangential|signed|perpendicular|moment"
 )
 _BEFORE = re.compile(rf"(?<![\w-])(?<!centre of )(?<!center of )(?P<name>{_NAME})(?: (?:is|are))?$")
-_OF_SOMETHING = re.compile(rf"(?<![\w-])(?P<name>coefficient of \w+ friction)[\w ]* is$")
+_OF_SOMETHING = re.compile(r"(?<![\w-])(?P<name>coefficient of \w+ friction)[\w ]* is$")
 _AFTER = re.compile(
     rf" (?P<verb>(?:be|is|denotes?) )?(?:the|its|their|an?) (?:(?:{_ADJECTIVE}) )?"
     rf"(?P<name>{_NAME})(?![\w-])(?! (?:per|squared|in units))"

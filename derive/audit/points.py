@@ -25,6 +25,7 @@ SMALL = 1e-10  # an equation with a smaller residual, relative to its terms, cou
 DAMPING = 1e-9  # the relative increase of the diagonal of the linear system
 SMALLEST = 1e-3  # the smallest absolute value of a letter
 LARGEST = 1e3  # the largest absolute value of a letter
+OF_EITHER_SIGN = ("E", "H", "L", "U", "V")  # names of energies and Lagrangians
 WEIGHTS = (0.05, 0.3, 1.0)  # the weights in changes: of constants, of letters that change with time, of rates
 
 Numbers = dict[Symbol, complex]
@@ -101,8 +102,13 @@ class Surface:
     def is_general(self, here: Numbers, equations: Sequence[Equation]) -> bool:
         letters = set().union(*(each.value.free_symbols for each in equations)) if equations else set()
         return all(
-            SMALLEST < abs(here[each]) < LARGEST and (here[each].real > 0 or not each.is_positive) for each in letters
+            SMALLEST < abs(here[each]) < LARGEST and (here[each].real > 0 or self.has_either_sign(each))
+            for each in letters
         )
+
+    def has_either_sign(self, symbol: Symbol) -> bool:
+        letter = self.meaning.symbols.get(symbol)
+        return not symbol.is_positive or (letter is not None and letter.base in OF_EITHER_SIGN)
 
 
 @lru_cache(maxsize=2000)

@@ -241,17 +241,26 @@ def _lagrangians(known: Known, last: int) -> list[tuple[Expr, int]]:
 def difference_of_energies(known: Known) -> tuple[Expr, int] | None:
     """Return T - U and the number of the later of the two claims; None unless the document speaks of Lagrange and gives
     values to both energies."""
-    energies: dict[str, Definition] = {}
+    found = energies(known)
+    if found is None:
+        return None
+    kinetic, potential = found
+    return kinetic.value - potential.value, max(kinetic.claim, potential.claim)
+
+
+def energies(known: Known) -> tuple[Definition, Definition] | None:
+    """Return the values of the kinetic and of the potential energy; None unless the document speaks of Lagrange and
+    gives values to both."""
+    found: dict[str, Definition] = {}
     for symbol, definitions in list(known.definitions.items()):
         letter = known.meaning.symbols.get(symbol)
         if letter is None or letter.dots or letter.primes or letter.sub or definitions[-1].claim in known.conditions:
             continue
         if letter.base in ("T", "K", "U", "V"):
-            energies["kinetic" if letter.base in "TK" else "potential"] = definitions[-1]
-    if len(energies) < 2 or not known.meaning.facts.has_lagrange:
+            found["kinetic" if letter.base in "TK" else "potential"] = definitions[-1]
+    if len(found) < 2 or not known.meaning.facts.has_lagrange:
         return None
-    kinetic, potential = energies["kinetic"], energies["potential"]
-    return kinetic.value - potential.value, max(kinetic.claim, potential.claim)
+    return found["kinetic"], found["potential"]
 
 
 def _lagrange_equations(value: Expr, meaning: Meaning) -> Iterator[tuple[Symbol, Expr]]:
