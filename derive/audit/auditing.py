@@ -61,6 +61,7 @@ _BRACKETS = re.compile(
 _CONSTANT = re.compile(r"[ck]onst|c(?:st|te)\b", re.IGNORECASE)
 _NEW_SCOPE = re.compile(PROBLEM_WORDS, re.IGNORECASE)
 _EXPLAINS = re.compile(r"[\s,;}~]*(?:where|with|in which|here)\b", re.IGNORECASE)
+_REFERENCE = re.compile(r"\\(?:eq)?ref\{([^{}]+)\}")
 _ENDS_SENTENCE = re.compile(r"[.!?](?:\s|$)|\n[ \t]*\n")
 
 
@@ -572,6 +573,14 @@ class _Auditor:
         letters = letters_in(claim.left if claim.before is None else None, claim.right)
         return {self.shown(each.span) for each in letters if self.written[each.identity] == 1}
 
+    def letters_for_strange(self, claim: Claim, written: list[Letter]) -> list[Letter]:
+        """Return further letters of the document if a claim contains a letter that no other claim contains."""
+        if not self.strange_letters(claim):
+            return []
+        known = {(each.identity, each.dots) for each in written}
+        often = [each for each in self.meaning.symbols.values() if self.written[each.identity] > 1]
+        return [each for each in often if (each.identity, each.dots) not in known][:MOST_INDICES]
+
     def lost_letters(self, claim: Claim, written: list[Letter]) -> list[Letter]:
         """Return letters that a row lacks, although the earlier rows from which it should follow contain them."""
         assert claim.values is not None
@@ -619,7 +628,7 @@ class _Auditor:
                 continue
             if not self.letters_behind(earlier) & wanted:
                 continue
-            if undecided and earlier.row.block.part != claim.row.block.part and not self.is_motion(earlier):
+            if undecided and not self.belongs_to(claim, earlier) and not self.is_motion(earlier):
                 continue  # a later part may be about another case
             tried += 1
             edit = self.near_edit(earlier, self.known_without(earlier, claim))
@@ -687,6 +696,7 @@ class _Auditor:
         letter = claim.values[0] if isinstance(claim.values[0], Symbol) and not claim.is_step else None
         letters = self.with_other_indices(letters_in(left_node, right_node))
         letters += self.lost_letters(claim, letters) if known is self.known else []
+        letters += self.letters_for_strange(claim, letters)
         terms = self.terms_before(claim) if known is self.known and not self.may_be_special(claim) else lost
         near = Nearness(
             self.meaning, known, [each for each in letters if letter is None or self.meaning.symbol(each) != letter],
@@ -702,18 +712,24 @@ class _Auditor:
 
     def near_motion(self, claim: Claim, near: Nearness, right_node: Node, letter: Symbol) -> Edit | None:
         """Return one change after which a frequency, a period or a motion would follow from an equation of motion, or
-        None. The equation of motion belongs to an earlier row of the same part."""
+        None. The equation of motion belongs to the same part, or the sentence refers to it."""
         assert claim.values is not None
-        part = claim.row.block.part
         for equation, number in reversed(frequency_equations(letter, self.meaning, near.known)):
-            if self.claims[number].row.block.part == part:
+            if self.belongs_to(claim, self.claims[number]):
                 edit = near.of_root(right_node, letter, equation)
                 if edit is not None and edit.meant != "1":  # a factor such as 2 in 2k may be right: two springs
                     return edit
         for equation, number in reversed(equations_of_motion(*claim.values, self.meaning, near.known)):
-            if self.claims[number].row.block.part == part:
+            if self.belongs_to(claim, self.claims[number]):
+                lost = [self.meaning.symbols[each] for each in equation.free_symbols if each in self.meaning.symbols]
+                near.letters = [*near.letters, *(each for each in lost if not each.dots and each not in near.letters)]
                 return near.of_motion(right_node, letter, equation)
         return None
+
+    def belongs_to(self, claim: Claim, earlier: Claim) -> bool:
+        """Whether an earlier row is in the same part as a claim, or the sentence of the claim refers to its label."""
+        block = claim.row.block
+        return earlier.row.block.part == block.part or earlier.row.label in _REFERENCE.findall(block.sentence)
 
     def blame_earlier_rows(self) -> None:
         explained: dict[int, Claim] = {}  # the blamed row, by the number of a claim that follows after its change

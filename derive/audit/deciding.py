@@ -395,14 +395,16 @@ class Decision:
             among = small_letters(left.free_symbols | right.free_symbols, self.meaning)
             if self.claim.relation == "=":
                 among = [each for each in among if len(each) > 1 or self.may_be_small(each[0])]
-            order = order_of_error(left, right, self.meaning, among)
-            if order is not None:
+            for order in (order_of_error(left, right, self.meaning, [each]) for each in among):
+                if order is None:
+                    continue
                 letters, power = order
                 words = " and ".join(_word(each) for each in letters)
-                if letters == changing_letters(left.free_symbols, self.meaning) and power <= _degree(right, letters):
+                if power > _degree(right, letters):
+                    return Verdict(Outcome.APPROXIMATES, f"the error is of order {power} in {words}", used)
+                if letters == changing_letters(left.free_symbols, self.meaning):
                     because = f"the terms of order {power} in {words} are not those of the left side"
                     return Verdict(Outcome.DIFFERS, because, used)
-                return Verdict(Outcome.APPROXIMATES, f"the error is of order {power} in {words}", used)
         if self.claim.relation in ("~", "prop"):
             return Verdict(Outcome.UNDECIDED, "this approximation or proportionality cannot be checked")
         return None

@@ -83,7 +83,8 @@ def odd_claims(claims: Sequence[Claim], meaning: Meaning, named: Mapping[str, Po
 
     named   the dimensions of letters that the words of the document name
     """
-    equations = [each for claim in claims for each in equations_of(claim, meaning)]
+    agreed = [each for each in claims if each.verdict is None or each.verdict.outcome is not Outcome.DIFFERS]
+    equations = [each for claim in agreed for each in equations_of(claim, meaning)]
     if len({each.source for each in equations}) + len(named) < FEWEST_CLAIMS:
         return []
     equations += usual(equations, meaning, named)

@@ -56,7 +56,8 @@ class Nearness:
         if state not in self.known.kept:
             surface = Surface(equations, self.meaning).find(POINTS)
             # A row that later rows contradict is reported as wrong only if all other rows agree with each other.
-            refused = [each for each in equations if each not in surface.kept and each.name != OF_RATES]
+            agree = [*surface.kept, *surface.special]
+            refused = [each for each in equations if each not in agree and each.name != OF_RATES]
             self.known.kept[state] = [] if self.written and refused else surface.points
         return [
             Numbers(self.meaning, self.defined(letter), point, fixed)
@@ -116,7 +117,8 @@ class Nearness:
         complete = one == other if is_step else one | other <= set(points[0].fixed)
         for edit, first in self.edits_of_both(left, right, complete):
             if holds(edit.node, right) if first else holds(left, edit.node):
-                return None if is_other_root(edit, left if first else right) else edit
+                # A later row shows which of two roots is right.
+                return None if not self.written and is_other_root(edit, left if first else right) else edit
         return None
 
     def of_value(self, side: Node, value: Expr) -> Edit | None:

@@ -38,17 +38,20 @@ class Surface:
     equations: Sequence[Equation]
     meaning: Meaning
     kept: list[Equation] = field(default_factory=list)
+    special: list[Equation] = field(default_factory=list)  # equations that hold only if a rate or coordinate vanishes
     points: list[Numbers] = field(default_factory=list)
 
     def find(self, count: int) -> Surface:
         here = self.begin(0)
         for each in self.equations:
-            starts = (here, *map(self.begin, range(1, OTHER_STARTS + 1)))
+            starts = [here, *map(self.begin, range(1, OTHER_STARTS + 1))]
             tried = (self.moved(start, [*self.kept, each]) for start in starts)
             found = next((there for there in tried if there is not None), None)
             if found is not None:
                 here = found
                 self.kept.append(each)
+            elif any(self.moved(start, [*self.kept, each], vanishing=True) is not None for start in starts):
+                self.special.append(each)
         for point in range(TRIED):
             found = here if point == 0 else self.moved(self.begin(point), self.kept)
             if found is not None:
@@ -67,8 +70,11 @@ class Surface:
             return WEIGHTS[1]
         return WEIGHTS[2 if letter.dots else 1 if self.meaning.facts.changes(letter) else 0]
 
-    def moved(self, start: Numbers, equations: Sequence[Equation]) -> Numbers | None:
-        """Return the point that Newton's method reaches, or None."""
+    def moved(self, start: Numbers, equations: Sequence[Equation], vanishing: bool = False) -> Numbers | None:
+        """Return the point that Newton's method reaches, or None.
+
+        vanishing   whether letters that may be negative may vanish there
+        """
         here = dict(start)
         try:
             for _ in range(STEPS):
@@ -80,7 +86,7 @@ class Surface:
                     slopes.append({letter: s / size for letter, s in slope.items()})
                     sizes.append(abs(value) / size)
                 if max(sizes, default=0.0) < SMALL:
-                    return here if self.is_general(here, equations) else None
+                    return here if self.is_general(here, equations, vanishing) else None
                 weights = {each: self.weight(each) ** 2 * max(abs(value), 0.1) ** 2 for each, value in here.items()}
                 factors = _solved([[_times(one, other, weights) for other in slopes] for one in slopes], residuals)
                 for factor, slope in zip(factors, slopes, strict=True):
@@ -99,10 +105,12 @@ class Surface:
             found[letter] = (at(equation, there.__getitem__) - value) / step
         return value, found
 
-    def is_general(self, here: Numbers, equations: Sequence[Equation]) -> bool:
+    def is_general(self, here: Numbers, equations: Sequence[Equation], vanishing: bool) -> bool:
         letters = set().union(*(each.value.free_symbols for each in equations)) if equations else set()
+        sizes = {each: abs(here[each]) for each in letters}
         return all(
-            SMALLEST < abs(here[each]) < LARGEST and (here[each].real > 0 or self.has_either_sign(each))
+            (vanishing and self.has_either_sign(each) and sizes[each] < SMALLEST)
+            or (SMALLEST < sizes[each] < LARGEST and (here[each].real > 0 or self.has_either_sign(each)))
             for each in letters
         )
 
