@@ -31,6 +31,8 @@ from derive.audit.systems import (
     moving_letters,
     rates,
     root_equation,
+    values_at_instant,
+    values_at_place,
 )
 from derive.audit.time_limit import FAULTS, LimitReached, time_limited
 from derive.documents.choices import Choice, readings
@@ -39,7 +41,7 @@ from derive.documents.layout import PROBLEM_WORDS, Cue, Document, Row, Statement
 from derive.documents.meaning import Meaning, Meaningless, Value
 from derive.documents.parser import Unreadable, parsed
 from derive.documents.source import Span
-from derive.documents.syntax import Add, Cases, Diff, Int, Letter, Mat, Mul, Node, Open, Sign, Sum, Text
+from derive.documents.syntax import Add, Cases, Diff, EvalBar, Int, Letter, Mat, Mul, Node, Open, Sign, Sum, Text
 
 SECONDS = 3.0  # the limit of processor time for one claim, in seconds
 LEAST_SECONDS = 0.4  # the limit never falls below this number of seconds
@@ -53,6 +55,7 @@ FEWEST_OPERATIONS = 3  # only earlier values with at least this number of operat
 MOST_FIXED = 5  # number of earlier rows that are searched for a slip
 SPECIAL = frozenset({Cue.GIVEN, Cue.PUT_IN, Cue.ZERO, Cue.APPROXIMATE})  # cues that explain why a row has fewer terms
 MOST_READINGS = 8
+DISTINCT = ("sign", "exponent", "function")  # changes that do not lead from one special case to another
 PLAIN = ("", "unmarked", "all", "tensors")
 GOOD = (Outcome.HOLDS, Outcome.APPROXIMATES, Outcome.DEFINES)
 _BRACKETS = re.compile(
@@ -507,6 +510,11 @@ class _Auditor:
         if verdict.outcome is Outcome.DEFINES and claim.values[0] in self.known.definitions:
             # the letter may have a different value in another part or case
             self.doubt(verdict, self.change_of_value(claim))
+            if verdict.outcome is Outcome.DEFINES and claim.row.block.display:
+                value = self.known.definitions[claim.values[0]][-1].value
+                there = [each for _, _, each in values_at_place(value, claim.values[1], self.meaning)]
+                edits = [self.change_to(claim, each) for each in there]
+                self.accuse(claim, verdict, next((e for e in edits if e is not None and e.kind in DISTINCT), None))
             return
         strange = self.strange_letters(claim) if in_sentence else set()
         if in_sentence and not strange and claim.values[1].is_Atom:
@@ -524,9 +532,17 @@ class _Auditor:
                 verdict.because = "it does not follow from earlier rows, but would with one more term"
                 verdict.suggestion = f"with the term {lost}"
                 return
+        if edit is None and isinstance(claim.values[0], Symbol) and not claim.is_step:
+            edit = self.change_at_instant(claim)
         if edit is None:
             if verdict.outcome is Outcome.UNDECIDED:
                 self.accuse_if_letters_agree(claim, verdict)
+            return
+        self.accuse(claim, verdict, edit)
+
+    def accuse(self, claim: Claim, verdict: Verdict, edit: Edit | None) -> None:
+        """Report a row that would follow after the given change, if there is one."""
+        if edit is None:
             return
         verdict.outcome = Outcome.DIFFERS
         because = "the side before it" if claim.is_step else "earlier rows"
@@ -556,10 +572,28 @@ class _Auditor:
     def change_of_value(self, claim: Claim) -> Edit | None:
         """Return one change of the right side after which a letter would have its earlier value."""
         assert claim.values is not None and claim.right is not None
-        value, right_node = self.known.definitions[claim.values[0]][-1].value, readings(claim.right, self.facts)[0][0]
+        value = self.known.definitions[claim.values[0]][-1].value
+        return self.change_to(claim, value)
+
+    def change_to(self, claim: Claim, value: Expr) -> Edit | None:
+        """Return one change of the right side after which it would have the given value."""
+        assert claim.right is not None
         if sympy.count_ops(value) < FEWEST_OPERATIONS:
             return None  # each short value is one change away from other values
+        right_node = readings(claim.right, self.facts)[0][0]
         return Nearness(self.meaning, self.known, letters_in(right_node), self.shown).of_value(right_node, value)
+
+    def change_at_instant(self, claim: Claim) -> Edit | None:
+        """Return one change of the right side after which a letter such as v_1 would have the value at t_1 of a letter
+        to whose row the sentence refers."""
+        assert claim.values is not None
+        for earlier, _ in values_at_instant(claim.values[0], self.meaning, self.known):
+            label = earlier.row.label if earlier.row is not None else ""
+            if label and label in _REFERENCE.findall(claim.row.block.sentence):
+                edit = self.change_to(claim, expanded(self.known, earlier.value)[0])
+                if edit is not None:
+                    return edit
+        return None
 
     def with_other_indices(self, letters: list[Letter]) -> list[Letter]:
         """Return the given letters and further letters of the document that differ from them only in the index."""
@@ -708,6 +742,8 @@ class _Auditor:
             return edit
         near.linear = Cue.APPROXIMATE in claim.row.block.cues or self.is_linear(claim)
         edit = near.of_claim(left_node, right_node, letter, claim.is_step)
+        if edit is None and known is self.known and claim.row.block.display and not claim.is_step:
+            edit = near.of_first_integral(left_node, right_node)
         return None if edit is not None and claim.is_step and self.repeats_a_side(claim, edit.node) else edit
 
     def near_motion(self, claim: Claim, near: Nearness, right_node: Node, letter: Symbol) -> Edit | None:
@@ -883,7 +919,8 @@ class _Auditor:
 
     def find_lost_term(self, claim: Claim, verdict: Verdict) -> None:
         """Suggest a term of the left side that is missing on the right side."""
-        if claim.values is None or claim.row.block.cues & SPECIAL:
+        at_place = any(isinstance(each, EvalBar) for each in claim.left.walk()) if claim.left is not None else False
+        if claim.values is None or (claim.row.block.cues & SPECIAL and not at_place):
             return
         left, right = (self.expanded(each) for each in claim.values)
         if isinstance(left, MatrixBase) or isinstance(right, MatrixBase) or right == 0:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import combinations, product
 from random import Random
@@ -30,7 +30,10 @@ from derive.audit.systems import (
     lagrange_equations,
     linearised,
     motion_of,
+    rate_of_first_integral,
     root_equation,
+    values_at_instant,
+    values_at_place,
     vanishes,
     with_small_factors,
 )
@@ -95,6 +98,7 @@ class Decision:
             self.square,
             self.consequence,
             self.together,
+            self.first_integral,
             self.implied,
         ):
             if (found := test()) is not None:
@@ -158,8 +162,9 @@ class Decision:
                     continue
                 if letter is self.left and (found := self.solution(self.known.recent())) is not None:
                     return found
-                if (found := self.of_known_form(letter, value) or self.of_root(letter, value)) is not None:
-                    return found
+                for test in (self.of_known_form, self.of_root, self.of_instant):
+                    if (found := test(letter, value)) is not None:
+                        return found
                 about = "an approximate value" if self.claim.relation == "~" else "a value"
                 return self.of_used_letter(letter) or Verdict(Outcome.DEFINES, f"{about} for {_word(letter)}")
         return None
@@ -232,6 +237,14 @@ class Decision:
             return Verdict(Outcome.HOLDS, "it is a root of an earlier equation", (*used, number))
         return Verdict(Outcome.UNDECIDED, f"{_word(letter)} does not satisfy the earlier equation for {_word(plain)}")
 
+    def of_instant(self, letter: Symbol, value: Expr) -> Verdict | None:
+        """Judge the value of a letter at an instant: `v_1` is the value of v or x' at t_1."""
+        for earlier, instant in values_at_instant(letter, self.meaning, self.known):
+            if same(expanded(self.known, earlier.value)[0], expanded(self.known, value)[0]):
+                because = f"the value of {_word(earlier.symbol)} at {_word(instant.symbol)}"
+                return Verdict(Outcome.HOLDS, because, (earlier.claim, instant.claim))
+        return None
+
     def other_name(self, letter: Symbol, value: Expr) -> Symbol | None:
         """Return a letter with a different index and the same value, or None."""
         named = self.meaning.symbols[letter]
@@ -285,6 +298,23 @@ class Decision:
                     return Verdict(Outcome.APPROXIMATES, f"{because}, to first order in the letters that change", given)
                 return Verdict(Outcome.HOLDS, because, given)
         return None
+
+    def first_integral(self) -> Verdict | None:
+        """Judge an equation whose time derivative follows from earlier equations of motion. Its constant is not
+        compared."""
+        if self.claim.is_step or not self.thorough or isinstance(self.difference, MatrixBase):
+            return None
+        rate = rate_of_first_integral(self.left, self.right, self.meaning, self.known)
+        if rate is None:
+            return None
+        speeds = [s for s in sorted(rate.free_symbols, key=str) if (n := self.meaning.symbols.get(s)) and n.dots == 1]
+        equations = equations_of(self.known, self.meaning, sure=True)
+        equations += [replace(each, value=speed * each.value) for each in equations[:MOST_COMBINED] for speed in speeds]
+        used = System(rate, equations, self.meaning, self.known, None).follows()
+        if not used:
+            return None
+        given = tuple(dict.fromkeys(number for each in used for number in each.claims))
+        return Verdict(Outcome.DEFINES, "a first integral of earlier equations of motion", given)
 
     def may_be_linearised(self) -> bool:
         """Whether the text speaks of an approximation, or an equation of motion has terms of the first order only."""
@@ -679,8 +709,10 @@ class Decision:
             if symbol in self.meaning.evaluations:
                 inner = inner | self.meaning.evaluations[symbol][2].free_symbols
             for each in (symbol, *sorted(inner - self.left.free_symbols & self.right.free_symbols, key=str)):
-                values = self.known.definitions.get(each, [])
-                if len({found.chain for found in values if found.part == values[-1].part}) > 1:
+                found = self.known.definitions.get(each, [])
+                values = {one.chain: one.value for one in found if one.part == found[-1].part}
+                first, *others = [expanded(self.known, value)[0] for value in values.values()] or [each]
+                if any(not same(first, other) for other in others):
                     return each
         return None
 
@@ -694,6 +726,10 @@ class Decision:
             if Cue.REPEATED in self.cues:
                 because = f"this value of {_word(self.left)} differs from its earlier value"
                 return Verdict(Outcome.UNDECIDED, because, (before.claim,), repeated=before)
+            for place, number, there in values_at_place(before.value, self.right, self.meaning):
+                if same(there, self.right):
+                    because = f"the earlier value at {_word(place)} = {number}"
+                    return Verdict(Outcome.HOLDS, because, (before.claim,))
             if before.part not in (-1, self.claim.row.block.part):
                 return Verdict(Outcome.DEFINES, f"a different value for {_word(self.left)} in another part")
             if self.cues & {Cue.DEFINED, Cue.GIVEN}:

@@ -20,7 +20,7 @@ from derive.audit.knowledge import Known
 from derive.audit.numeric import NoNumber, Numbers, at, close
 from derive.audit.points import Surface
 from derive.audit.slips import Edit, edits_of_side, with_term
-from derive.audit.systems import OF_RATES, equations_of, expanded, linearised, motion_of
+from derive.audit.systems import OF_RATES, equations_of, expanded, linearised, motion_of, rate_of_first_integral
 from derive.audit.time_limit import FAULTS
 from derive.documents.meaning import Meaning, Meaningless
 from derive.documents.syntax import Add, Der, Fun, Letter, Node, Num, Root
@@ -204,6 +204,31 @@ class Nearness:
                 if satisfies(edit.node if edit is not None else side):
                     return edit
         return None
+
+    def of_first_integral(self, left: Node, right: Node) -> Edit | None:
+        """Return the cheapest change after which the time derivative of an equation follows from the equations of
+        motion; None if it follows already, or if no change is found."""
+        points = self.points()
+
+        def is_conserved(one: Node, other: Node) -> bool:
+            sides = self.meaning.of(one), self.meaning.of(other)
+            rate = rate_of_first_integral(*sides, self.meaning, self.known)
+            if rate is None or not any(map(self.is_acceleration, rate.free_symbols)):
+                return False
+            terms = Add_.make_args(expand(rate))
+            return all(abs(p.of(rate)) <= SMALL * sum(abs(p.of(term)) for term in terms) for p in points)
+
+        if len(points) < 2 or is_conserved(left, right):
+            return None
+        for edit, first in self.edits_of_both(left, right, complete=False):
+            with suppress(*FAULTS, NoNumber, Meaningless):
+                if is_conserved(edit.node, right) if first else is_conserved(left, edit.node):
+                    return edit
+        return None
+
+    def is_acceleration(self, symbol: Symbol) -> bool:
+        letter = self.meaning.symbols.get(symbol)
+        return letter is not None and letter.dots == 2
 
     def edits_of_both(self, left: Node, right: Node, complete: bool) -> Iterator[tuple[Edit, bool]]:
         both = [(each, False) for each in self.edits(right, left, complete)]
