@@ -608,12 +608,15 @@ class _Auditor:
         return {self.shown(each.span) for each in letters if self.written[each.identity] == 1}
 
     def letters_for_strange(self, claim: Claim, written: list[Letter]) -> list[Letter]:
-        """Return further letters of the document if a claim contains a letter that no other claim contains."""
-        if not self.strange_letters(claim):
-            return []
+        """Return letters of the document that resemble a letter of a claim which no other claim contains."""
+        strange = [each for each in written if self.written[each.identity] == 1]
         known = {(each.identity, each.dots) for each in written}
-        often = [each for each in self.meaning.symbols.values() if self.written[each.identity] > 1]
-        return [each for each in often if (each.identity, each.dots) not in known][:MOST_INDICES]
+        return [
+            each
+            for each in self.meaning.symbols.values()
+            if (each.identity, each.dots) not in known
+            and any(each.base.lower() == odd.base.lower() or each.sub == odd.sub for odd in strange)
+        ][:MOST_INDICES]
 
     def lost_letters(self, claim: Claim, written: list[Letter]) -> list[Letter]:
         """Return letters that a row lacks, although the earlier rows from which it should follow contain them."""
@@ -743,8 +746,22 @@ class _Auditor:
         near.linear = Cue.APPROXIMATE in claim.row.block.cues or self.is_linear(claim)
         edit = near.of_claim(left_node, right_node, letter, claim.is_step)
         if edit is None and known is self.known and claim.row.block.display and not claim.is_step:
+            near.known = replace(known, here=known.here | self.constraints_of_part(claim), kept={})
             edit = near.of_first_integral(left_node, right_node)
         return None if edit is not None and claim.is_step and self.repeats_a_side(claim, edit.node) else edit
+
+    def constraints_of_part(self, claim: Claim) -> frozenset[int]:
+        """Return the conditions in sentences of the same part, such as `r = l`, that give a constant value to a
+        coordinate."""
+        found = []
+        for each in self.claims[: claim.number]:
+            if each.number not in self.known.conditions or each.row.block.part != claim.row.block.part:
+                continue
+            if each.values is None or not isinstance(each.values[0], Symbol) or not isinstance(each.values[1], Symbol):
+                continue
+            if moving_letters({each.values[0]}, self.meaning) and not moving_letters({each.values[1]}, self.meaning):
+                found.append(each.number)
+        return frozenset(found)
 
     def near_motion(self, claim: Claim, near: Nearness, right_node: Node, letter: Symbol) -> Edit | None:
         """Return one change after which a frequency, a period or a motion would follow from an equation of motion, or

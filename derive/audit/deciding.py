@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import combinations, product
 from random import Random
@@ -30,7 +30,6 @@ from derive.audit.systems import (
     lagrange_equations,
     linearised,
     motion_of,
-    rate_of_first_integral,
     root_equation,
     values_at_instant,
     values_at_place,
@@ -98,7 +97,6 @@ class Decision:
             self.square,
             self.consequence,
             self.together,
-            self.first_integral,
             self.implied,
         ):
             if (found := test()) is not None:
@@ -298,23 +296,6 @@ class Decision:
                     return Verdict(Outcome.APPROXIMATES, f"{because}, to first order in the letters that change", given)
                 return Verdict(Outcome.HOLDS, because, given)
         return None
-
-    def first_integral(self) -> Verdict | None:
-        """Judge an equation whose time derivative follows from earlier equations of motion. Its constant is not
-        compared."""
-        if self.claim.is_step or not self.thorough or isinstance(self.difference, MatrixBase):
-            return None
-        rate = rate_of_first_integral(self.left, self.right, self.meaning, self.known)
-        if rate is None:
-            return None
-        speeds = [s for s in sorted(rate.free_symbols, key=str) if (n := self.meaning.symbols.get(s)) and n.dots == 1]
-        equations = equations_of(self.known, self.meaning, sure=True)
-        equations += [replace(each, value=speed * each.value) for each in equations[:MOST_COMBINED] for speed in speeds]
-        used = System(rate, equations, self.meaning, self.known, None).follows()
-        if not used:
-            return None
-        given = tuple(dict.fromkeys(number for each in used for number in each.claims))
-        return Verdict(Outcome.DEFINES, "a first integral of earlier equations of motion", given)
 
     def may_be_linearised(self) -> bool:
         """Whether the text speaks of an approximation, or an equation of motion has terms of the first order only."""

@@ -83,7 +83,8 @@ def odd_claims(claims: Sequence[Claim], meaning: Meaning, named: Mapping[str, Po
 
     named   the dimensions of letters that the words of the document name
     """
-    agreed = [each for each in claims if each.verdict is None or each.verdict.outcome is not Outcome.DIFFERS]
+    wrong = {each.number for each in claims if each.verdict is not None and each.verdict.outcome is Outcome.DIFFERS}
+    agreed = [each for each in claims if not _repeats_slip(each, wrong)]
     equations = [each for claim in agreed for each in equations_of(claim, meaning)]
     if len({each.source for each in equations}) + len(named) < FEWEST_CLAIMS:
         return []
@@ -108,6 +109,13 @@ def odd_claims(claims: Sequence[Claim], meaning: Meaning, named: Mapping[str, Po
         if found:
             return found
     return []
+
+
+def _repeats_slip(claim: Claim, wrong: set[int]) -> bool:
+    """Whether a claim is wrong, or carries on the slip of a wrong claim."""
+    before = claim.before.number if claim.before is not None else -1
+    given = {*claim.verdict.given, claim.verdict.inherits} if claim.verdict is not None else set()
+    return bool({claim.number, before, *given} & wrong)
 
 
 def _conflicts(equations: Sequence[Equation]) -> list[set[int]]:

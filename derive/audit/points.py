@@ -39,11 +39,18 @@ class Surface:
     meaning: Meaning
     kept: list[Equation] = field(default_factory=list)
     special: list[Equation] = field(default_factory=list)  # equations that hold only if a rate or coordinate vanishes
+    zeros: set[Symbol] = field(default_factory=set)  # letters that vanish by an equation such as x' = 0
     points: list[Numbers] = field(default_factory=list)
 
     def find(self, count: int) -> Surface:
+        self.zeros = {
+            each.value for each in self.equations if each.value.is_Symbol and self.has_either_sign(each.value)
+        }
+        self.kept = [each for each in self.equations if each.value in self.zeros]
         here = self.begin(0)
         for each in self.equations:
+            if each in self.kept:
+                continue
             starts = [here, *map(self.begin, range(1, OTHER_STARTS + 1))]
             tried = (self.moved(start, [*self.kept, each]) for start in starts)
             found = next((there for there in tried if there is not None), None)
@@ -62,10 +69,15 @@ class Surface:
 
     def begin(self, point: int) -> Numbers:
         letters = set().union(*(each.value.free_symbols for each in self.equations)) if self.equations else set()
-        return {each: complex(number_of(each.name, point)) for each in sorted(letters, key=str)}
+        return {
+            each: 0j if each in self.zeros else complex(number_of(each.name, point))
+            for each in sorted(letters, key=str)
+        }
 
     def weight(self, symbol: Symbol) -> float:
         letter = self.meaning.symbols.get(symbol)
+        if symbol in self.zeros:
+            return 0.0
         if letter is None:
             return WEIGHTS[1]
         return WEIGHTS[2 if letter.dots else 1 if self.meaning.facts.changes(letter) else 0]
@@ -76,6 +88,7 @@ class Surface:
         vanishing   whether letters that may be negative may vanish there
         """
         here = dict(start)
+        equations = [each for each in equations if each.value not in self.zeros]
         try:
             for _ in range(STEPS):
                 residuals, slopes, sizes = [], [], []
@@ -109,7 +122,8 @@ class Surface:
         letters = set().union(*(each.value.free_symbols for each in equations)) if equations else set()
         sizes = {each: abs(here[each]) for each in letters}
         return all(
-            (vanishing and self.has_either_sign(each) and sizes[each] < SMALLEST)
+            each in self.zeros
+            or (vanishing and self.has_either_sign(each) and sizes[each] < SMALLEST)
             or (SMALLEST < sizes[each] < LARGEST and (here[each].real > 0 or self.has_either_sign(each)))
             for each in letters
         )
