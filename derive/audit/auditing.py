@@ -751,15 +751,17 @@ class _Auditor:
         return None if edit is not None and claim.is_step and self.repeats_a_side(claim, edit.node) else edit
 
     def constraints_of_part(self, claim: Claim) -> frozenset[int]:
-        """Return the conditions in sentences of the same part, such as `r = l`, that give a constant value to a
-        coordinate."""
-        found = []
+        """Return the conditions in sentences of the same part that give a constant value to a coordinate: `r = l`, or
+        `r = 0` if the claim does not contain r."""
+        found, written = [], {each.identity for each in letters_in(claim.left, claim.right)}
         for each in self.claims[: claim.number]:
             if each.number not in self.known.conditions or each.row.block.part != claim.row.block.part:
                 continue
-            if each.values is None or not isinstance(each.values[0], Symbol) or not isinstance(each.values[1], Symbol):
+            if each.values is None or not isinstance(each.values[0], Symbol) or isinstance(each.values[1], MatrixBase):
                 continue
-            if moving_letters({each.values[0]}, self.meaning) and not moving_letters({each.values[1]}, self.meaning):
+            letter, value = each.values
+            constant = value.is_Symbol or (value.is_number and self.meaning.symbols[letter].identity not in written)
+            if constant and moving_letters({letter}, self.meaning) and not moving_letters({value}, self.meaning):
                 found.append(each.number)
         return frozenset(found)
 

@@ -20,7 +20,15 @@ from derive.audit.knowledge import Known
 from derive.audit.numeric import NoNumber, Numbers, at, close
 from derive.audit.points import Surface
 from derive.audit.slips import Edit, edits_of_side, with_term
-from derive.audit.systems import OF_RATES, equations_of, expanded, linearised, motion_of, rate_of_first_integral
+from derive.audit.systems import (
+    OF_RATES,
+    equations_of,
+    expanded,
+    linearised,
+    motion_of,
+    moving_letters,
+    rate_of_first_integral,
+)
 from derive.audit.time_limit import FAULTS
 from derive.documents.meaning import Meaning, Meaningless
 from derive.documents.syntax import Add, Der, Fun, Letter, Node, Num, Root
@@ -209,6 +217,8 @@ class Nearness:
         """Return the cheapest change after which the time derivative of an equation follows from the equations of
         motion; None if it follows already, or if no change is found."""
         points = self.points()
+        if len(points) < 2 or not self.is_complete(self.meaning.of(left), self.meaning.of(right)):
+            return None
 
         def is_conserved(one: Node, other: Node) -> bool:
             sides = self.meaning.of(one), self.meaning.of(other)
@@ -218,13 +228,26 @@ class Nearness:
             terms = Add_.make_args(expand(rate))
             return all(abs(p.of(rate)) <= SMALL * sum(abs(p.of(term)) for term in terms) for p in points)
 
-        if len(points) < 2 or is_conserved(left, right):
+        if is_conserved(left, right):
             return None
         for edit, first in self.edits_of_both(left, right, complete=False):
             with suppress(*FAULTS, NoNumber, Meaningless):
                 if is_conserved(edit.node, right) if first else is_conserved(left, edit.node):
                     return edit
         return None
+
+    def is_complete(self, left: Expr, right: Expr) -> bool:
+        """Whether the equations of motion for the coordinates of an equation contain no other coordinate that is not
+        constant."""
+        rate = rate_of_first_integral(left, right, self.meaning, self.known)
+        if rate is None:
+            return False
+        equations = equations_of(self.known, self.meaning, sure=True, written=self.written)
+        moving = [set(moving_letters(each.value.free_symbols, self.meaning)) for each in equations]
+        constant = {letter for letters in moving if len(letters) == 1 for letter in letters}
+        accelerations = set(filter(self.is_acceleration, rate.free_symbols))
+        needed = set().union(*(letters for letters in moving if letters & accelerations))
+        return bool(needed) and needed - constant <= set(rate.free_symbols)
 
     def is_acceleration(self, symbol: Symbol) -> bool:
         letter = self.meaning.symbols.get(symbol)
