@@ -29,6 +29,8 @@ USUAL = {  # the powers of mass, length and time
 # l may also name an angular momentum, T a period or a tension, R a resultant force, and x, y, z and r a ratio of
 # lengths.
 LESS_USUAL = ("l", "T", "R", "x", "y", "z", "r")
+# These letters often have a second meaning, such as a length and a Lagrangian, even if words name their dimension.
+TWO_MEANINGS = ("E", "H", "L", "T", "U", "V", "p")
 MOST_CANDIDATES = 12
 FEWEST_CLAIMS = 6
 UNDERIVED = (Outcome.DEFINES, Outcome.UNDECIDED)
@@ -90,10 +92,11 @@ def odd_claims(claims: Sequence[Claim], meaning: Meaning, named: Mapping[str, Po
         return []
     equations += usual(equations, meaning, named)
     conflicts = _conflicts(equations)
-    for letter in LESS_USUAL if conflicts else ():
-        without = [each for each in equations if each.source != -1 or list(each.form) != [letter] or letter in named]
+    unsure = {*TWO_MEANINGS, *(each for each in LESS_USUAL if each not in named)}
+    for letter in sorted(unsure) if conflicts else ():
+        without = [each for each in equations if each.source != -1 or list(each.form) != [letter]]
         if not _conflicts(without):
-            return []  # the letter has a different dimension here: `l` is an angular momentum
+            return []  # the letter may have a different dimension here: `l` is an angular momentum
     if not conflicts:
         return []
     shared = set.intersection(*conflicts)

@@ -480,3 +480,12 @@ def test_a_font_size_is_not_an_approximation() -> None:
     text = "{\\small Figure 1.} The sum is\n$$ a = b + c $$"
     (block,) = read_document(source_of(text, Format.TEX)).blocks
     assert Cue.APPROXIMATE not in block.cues
+
+
+def test_a_letter_may_have_two_meanings() -> None:
+    text = (
+        "A string of length $L$ holds a bob of mass $m$ at the distance $r$.\n"
+        "The angle is $\\phi$, and the force $S$ is small.\n"
+        "$$ A = L r $$\n$$ T = \\frac12 m r^2 \\dot\\phi^2 $$\n$$ L = T $$"
+    )
+    assert wrong(text) == []
