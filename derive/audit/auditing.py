@@ -33,6 +33,7 @@ from derive.audit.systems import (
     root_equation,
     values_at_instant,
     values_at_place,
+    zeros_in_time,
 )
 from derive.audit.time_limit import FAULTS, LimitReached, time_limited
 from derive.documents.choices import Choice, readings
@@ -507,7 +508,7 @@ class _Auditor:
         if any(isinstance(each, Int) for side in sides for each in side.walk()):
             return  # a letter of an integrand may depend on the variable of integration
         in_sentence = not claim.is_step and not claim.row.block.display and not self.is_general(claim)
-        if verdict.outcome is Outcome.DEFINES and claim.values[0] in self.known.definitions:
+        if verdict.outcome is Outcome.DEFINES and self.may_have_other_value(claim):
             # the letter may have a different value in another part or case
             self.doubt(verdict, self.change_of_value(claim))
             if verdict.outcome is Outcome.DEFINES and claim.row.block.display:
@@ -568,6 +569,13 @@ class _Auditor:
         if edit is not None:
             verdict.outcome = Outcome.UNDECIDED
             verdict.because = f"it would follow from earlier rows with {suggestion_of(edit)}, but may be a special case"
+
+    def may_have_other_value(self, claim: Claim) -> bool:
+        """Whether a letter has an earlier value, and the sentence does not refer to the row of this value."""
+        assert claim.values is not None
+        found = self.known.definitions.get(claim.values[0], [])
+        row = found[-1].row if found else None
+        return bool(found) and (row is None or row.label not in _REFERENCE.findall(claim.row.block.sentence))
 
     def change_of_value(self, claim: Claim) -> Edit | None:
         """Return one change of the right side after which a letter would have its earlier value."""
@@ -734,6 +742,7 @@ class _Auditor:
         letters = self.with_other_indices(letters_in(left_node, right_node))
         letters += self.lost_letters(claim, letters) if known is self.known else []
         letters += self.letters_for_strange(claim, letters)
+        letters += [each for each in lost or () if isinstance(each, Letter) and each not in letters]
         terms = self.terms_before(claim) if known is self.known and not self.may_be_special(claim) else lost
         near = Nearness(
             self.meaning, known, [each for each in letters if letter is None or self.meaning.symbol(each) != letter],
@@ -741,6 +750,11 @@ class _Auditor:
         )  # fmt: skip
         if letter is not None and (at_root := root_equation(letter, self.meaning, known)) is not None:
             return near.of_root(right_node, at_root[0], at_root[1])
+        if letter is not None and Cue.ZERO in claim.row.block.cues and known is self.known:
+            if (at_zero := zeros_in_time(letter, self.meaning, known)) is not None:
+                edit = near.of_root(right_node, at_zero[0], at_zero[1])
+                if edit is not None and edit.kind in DISTINCT:
+                    return edit
         if letter is not None and (edit := self.near_motion(claim, near, right_node, letter)):
             return edit
         near.linear = Cue.APPROXIMATE in claim.row.block.cues or self.is_linear(claim)
@@ -865,7 +879,7 @@ class _Auditor:
         edits: list[tuple[Claim, Edit]] = []
         for suspect in suspects:
             with suppress(LimitReached, RecursionError, *FAULTS), time_limited(SECONDS_OF_SEARCH):
-                lost: list[Node] | None = [*letters_in(suspect.right)] if suspect is not formula else None
+                lost: list[Node] | None = [*letters_in(suspect.right, claim.right)] if suspect is not formula else None
                 edit = self.near_edit(suspect, self.known_without(suspect, claim), lost)
                 edits += [(suspect, edit)] if edit is not None else []
         verdict = replace(claim.verdict, because=because, suggestion="", span=None)

@@ -35,6 +35,7 @@ from derive.audit.systems import (
     values_at_place,
     vanishes,
     with_small_factors,
+    zeros_in_time,
 )
 from derive.documents.layout import Cue
 from derive.documents.meaning import Meaning, Meaningless, Value
@@ -220,6 +221,10 @@ class Decision:
         if any(map(self.known.is_rate, put_in.free_symbols)):
             put_in, used = value, ()
         found = root_equation(letter, self.meaning, self.known)
+        if found is None and Cue.ZERO in self.cues and (at := zeros_in_time(letter, self.meaning, self.known)):
+            time, vanishing, number = at
+            if vanishes(vanishing, time, put_in, self.meaning, self.known):
+                return Verdict(Outcome.HOLDS, "an earlier value vanishes at this time", (*used, number))
         if found is None:
             for equation, number in frequency_equations(letter, self.meaning, self.known):
                 if vanishes(equation, letter, put_in, self.meaning, self.known):

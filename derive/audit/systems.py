@@ -402,6 +402,18 @@ def values_at_place(value: Expr, other: Expr, meaning: Meaning) -> Iterator[tupl
             yield places[0], number, there
 
 
+def zeros_in_time(letter: Symbol, meaning: Meaning, known: Known) -> tuple[Symbol, Expr, int] | None:
+    """Return t, the last earlier value that contains t, and the number of its claim, for the name t_1 of an instant;
+    otherwise None. A value that vanishes at t_1 is zero there."""
+    named = meaning.symbols.get(letter)
+    time = next((s for s, each in meaning.symbols.items() if each.base == "t" and not each.sub), None)
+    if named is None or named.base != "t" or not named.sub or named.dots or time is None:
+        return None
+    found = [each[-1] for each in known.definitions.values() if time in expanded(known, each[-1].value)[0].free_symbols]
+    last = max(found, key=lambda each: each.claim, default=None)
+    return (time, expanded(known, last.value)[0], last.claim) if last is not None else None
+
+
 def frequency_equations(letter: Symbol, meaning: Meaning, known: Known) -> list[tuple[Expr, int]]:
     """Return equations whose roots are the angular frequencies, or the periods, of earlier linear equations of motion,
     and the numbers of their claims; `letter` is the unknown."""

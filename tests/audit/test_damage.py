@@ -489,3 +489,26 @@ def test_a_letter_may_have_two_meanings() -> None:
         "$$ A = L r $$\n$$ T = \\frac12 m r^2 \\dot\\phi^2 $$\n$$ L = T $$"
     )
     assert wrong(text) == []
+
+
+SLIP = (
+    "The velocity of slip is\n$$ u = v - \\mu g t - \\frac{\\mu m g t}{M}. $$\n\n"
+    "The block stops sliding when it vanishes, at\n$$ t_1 = \\frac{M v}{\\mu (M + m) g} $$"
+)
+
+
+def test_a_quantity_vanishes_at_an_instant() -> None:
+    assert [str(each.verdict.outcome) for each in audit(SLIP).claims if each.verdict][-1] == "holds"
+    (claim,) = wrong(SLIP.replace("M + m", "M - m"))
+    assert claim.row.line == 5
+
+
+def test_a_value_is_compared_with_the_row_to_which_its_sentence_refers() -> None:
+    text = (
+        "The speed is\n\\begin{align} w^2 = \\frac{g}{b} (1 - \\cos\\theta) \\end{align}\nand the force is\n"
+        "\\begin{align} F = m g \\cos\\theta - m b w^2. \\label{f} \\end{align}\n\n"
+        "(b) With this result, \\eqref{f} becomes\n$$ F = m g (2 \\cos\\theta - 1) $$"
+    )
+    assert wrong(text) == []
+    (claim,) = wrong(text.replace("- 1)", "+ 1)"))
+    assert claim.row.line == 7
