@@ -16,13 +16,14 @@ from sympy import Expr, MatrixBase, Symbol
 from derive.audit.assumptions import Assumed
 from derive.audit.claims import Claim, Definition, Outcome, Verdict
 from derive.audit.deciding import Decision, counterexample, entries_of, same
-from derive.audit.dimensions import odd_claim
+from derive.audit.dimensions import odd_claims
 from derive.audit.expected import Compared, Expected, compared
 from derive.audit.knowledge import ASSUMED, Known
+from derive.audit.named_quantities import named_quantities
 from derive.audit.nearest_change import Nearness, letters_in, terms_in
 from derive.audit.slips import WHY, Edit, nearest_edit
 from derive.audit.systems import (
-    difference_of_energies,
+    energies,
     equations_of_motion,
     expanded,
     frequency_equations,
@@ -30,6 +31,9 @@ from derive.audit.systems import (
     moving_letters,
     rates,
     root_equation,
+    values_at_instant,
+    values_at_place,
+    zeros_in_time,
 )
 from derive.audit.time_limit import FAULTS, LimitReached, time_limited
 from derive.documents.choices import Choice, readings
@@ -38,7 +42,7 @@ from derive.documents.layout import PROBLEM_WORDS, Cue, Document, Row, Statement
 from derive.documents.meaning import Meaning, Meaningless, Value
 from derive.documents.parser import Unreadable, parsed
 from derive.documents.source import Span
-from derive.documents.syntax import Add, Cases, Diff, Int, Letter, Mat, Mul, Node, Open, Sign, Sum, Text
+from derive.documents.syntax import Add, Cases, Diff, EvalBar, Int, Letter, Mat, Mul, Node, Open, Sign, Sum, Text
 
 SECONDS = 3.0  # the limit of processor time for one claim, in seconds
 LEAST_SECONDS = 0.4  # the limit never falls below this number of seconds
@@ -52,6 +56,7 @@ FEWEST_OPERATIONS = 3  # only earlier values with at least this number of operat
 MOST_FIXED = 5  # at most this many earlier rows are searched for a slip
 SPECIAL = frozenset({Cue.GIVEN, Cue.PUT_IN, Cue.ZERO, Cue.APPROXIMATE})  # cues that explain why a row has fewer terms
 MOST_READINGS = 8
+DISTINCT = ("sign", "exponent", "function")  # changes that do not lead from one special case to another
 PLAIN = ("", "unmarked", "all", "tensors")
 GOOD = (Outcome.HOLDS, Outcome.APPROXIMATES, Outcome.DEFINES)
 _BRACKETS = re.compile(
@@ -60,6 +65,7 @@ _BRACKETS = re.compile(
 _CONSTANT = re.compile(r"[ck]onst|c(?:st|te)\b", re.IGNORECASE)
 _NEW_SCOPE = re.compile(PROBLEM_WORDS, re.IGNORECASE)
 _EXPLAINS = re.compile(r"[\s,;}~]*(?:where|with|in which|here)\b", re.IGNORECASE)
+_REFERENCE = re.compile(r"\\(?:eq)?ref\{([^{}]+)\}")
 _ENDS_SENTENCE = re.compile(r"[.!?](?:\s|$)|\n[ \t]*\n")
 
 
@@ -207,6 +213,7 @@ class _Auditor:
         self.claims: list[Claim] = []
         self.explanations: dict[int, list[Claim]] = {}  # by the id of the block of a display
         self.written: Counter[Identity] = Counter()  # how many claims contain a letter
+        self.lagrangians: dict[int, tuple[Expr, int]] = {}  # L = T - U, by the number of the claim that it precedes
         self.explained: set[int] = set()  # the numbers of claims that explain letters of the display before them
 
     def begin(self, scope: int) -> None:
@@ -279,7 +286,8 @@ class _Auditor:
             with suppress(LimitReached, RecursionError, *FAULTS), time_limited(search):
                 self.accuse_if_near(claim, claim.verdict)
         failed = claim.verdict.outcome is Outcome.DIFFERS and claim.verdict.inherits is None
-        if failed or (undecided and display and not self.may_be_special(claim)):
+        contradicts = claim.verdict.outcome is Outcome.DEFINES and claim.verdict.contradicts is not None
+        if failed or ((undecided or contradicts) and display and not self.may_be_special(claim)):
             with suppress(LimitReached, RecursionError, *FAULTS), time_limited(search):
                 self.fixes += self.fixes_before(claim)
         with suppress(LimitReached, RecursionError, *FAULTS), time_limited(seconds):
@@ -323,12 +331,14 @@ class _Auditor:
         left = claim.left
         if not claim.row.block.display or claim.before is not None or not isinstance(left, Letter) or left.base != "L":
             return
-        symbol, found = self.meaning.symbol(replace(left, dots=0)), difference_of_energies(self.known)
+        symbol, found = self.meaning.symbol(replace(left, dots=0)), energies(self.known)
         letters = {each.base for each in letters_in(claim.right)}
         if left.sub or left.dots or left.marks or letters & set("TKUV") or found is None:
             return
         if symbol not in self.known.definitions:
-            self.known.state(symbol - found[0], found[1])
+            kinetic, potential = found
+            self.lagrangians[claim.number] = (symbol - kinetic.symbol + potential.symbol, potential.claim)
+            self.known.state(symbol - kinetic.value + potential.value, max(kinetic.claim, potential.claim))
 
     def explain(self, claim: Claim) -> None:
         """Remember the values that the words after this display give to letters: `..., where rho = M/V`."""
@@ -498,9 +508,14 @@ class _Auditor:
         if any(isinstance(each, Int) for side in sides for each in side.walk()):
             return  # a letter of an integrand may depend on the variable of integration
         in_sentence = not claim.is_step and not claim.row.block.display and not self.is_general(claim)
-        if verdict.outcome is Outcome.DEFINES and claim.values[0] in self.known.definitions:
+        if verdict.outcome is Outcome.DEFINES and self.may_have_other_value(claim):
             # the letter may have a different value in another part or case
             self.doubt(verdict, self.change_of_value(claim))
+            if verdict.outcome is Outcome.DEFINES and claim.row.block.display:
+                value = self.known.definitions[claim.values[0]][-1].value
+                there = [each for _, _, each in values_at_place(value, claim.values[1], self.meaning)]
+                edits = [self.change_to(claim, each) for each in there]
+                self.accuse(claim, verdict, next((e for e in edits if e is not None and e.kind in DISTINCT), None))
             return
         strange = self.strange_letters(claim) if in_sentence else set()
         if in_sentence and not strange and claim.values[1].is_Atom:
@@ -518,9 +533,17 @@ class _Auditor:
                 verdict.because = "it does not follow from earlier rows, but would with one more term"
                 verdict.suggestion = f"with the term {lost}"
                 return
+        if edit is None and isinstance(claim.values[0], Symbol) and not claim.is_step:
+            edit = self.change_at_instant(claim)
         if edit is None:
             if verdict.outcome is Outcome.UNDECIDED:
                 self.accuse_if_letters_agree(claim, verdict)
+            return
+        self.accuse(claim, verdict, edit)
+
+    def accuse(self, claim: Claim, verdict: Verdict, edit: Edit | None) -> None:
+        """Report a row that would follow after the given change, if there is one."""
+        if edit is None:
             return
         verdict.outcome = Outcome.DIFFERS
         because = "the side before it" if claim.is_step else "earlier rows"
@@ -547,13 +570,38 @@ class _Auditor:
             verdict.outcome = Outcome.UNDECIDED
             verdict.because = f"it would follow from earlier rows with {suggestion_of(edit)}, but may be a special case"
 
+    def may_have_other_value(self, claim: Claim) -> bool:
+        """Whether a letter has an earlier value, and the sentence does not refer to the row of this value."""
+        assert claim.values is not None
+        found = self.known.definitions.get(claim.values[0], [])
+        row = found[-1].row if found else None
+        return bool(found) and (row is None or row.label not in _REFERENCE.findall(claim.row.block.sentence))
+
     def change_of_value(self, claim: Claim) -> Edit | None:
         """Return one change of the right side after which a letter would have its earlier value."""
         assert claim.values is not None and claim.right is not None
-        value, right_node = self.known.definitions[claim.values[0]][-1].value, readings(claim.right, self.facts)[0][0]
+        value = self.known.definitions[claim.values[0]][-1].value
+        return self.change_to(claim, value)
+
+    def change_to(self, claim: Claim, value: Expr) -> Edit | None:
+        """Return one change of the right side after which it would have the given value."""
+        assert claim.right is not None
         if sympy.count_ops(value) < FEWEST_OPERATIONS:
             return None  # each short value is one change away from other values
+        right_node = readings(claim.right, self.facts)[0][0]
         return Nearness(self.meaning, self.known, letters_in(right_node), self.shown).of_value(right_node, value)
+
+    def change_at_instant(self, claim: Claim) -> Edit | None:
+        """Return one change of the right side after which a letter such as v_1 would have the value at t_1 of a letter
+        to whose row the sentence refers."""
+        assert claim.values is not None
+        for earlier, _ in values_at_instant(claim.values[0], self.meaning, self.known):
+            label = earlier.row.label if earlier.row is not None else ""
+            if label and label in _REFERENCE.findall(claim.row.block.sentence):
+                edit = self.change_to(claim, expanded(self.known, earlier.value)[0])
+                if edit is not None:
+                    return edit
+        return None
 
     def with_other_indices(self, letters: list[Letter]) -> list[Letter]:
         """Return the given letters and further letters of the document that differ from them only in the index."""
@@ -566,6 +614,17 @@ class _Auditor:
         """Return the letters that only this claim of the document contains, as they are written."""
         letters = letters_in(claim.left if claim.before is None else None, claim.right)
         return {self.shown(each.span) for each in letters if self.written[each.identity] == 1}
+
+    def letters_for_strange(self, claim: Claim, written: list[Letter]) -> list[Letter]:
+        """Return letters of the document that resemble a letter of a claim which no other claim contains."""
+        strange = [each for each in written if self.written[each.identity] == 1]
+        known = {(each.identity, each.dots) for each in written}
+        return [
+            each
+            for each in self.meaning.symbols.values()
+            if (each.identity, each.dots) not in known
+            and any(each.base.lower() == odd.base.lower() or each.sub == odd.sub for odd in strange)
+        ][:MOST_INDICES]
 
     def lost_letters(self, claim: Claim, written: list[Letter]) -> list[Letter]:
         """Return letters that a row lacks, although the earlier rows from which it should follow contain them."""
@@ -605,7 +664,7 @@ class _Auditor:
             return []
         found: list[Fix] = []
         wanted = self.letters_behind(claim)
-        undecided = claim.verdict is not None and claim.verdict.outcome is Outcome.UNDECIDED
+        undecided = claim.verdict is not None and claim.verdict.outcome is not Outcome.DIFFERS
         tried = 0
         for earlier in reversed(self.claims[: claim.number]):
             if scope_of(self.document, earlier.row) != self.scope or tried == MOST_FIXED:
@@ -614,7 +673,7 @@ class _Auditor:
                 continue
             if not self.letters_behind(earlier) & wanted:
                 continue
-            if undecided and earlier.row.block.part != claim.row.block.part and not self.is_motion(earlier):
+            if undecided and not self.belongs_to(claim, earlier) and not self.is_motion(earlier):
                 continue  # a later part may be about another case
             tried += 1
             edit = self.near_edit(earlier, self.known_without(earlier, claim))
@@ -662,6 +721,8 @@ class _Auditor:
         try:
             for each in self.claims[: claim.number + 1]:
                 if each is not earlier and scope_of(self.document, each.row) == self.scope:
+                    if each.number in self.lagrangians:
+                        self.known.state(*self.lagrangians[each.number])
                     self.remember(each, believed=each is claim)
             return self.known
         finally:
@@ -681,6 +742,8 @@ class _Auditor:
         letter = claim.values[0] if isinstance(claim.values[0], Symbol) and not claim.is_step else None
         letters = self.with_other_indices(letters_in(left_node, right_node))
         letters += self.lost_letters(claim, letters) if known is self.known else []
+        letters += self.letters_for_strange(claim, letters)
+        letters += [each for each in lost or () if isinstance(each, Letter) and each not in letters]
         terms = self.terms_before(claim) if known is self.known and not self.may_be_special(claim) else lost
         near = Nearness(
             self.meaning, known, [each for each in letters if letter is None or self.meaning.symbol(each) != letter],
@@ -688,50 +751,98 @@ class _Auditor:
         )  # fmt: skip
         if letter is not None and (at_root := root_equation(letter, self.meaning, known)) is not None:
             return near.of_root(right_node, at_root[0], at_root[1])
+        if letter is not None and Cue.ZERO in claim.row.block.cues and known is self.known:
+            if (at_zero := zeros_in_time(letter, self.meaning, known)) is not None:
+                edit = near.of_root(right_node, at_zero[0], at_zero[1])
+                if edit is not None and edit.kind in DISTINCT:
+                    return edit
         if letter is not None and (edit := self.near_motion(claim, near, right_node, letter)):
             return edit
         near.linear = Cue.APPROXIMATE in claim.row.block.cues or self.is_linear(claim)
         edit = near.of_claim(left_node, right_node, letter, claim.is_step)
+        if edit is None and known is self.known and claim.row.block.display and not claim.is_step:
+            near.known = replace(known, here=known.here | self.constraints_of_part(claim), kept={})
+            edit = near.of_first_integral(left_node, right_node)
         return None if edit is not None and claim.is_step and self.repeats_a_side(claim, edit.node) else edit
+
+    def constraints_of_part(self, claim: Claim) -> frozenset[int]:
+        """Return the conditions in sentences of the same part that give a constant value to a coordinate: `r = l`, or
+        `r = 0` if the claim does not contain r."""
+        found, written = [], {each.identity for each in letters_in(claim.left, claim.right)}
+        for each in self.claims[: claim.number]:
+            if each.number not in self.known.conditions or each.row.block.part != claim.row.block.part:
+                continue
+            if each.values is None or not isinstance(each.values[0], Symbol) or isinstance(each.values[1], MatrixBase):
+                continue
+            letter, value = each.values
+            constant = value.is_Symbol or (value.is_number and self.meaning.symbols[letter].identity not in written)
+            if constant and moving_letters({letter}, self.meaning) and not moving_letters({value}, self.meaning):
+                found.append(each.number)
+        return frozenset(found)
 
     def near_motion(self, claim: Claim, near: Nearness, right_node: Node, letter: Symbol) -> Edit | None:
         """Return one change after which a frequency, a period or a motion would follow from an equation of motion, or
-        None. The equation of motion belongs to an earlier row of the same part."""
+        None. The equation of motion belongs to the same part, or the sentence refers to it."""
         assert claim.values is not None
-        part = claim.row.block.part
         for equation, number in reversed(frequency_equations(letter, self.meaning, near.known)):
-            if self.claims[number].row.block.part == part:
+            if self.belongs_to(claim, self.claims[number]):
                 edit = near.of_root(right_node, letter, equation)
                 if edit is not None and edit.meant != "1":  # a factor such as 2 in 2k may be right: two springs
                     return edit
         for equation, number in reversed(equations_of_motion(*claim.values, self.meaning, near.known)):
-            if self.claims[number].row.block.part == part:
+            if self.belongs_to(claim, self.claims[number]):
+                lost = [self.meaning.symbols[each] for each in equation.free_symbols if each in self.meaning.symbols]
+                near.letters = [*near.letters, *(each for each in lost if not each.dots and each not in near.letters)]
                 return near.of_motion(right_node, letter, equation)
         return None
 
+    def belongs_to(self, claim: Claim, earlier: Claim) -> bool:
+        """Whether an earlier row is in the same part as a claim, or the sentence of the claim refers to its label."""
+        block = claim.row.block
+        return earlier.row.block.part == block.part or earlier.row.label in _REFERENCE.findall(block.sentence)
+
     def blame_earlier_rows(self) -> None:
-        for earlier in {fix.earlier.number: fix.earlier for fix in self.fixes}.values():
-            edits = Counter((fix.edit.was, fix.edit.meant) for fix in self.fixes if fix.earlier is earlier)
-            chosen, _count = edits.most_common(1)[0]
-            fixes = [f for f in self.fixes if f.earlier is earlier and (f.edit.was, f.edit.meant) == chosen]
+        explained: dict[int, Claim] = {}  # the blamed row, by the number of a claim that follows after its change
+        for fixes in self.fixes_by_row():
+            earlier, meant = fixes[0].earlier, suggestion_of(fixes[0].edit)
+            if all(fix.claim.number in explained for fix in fixes):
+                for blamed in {explained[fix.claim.number].number for fix in fixes}:
+                    verdict = self.claims[blamed].verdict
+                    assert verdict is not None
+                    verdict.or_lines += (earlier.row.line,)
+                continue
             alone = all(fix.claim.verdict is None or not fix.claim.verdict.suggestion for fix in fixes)
-            meant = suggestion_of(fixes[0].edit)
-            if len(fixes) > 1 or alone:
+            if len(fixes) > 1 or alone or any(self.followers(fix.claim) for fix in fixes):
                 lines = ", ".join(str(fix.claim.row.line) for fix in fixes)
                 where = f"line{'s' * (len(fixes) > 1)} {lines}"
-                verdict = Verdict(Outcome.DIFFERS, f"{where} would follow after one change here")
-                verdict.suggestion, verdict.why_plausible = meant, WHY[fixes[0].edit.kind]
-                verdict.span = fixes[0].edit.span
-                earlier.verdict = verdict
-                for fix in fixes:
-                    fix.claim.verdict = Verdict(
-                        Outcome.HOLDS, "it follows from a row that is probably wrong", inherits=earlier.number
-                    )
+                earlier.verdict = Verdict(
+                    Outcome.DIFFERS, f"{where} would follow after one change here", suggestion=meant,
+                    why_plausible=WHY[fixes[0].edit.kind], span=fixes[0].edit.span,
+                )  # fmt: skip
+                for claim in [each for fix in fixes for each in (fix.claim, *self.followers(fix.claim))]:
+                    because = "it follows from a row that is probably wrong"
+                    claim.verdict = Verdict(Outcome.HOLDS, because, inherits=earlier.number)
+                    explained[claim.number] = earlier
                 continue
             for fix in fixes:
                 if fix.claim.verdict is not None and fix.claim.verdict.outcome is Outcome.DIFFERS:
                     fix.claim.verdict.or_lines += (earlier.row.line,)
                     fix.claim.verdict.because += f"; or the slip is in line {earlier.row.line}: {meant}"
+
+    def fixes_by_row(self) -> list[list[Fix]]:
+        """Return the fixes with the most frequent change of each earlier row. Rows after whose change the most later
+        rows follow come first."""
+        found = []
+        for earlier in {fix.earlier.number: fix.earlier for fix in self.fixes}.values():
+            of_row = [fix for fix in self.fixes if fix.earlier is earlier]
+            edits = Counter((fix.edit.was, fix.edit.meant) for fix in of_row)
+            chosen, _count = edits.most_common(1)[0]
+            found.append([fix for fix in of_row if (fix.edit.was, fix.edit.meant) == chosen])
+        return sorted(found, key=lambda fixes: (-len(fixes), fixes[0].edit.cost, fixes[0].earlier.number))
+
+    def followers(self, claim: Claim) -> list[Claim]:
+        """Return the later claims that follow only from a wrong claim: they show that this claim may be right."""
+        return [each for each in self.claims if each.verdict is not None and each.verdict.inherits == claim.number]
 
     def blame_formulas(self) -> None:
         """If two rows give different values of a letter, blame the first if later rows follow only from the second."""
@@ -742,17 +853,14 @@ class _Auditor:
             formula, line = self.claims[verdict.contradicts], self.claims[verdict.contradicts].row.line
             if formula.verdict is None or formula.verdict.outcome is Outcome.DIFFERS:
                 continue
-            later = [each for each in self.claims if each.verdict and each.verdict.inherits == claim.number]
+            later = self.followers(claim)
             between = self.claims[formula.number + 1 : claim.number]
             used = any(each.verdict and formula.number in each.verdict.given for each in between)
             of_same = formula.values is not None and claim.values is not None and formula.values[0] == claim.values[0]
             if used or not of_same or formula.verdict.outcome is Outcome.HOLDS:
                 later = []
             if later:
-                because = f"line {claim.row.line} gives a different value, and later rows follow only from that value"
-                formula.verdict = replace(
-                    verdict, because=because, suggestion="", span=None, or_lines=(claim.row.line,)
-                )
+                self.blame_formula(formula, claim)
                 claim.verdict = Verdict(Outcome.HOLDS, "later rows follow from this value")
                 for each in later:
                     each.verdict = Verdict(Outcome.HOLDS, "it follows from an earlier row", (claim.number,))
@@ -760,17 +868,42 @@ class _Auditor:
                 verdict.or_lines += (line,)
                 verdict.because += f"; or the slip is in line {line}"
 
+    def blame_formula(self, formula: Claim, claim: Claim) -> None:
+        """Blame a formula that contradicts the value in `claim`, or else the earlier value of one of its letters, if
+        one change of this value, but no change of the formula, gives the value in `claim`."""
+        assert claim.verdict is not None
+        because = f"line {claim.row.line} gives a different value, and later rows follow only from that value"
+        letters = self.letters_behind(formula)
+        behind = [each for each in self.claims[: claim.number] if each.values and each.values[0] in letters]
+        suspects = [formula, *(each for each in reversed(behind) if each is not formula and self.may_be_changed(each))]
+        self.scope = self.meaning.scope = scope_of(self.document, claim.row)
+        edits: list[tuple[Claim, Edit]] = []
+        for suspect in suspects:
+            with suppress(LimitReached, RecursionError, *FAULTS), time_limited(SECONDS_OF_SEARCH):
+                lost: list[Node] | None = [*letters_in(suspect.right, claim.right)] if suspect is not formula else None
+                edit = self.near_edit(suspect, self.known_without(suspect, claim), lost)
+                edits += [(suspect, edit)] if edit is not None else []
+        verdict = replace(claim.verdict, because=because, suggestion="", span=None)
+        blamed = formula
+        if edits:
+            blamed, edit = edits[0]
+            verdict.suggestion, verdict.why_plausible, verdict.span = suggestion_of(edit), WHY[edit.kind], edit.span
+        verdict.or_lines = (claim.row.line, *(each.row.line for each, _ in edits[1:]))
+        blamed.verdict = verdict
+
     def blame_odd_dimensions(self) -> None:
         """Report the row, if any, whose terms contradict the dimensions that all other rows of its problem or section
         give."""
+        named = named_quantities(self.document, lambda row: scope_of(self.document, row))
         by_scope: dict[int, list[Claim]] = {}
         for claim in self.claims:
             by_scope.setdefault(scope_of(self.document, claim.row), []).append(claim)
-        for claims in by_scope.values():
-            odd = odd_claim(claims, self.meaning)
-            if odd is not None:
+        for scope, claims in by_scope.items():
+            odd = odd_claims(claims, self.meaning, named.get(scope, {}))
+            if odd:
+                others = tuple(dict.fromkeys(each.row.line for each in odd[1:]))
                 because = "the dimensions of its terms contradict the other rows"
-                odd.verdict = Verdict(Outcome.DIFFERS, because)
+                odd[0].verdict = Verdict(Outcome.DIFFERS, because, or_lines=others)
 
     def shown(self, span: Span) -> str:
         return self.document.source.text[span.start : span.end].strip()
@@ -820,7 +953,8 @@ class _Auditor:
 
     def find_lost_term(self, claim: Claim, verdict: Verdict) -> None:
         """Suggest a term of the left side that is missing on the right side."""
-        if claim.values is None or claim.row.block.cues & SPECIAL:
+        at_place = any(isinstance(each, EvalBar) for each in claim.left.walk()) if claim.left is not None else False
+        if claim.values is None or (claim.row.block.cues & SPECIAL and not at_place):
             return
         left, right = (self.expanded(each) for each in claim.values)
         if isinstance(left, MatrixBase) or isinstance(right, MatrixBase) or right == 0:

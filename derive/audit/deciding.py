@@ -31,8 +31,11 @@ from derive.audit.systems import (
     linearised,
     motion_of,
     root_equation,
+    values_at_instant,
+    values_at_place,
     vanishes,
     with_small_factors,
+    zeros_in_time,
 )
 from derive.documents.layout import Cue
 from derive.documents.meaning import Meaning, Meaningless, Value
@@ -158,8 +161,9 @@ class Decision:
                     continue
                 if letter is self.left and (found := self.solution(self.known.recent())) is not None:
                     return found
-                if (found := self.of_known_form(letter, value) or self.of_root(letter, value)) is not None:
-                    return found
+                for test in (self.of_known_form, self.of_root, self.of_instant):
+                    if (found := test(letter, value)) is not None:
+                        return found
                 about = "an approximate value" if self.claim.relation == "~" else "a value"
                 return self.of_used_letter(letter) or Verdict(Outcome.DEFINES, f"{about} for {_word(letter)}")
         return None
@@ -217,6 +221,10 @@ class Decision:
         if any(map(self.known.is_rate, put_in.free_symbols)):
             put_in, used = value, ()
         found = root_equation(letter, self.meaning, self.known)
+        if found is None and Cue.ZERO in self.cues and (at := zeros_in_time(letter, self.meaning, self.known)):
+            time, vanishing, number = at
+            if vanishes(vanishing, time, put_in, self.meaning, self.known):
+                return Verdict(Outcome.HOLDS, "an earlier value vanishes at this time", (*used, number))
         if found is None:
             for equation, number in frequency_equations(letter, self.meaning, self.known):
                 if vanishes(equation, letter, put_in, self.meaning, self.known):
@@ -231,6 +239,14 @@ class Decision:
         if holds:
             return Verdict(Outcome.HOLDS, "it is a root of an earlier equation", (*used, number))
         return Verdict(Outcome.UNDECIDED, f"{_word(letter)} does not satisfy the earlier equation for {_word(plain)}")
+
+    def of_instant(self, letter: Symbol, value: Expr) -> Verdict | None:
+        """Judge the value of a letter at an instant: `v_1` is the value of v or x' at t_1."""
+        for earlier, instant in values_at_instant(letter, self.meaning, self.known):
+            if same(expanded(self.known, earlier.value)[0], expanded(self.known, value)[0]):
+                because = f"the value of {_word(earlier.symbol)} at {_word(instant.symbol)}"
+                return Verdict(Outcome.HOLDS, because, (earlier.claim, instant.claim))
+        return None
 
     def other_name(self, letter: Symbol, value: Expr) -> Symbol | None:
         """Return a letter with a different index and the same value, or None."""
@@ -395,14 +411,16 @@ class Decision:
             among = small_letters(left.free_symbols | right.free_symbols, self.meaning)
             if self.claim.relation == "=":
                 among = [each for each in among if len(each) > 1 or self.may_be_small(each[0])]
-            order = order_of_error(left, right, self.meaning, among)
-            if order is not None:
+            for order in (order_of_error(left, right, self.meaning, [each]) for each in among):
+                if order is None:
+                    continue
                 letters, power = order
                 words = " and ".join(_word(each) for each in letters)
-                if letters == changing_letters(left.free_symbols, self.meaning) and power <= _degree(right, letters):
+                if power > _degree(right, letters):
+                    return Verdict(Outcome.APPROXIMATES, f"the error is of order {power} in {words}", used)
+                if letters == changing_letters(left.free_symbols, self.meaning):
                     because = f"the terms of order {power} in {words} are not those of the left side"
                     return Verdict(Outcome.DIFFERS, because, used)
-                return Verdict(Outcome.APPROXIMATES, f"the error is of order {power} in {words}", used)
         if self.claim.relation in ("~", "prop"):
             return Verdict(Outcome.UNDECIDED, "this approximation or proportionality cannot be checked")
         return None
@@ -677,8 +695,10 @@ class Decision:
             if symbol in self.meaning.evaluations:
                 inner = inner | self.meaning.evaluations[symbol][2].free_symbols
             for each in (symbol, *sorted(inner - self.left.free_symbols & self.right.free_symbols, key=str)):
-                values = self.known.definitions.get(each, [])
-                if len({found.chain for found in values if found.part == values[-1].part}) > 1:
+                found = self.known.definitions.get(each, [])
+                values = {one.chain: one.value for one in found if one.part == found[-1].part}
+                first, *others = [expanded(self.known, value)[0] for value in values.values()] or [each]
+                if any(not same(first, other) for other in others):
                     return each
         return None
 
@@ -692,6 +712,10 @@ class Decision:
             if Cue.REPEATED in self.cues:
                 because = f"this value of {_word(self.left)} differs from its earlier value"
                 return Verdict(Outcome.UNDECIDED, because, (before.claim,), repeated=before)
+            for place, number, there in values_at_place(before.value, self.right, self.meaning):
+                if same(there, self.right):
+                    because = f"the earlier value at {_word(place)} = {number}"
+                    return Verdict(Outcome.HOLDS, because, (before.claim,))
             if before.part not in (-1, self.claim.row.block.part):
                 return Verdict(Outcome.DEFINES, f"a different value for {_word(self.left)} in another part")
             if self.cues & {Cue.DEFINED, Cue.GIVEN}:

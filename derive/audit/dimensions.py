@@ -7,14 +7,15 @@ contradicts the other rows and these agree with each other.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
 import sympy
 from sympy import Expr, MatrixBase, Symbol
 
 from derive.audit.claims import Claim, Outcome
+from derive.audit.named_quantities import Powers
 from derive.documents.facts import ANGLES
 from derive.documents.meaning import Meaning
 from derive.documents.syntax import Text
@@ -28,8 +29,12 @@ USUAL = {  # the powers of mass, length and time
 # l may also name an angular momentum, T a period or a tension, R a resultant force, and x, y, z and r a ratio of
 # lengths.
 LESS_USUAL = ("l", "T", "R", "x", "y", "z", "r")
+# These letters often have a second meaning, such as a length and a Lagrangian, even if words name their dimension.
+TWO_MEANINGS = ("E", "H", "L", "T", "U", "V", "p")
 MOST_CANDIDATES = 12
 FEWEST_CLAIMS = 6
+UNDERIVED = (Outcome.DEFINES, Outcome.UNDECIDED)
+FOLLOWS = (Outcome.HOLDS, Outcome.APPROXIMATES)
 Form = dict[str, Fraction]  # the exponents of the letters in a product
 
 
@@ -75,29 +80,45 @@ class _System:
         )  # fmt: skip
 
 
-def odd_claim(claims: Sequence[Claim], meaning: Meaning) -> Claim | None:
-    """Return the claim whose terms contradict the dimensions that all other claims give, or None."""
-    equations = [each for claim in claims for each in equations_of(claim, meaning)]
-    if len({each.source for each in equations}) < FEWEST_CLAIMS:
-        return None
-    equations += usual(equations, meaning)
+def odd_claims(claims: Sequence[Claim], meaning: Meaning, named: Mapping[str, Powers]) -> list[Claim]:
+    """Return the claims that may contain an error: without any one of them, all dimensions agree.
+
+    named   the dimensions of letters that the words of the document name
+    """
+    wrong = {each.number for each in claims if each.verdict is not None and each.verdict.outcome is Outcome.DIFFERS}
+    agreed = [each for each in claims if not _repeats_slip(each, wrong)]
+    equations = [each for claim in agreed for each in equations_of(claim, meaning)]
+    if len({each.source for each in equations}) + len(named) < FEWEST_CLAIMS:
+        return []
+    equations += usual(equations, meaning, named)
     conflicts = _conflicts(equations)
-    for letter in LESS_USUAL if conflicts else ():
+    unsure = {*TWO_MEANINGS, *(each for each in LESS_USUAL if each not in named)}
+    for letter in sorted(unsure) if conflicts else ():
         without = [each for each in equations if each.source != -1 or list(each.form) != [letter]]
         if not _conflicts(without):
-            return None  # the letter has a different dimension here: `l` is an angular momentum
+            return []  # the letter may have a different dimension here: `l` is an angular momentum
     if not conflicts:
-        return None
+        return []
     shared = set.intersection(*conflicts)
     by_number = {claim.number: claim for claim in claims}
-    found = []
-    for number in sorted(shared)[:MOST_CANDIDATES]:
-        claim = by_number[number]
-        if claim.verdict is None or claim.verdict.outcome not in (Outcome.DEFINES, Outcome.UNDECIDED):
-            continue
-        if not _conflicts([each for each in equations if each.source != number]):
-            found.append(claim)
-    return found[0] if found else None
+    candidates = [by_number[number] for number in sorted(shared)]
+    for outcomes in (UNDERIVED, FOLLOWS):
+        among = [each for each in candidates if each.verdict is not None and each.verdict.outcome in outcomes]
+        found = [
+            claim
+            for claim in among[:MOST_CANDIDATES]
+            if not _conflicts([each for each in equations if each.source != claim.number])
+        ]
+        if found:
+            return found
+    return []
+
+
+def _repeats_slip(claim: Claim, wrong: set[int]) -> bool:
+    """Whether a claim is wrong, or carries on the slip of a wrong claim."""
+    before = claim.before.number if claim.before is not None else -1
+    given = {*claim.verdict.given, claim.verdict.inherits} if claim.verdict is not None else set()
+    return bool({claim.number, before, *given} & wrong)
 
 
 def _conflicts(equations: Sequence[Equation]) -> list[set[int]]:
@@ -107,14 +128,17 @@ def _conflicts(equations: Sequence[Equation]) -> list[set[int]]:
     return system.conflicts
 
 
-def usual(equations: Sequence[Equation], meaning: Meaning) -> Iterator[Equation]:
-    """Yield the dimensions that some letters usually have; an angle is dimensionless."""
+def usual(equations: Sequence[Equation], meaning: Meaning, named: Mapping[str, Powers]) -> Iterator[Equation]:
+    """Yield the dimensions that the words of the document or, by default, the names of letters give; an angle is
+    dimensionless."""
     names = {each for equation in equations for each in equation.form}
     yield Equation(-1, {"t": Fraction(1)}, (Fraction(0), Fraction(0), Fraction(1)))
     for symbol, letter in meaning.symbols.items():
-        if symbol.name not in names or letter.marks or letter.primes or letter.label:
+        if symbol.name not in names or letter.dots or letter.marks or letter.primes or letter.label:
             continue
-        if letter.base in ANGLES:
+        if symbol.name in named:
+            yield Equation(-1, {symbol.name: Fraction(1)}, named[symbol.name])
+        elif letter.base in ANGLES:
             yield Equation(-1, {symbol.name: Fraction(1)})
         elif letter.base in USUAL and (not letter.sub or letter.sub in "0123"):
             yield Equation(-1, {symbol.name: Fraction(1)}, tuple(map(Fraction, USUAL[letter.base])))
@@ -125,6 +149,10 @@ def equations_of(claim: Claim, meaning: Meaning) -> Iterator[Equation]:
     if claim.values is None or claim.relation not in ("=", ":=", "~", "<", ">", "<=", ">="):
         return
     left, right = claim.values
+    if isinstance(left, MatrixBase) and isinstance(right, MatrixBase) and left.shape == right.shape:
+        for pair in zip(left, right, strict=True):
+            yield from equations_of(replace(claim, values=pair), meaning)
+        return
     if isinstance(left, MatrixBase) or isinstance(right, MatrixBase):
         return
     if (left.is_number and left != 0) or (right.is_number and right != 0) or left.atoms(sympy.Float):
@@ -193,12 +221,24 @@ def form_of(value: Expr, meaning: Meaning, found: list[Form]) -> Form | None:
     if isinstance(value, sympy.exp):
         found.append(form_of(value.args[0], meaning, found) or {})
         return {}
+    if isinstance(value, sympy.Integral):
+        return _of_integral(value, meaning, found)
     if isinstance(value, sympy.Abs):
         return form_of(value.args[0], meaning, found)
     if isinstance(value, sympy.Function) and len(value.args) == 1:
         found.append(form_of(value.args[0], meaning, found) or {})
         return {}
     raise Unclear
+
+
+def _of_integral(value: sympy.Integral, meaning: Meaning, found: list[Form]) -> Form:
+    product = form_of(value.function, meaning, found) or {}
+    for variable, *limits in value.limits:
+        of_variable = of_symbol(variable, meaning)
+        forms = [form_of(each, meaning, found) for each in limits if each.is_finite is not False]
+        found.extend(_quotient(each, of_variable) for each in forms if each is not None)
+        product = _quotient(product, {name: -exponent for name, exponent in of_variable.items()})
+    return product
 
 
 def of_symbol(symbol: Symbol, meaning: Meaning) -> Form:

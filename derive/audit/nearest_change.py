@@ -20,7 +20,15 @@ from derive.audit.knowledge import Known
 from derive.audit.numeric import NoNumber, Numbers, at, close
 from derive.audit.points import Surface
 from derive.audit.slips import Edit, edits_of_side, with_term
-from derive.audit.systems import OF_RATES, equations_of, expanded, linearised, motion_of
+from derive.audit.systems import (
+    OF_RATES,
+    equations_of,
+    expanded,
+    linearised,
+    motion_of,
+    moving_letters,
+    rate_of_first_integral,
+)
 from derive.audit.time_limit import FAULTS
 from derive.documents.meaning import Meaning, Meaningless
 from derive.documents.syntax import Add, Der, Fun, Letter, Node, Num, Root
@@ -56,7 +64,8 @@ class Nearness:
         if state not in self.known.kept:
             surface = Surface(equations, self.meaning).find(POINTS)
             # A row that later rows contradict is reported as wrong only if all other rows agree with each other.
-            refused = [each for each in equations if each not in surface.kept and each.name != OF_RATES]
+            agree = [*surface.kept, *surface.special]
+            refused = [each for each in equations if each not in agree and each.name != OF_RATES]
             self.known.kept[state] = [] if self.written and refused else surface.points
         return [
             Numbers(self.meaning, self.defined(letter), point, fixed)
@@ -116,7 +125,8 @@ class Nearness:
         complete = one == other if is_step else one | other <= set(points[0].fixed)
         for edit, first in self.edits_of_both(left, right, complete):
             if holds(edit.node, right) if first else holds(left, edit.node):
-                return None if is_other_root(edit, left if first else right) else edit
+                # A later row shows which of two roots is right.
+                return None if not self.written and is_other_root(edit, left if first else right) else edit
         return None
 
     def of_value(self, side: Node, value: Expr) -> Edit | None:
@@ -202,6 +212,46 @@ class Nearness:
                 if satisfies(edit.node if edit is not None else side):
                     return edit
         return None
+
+    def of_first_integral(self, left: Node, right: Node) -> Edit | None:
+        """Return the cheapest change after which the time derivative of an equation follows from the equations of
+        motion; None if it follows already, or if no change is found."""
+        points = self.points()
+        if len(points) < 2 or not self.is_complete(self.meaning.of(left), self.meaning.of(right)):
+            return None
+
+        def is_conserved(one: Node, other: Node) -> bool:
+            sides = self.meaning.of(one), self.meaning.of(other)
+            rate = rate_of_first_integral(*sides, self.meaning, self.known)
+            if rate is None or not any(map(self.is_acceleration, rate.free_symbols)):
+                return False
+            terms = Add_.make_args(expand(rate))
+            return all(abs(p.of(rate)) <= SMALL * sum(abs(p.of(term)) for term in terms) for p in points)
+
+        if is_conserved(left, right):
+            return None
+        for edit, first in self.edits_of_both(left, right, complete=False):
+            with suppress(*FAULTS, NoNumber, Meaningless):
+                if is_conserved(edit.node, right) if first else is_conserved(left, edit.node):
+                    return edit
+        return None
+
+    def is_complete(self, left: Expr, right: Expr) -> bool:
+        """Whether the equations of motion for the coordinates of an equation contain no other coordinate that is not
+        constant."""
+        rate = rate_of_first_integral(left, right, self.meaning, self.known)
+        if rate is None:
+            return False
+        equations = equations_of(self.known, self.meaning, sure=True, written=self.written)
+        moving = [set(moving_letters(each.value.free_symbols, self.meaning)) for each in equations]
+        constant = {letter for letters in moving if len(letters) == 1 for letter in letters}
+        accelerations = set(filter(self.is_acceleration, rate.free_symbols))
+        needed = set().union(*(letters for letters in moving if letters & accelerations))
+        return bool(needed) and needed - constant <= set(rate.free_symbols)
+
+    def is_acceleration(self, symbol: Symbol) -> bool:
+        letter = self.meaning.symbols.get(symbol)
+        return letter is not None and letter.dots == 2
 
     def edits_of_both(self, left: Node, right: Node, complete: bool) -> Iterator[tuple[Edit, bool]]:
         both = [(each, False) for each in self.edits(right, left, complete)]

@@ -25,6 +25,7 @@ SMALL = 1e-10  # an equation with a smaller residual, relative to its terms, cou
 DAMPING = 1e-9  # the relative increase of the diagonal of the linear system
 SMALLEST = 1e-3  # the smallest absolute value of a letter
 LARGEST = 1e3  # the largest absolute value of a letter
+OF_EITHER_SIGN = ("E", "H", "L", "U", "V")  # names of energies and Lagrangians
 WEIGHTS = (0.05, 0.3, 1.0)  # the weights in changes: of constants, of letters that change with time, of rates
 
 Numbers = dict[Symbol, complex]
@@ -37,17 +38,27 @@ class Surface:
     equations: Sequence[Equation]
     meaning: Meaning
     kept: list[Equation] = field(default_factory=list)
+    special: list[Equation] = field(default_factory=list)  # equations that hold only if a rate or coordinate vanishes
+    zeros: set[Symbol] = field(default_factory=set)  # letters that vanish by an equation such as x' = 0
     points: list[Numbers] = field(default_factory=list)
 
     def find(self, count: int) -> Surface:
+        self.zeros = {
+            each.value for each in self.equations if each.value.is_Symbol and self.has_either_sign(each.value)
+        }
+        self.kept = [each for each in self.equations if each.value in self.zeros]
         here = self.begin(0)
         for each in self.equations:
-            starts = (here, *map(self.begin, range(1, OTHER_STARTS + 1)))
+            if each in self.kept:
+                continue
+            starts = [here, *map(self.begin, range(1, OTHER_STARTS + 1))]
             tried = (self.moved(start, [*self.kept, each]) for start in starts)
             found = next((there for there in tried if there is not None), None)
             if found is not None:
                 here = found
                 self.kept.append(each)
+            elif any(self.moved(start, [*self.kept, each], vanishing=True) is not None for start in starts):
+                self.special.append(each)
         for point in range(TRIED):
             found = here if point == 0 else self.moved(self.begin(point), self.kept)
             if found is not None:
@@ -58,17 +69,26 @@ class Surface:
 
     def begin(self, point: int) -> Numbers:
         letters = set().union(*(each.value.free_symbols for each in self.equations)) if self.equations else set()
-        return {each: complex(number_of(each.name, point)) for each in sorted(letters, key=str)}
+        return {
+            each: 0j if each in self.zeros else complex(number_of(each.name, point))
+            for each in sorted(letters, key=str)
+        }
 
     def weight(self, symbol: Symbol) -> float:
         letter = self.meaning.symbols.get(symbol)
+        if symbol in self.zeros:
+            return 0.0
         if letter is None:
             return WEIGHTS[1]
         return WEIGHTS[2 if letter.dots else 1 if self.meaning.facts.changes(letter) else 0]
 
-    def moved(self, start: Numbers, equations: Sequence[Equation]) -> Numbers | None:
-        """Return the point that Newton's method reaches, or None."""
+    def moved(self, start: Numbers, equations: Sequence[Equation], vanishing: bool = False) -> Numbers | None:
+        """Return the point that Newton's method reaches, or None.
+
+        vanishing   whether letters that may be negative may vanish there
+        """
         here = dict(start)
+        equations = [each for each in equations if each.value not in self.zeros]
         try:
             for _ in range(STEPS):
                 residuals, slopes, sizes = [], [], []
@@ -79,7 +99,7 @@ class Surface:
                     slopes.append({letter: s / size for letter, s in slope.items()})
                     sizes.append(abs(value) / size)
                 if max(sizes, default=0.0) < SMALL:
-                    return here if self.is_general(here, equations) else None
+                    return here if self.is_general(here, equations, vanishing) else None
                 weights = {each: self.weight(each) ** 2 * max(abs(value), 0.1) ** 2 for each, value in here.items()}
                 factors = _solved([[_times(one, other, weights) for other in slopes] for one in slopes], residuals)
                 for factor, slope in zip(factors, slopes, strict=True):
@@ -98,11 +118,19 @@ class Surface:
             found[letter] = (at(equation, there.__getitem__) - value) / step
         return value, found
 
-    def is_general(self, here: Numbers, equations: Sequence[Equation]) -> bool:
+    def is_general(self, here: Numbers, equations: Sequence[Equation], vanishing: bool) -> bool:
         letters = set().union(*(each.value.free_symbols for each in equations)) if equations else set()
+        sizes = {each: abs(here[each]) for each in letters}
         return all(
-            SMALLEST < abs(here[each]) < LARGEST and (here[each].real > 0 or not each.is_positive) for each in letters
+            each in self.zeros
+            or (vanishing and self.has_either_sign(each) and sizes[each] < SMALLEST)
+            or (SMALLEST < sizes[each] < LARGEST and (here[each].real > 0 or self.has_either_sign(each)))
+            for each in letters
         )
+
+    def has_either_sign(self, symbol: Symbol) -> bool:
+        letter = self.meaning.symbols.get(symbol)
+        return not symbol.is_positive or (letter is not None and letter.base in OF_EITHER_SIGN)
 
 
 @lru_cache(maxsize=2000)

@@ -29,6 +29,7 @@ LARGEST = 300  # an equation with at least this number of operations is left out
 LARGEST_LAGRANGIAN = 500
 LARGEST_CONSTRAINT = 60
 HIGHEST_POWER = 6
+CONSERVED = ("E", "h", "H")
 PERIODS = ("tau", "T", "P")
 
 
@@ -170,6 +171,22 @@ def rates(value: Expr, meaning: Meaning, known: Known) -> Iterator[Expr]:
         yield value
 
 
+def rate_of_first_integral(left: Expr, right: Expr, meaning: Meaning, known: Known) -> Expr | None:
+    """Return the time derivative of an equation that may be a first integral, such as the conservation of energy; None
+    unless the equation contains a coordinate and its first rate, but no second rates."""
+    name = meaning.symbols.get(left.as_base_exp()[0])
+    if name is not None and not name.dots and name.base not in CONSERVED:
+        return None  # the value of a letter, such as a kinetic energy, may change
+    value, _ = expanded(known, left - right, left if left.is_Symbol else None, sure=True)
+    letters = {each: meaning.symbols[each] for each in value.free_symbols if each in meaning.symbols}
+    if any(each.base == "t" or each.dots > 1 for each in letters.values()) or value.has(Integral):
+        return None
+    places = {replace(each, dots=0).identity for each in letters.values() if each.dots}
+    if not any(each.identity in places and not each.dots for each in letters.values()):
+        return None
+    return next(rates(value, meaning, known), None)
+
+
 def linearised(equations: Sequence[Equation], meaning: Meaning) -> list[Equation]:
     """Return equations to the first order in the letters that change with time, and then their parts of order zero,
     which vanish at an equilibrium. An equation without a value where the letters vanish is unchanged.
@@ -243,17 +260,26 @@ def _lagrangians(known: Known, last: int) -> list[tuple[Expr, int]]:
 def difference_of_energies(known: Known) -> tuple[Expr, int] | None:
     """Return T - U and the number of the later of the two claims; None unless the document speaks of Lagrange and gives
     values to both energies."""
-    energies: dict[str, Definition] = {}
+    found = energies(known)
+    if found is None:
+        return None
+    kinetic, potential = found
+    return kinetic.value - potential.value, max(kinetic.claim, potential.claim)
+
+
+def energies(known: Known) -> tuple[Definition, Definition] | None:
+    """Return the values of the kinetic and of the potential energy; None unless the document speaks of Lagrange and
+    gives values to both."""
+    found: dict[str, Definition] = {}
     for symbol, definitions in list(known.definitions.items()):
         letter = known.meaning.symbols.get(symbol)
         if letter is None or letter.dots or letter.primes or letter.sub or definitions[-1].claim in known.conditions:
             continue
         if letter.base in ("T", "K", "U", "V"):
-            energies["kinetic" if letter.base in "TK" else "potential"] = definitions[-1]
-    if len(energies) < 2 or not known.meaning.facts.has_lagrange:
+            found["kinetic" if letter.base in "TK" else "potential"] = definitions[-1]
+    if len(found) < 2 or not known.meaning.facts.has_lagrange:
         return None
-    kinetic, potential = energies["kinetic"], energies["potential"]
-    return kinetic.value - potential.value, max(kinetic.claim, potential.claim)
+    return found["kinetic"], found["potential"]
 
 
 def _lagrange_equations(value: Expr, meaning: Meaning) -> Iterator[tuple[Symbol, Expr]]:
@@ -346,6 +372,49 @@ def root_equation(letter: Symbol, meaning: Meaning, known: Known) -> tuple[Symbo
         if sympy.count_ops(found) < LARGEST and not _defines(found, plain):
             return plain, found, number
     return None
+
+
+def values_at_instant(letter: Symbol, meaning: Meaning, known: Known) -> Iterator[tuple[Definition, Definition]]:
+    """Yield the values at t_1 that a letter such as v_1 may have, for earlier letters whose values contain t, and the
+    definition of t_1."""
+    named = meaning.symbols.get(letter)
+    if named is None or not named.sub or named.dots or named.marks or named.base == "t":
+        return
+    instant = known.latest(meaning.symbol(replace(named, base="t")))
+    time = next((s for s, each in meaning.symbols.items() if each.base == "t" and not each.sub), None)
+    if instant is None or time is None or time in instant.value.free_symbols:
+        return
+    for definitions in list(known.definitions.values()):
+        earlier = definitions[-1]
+        if time in earlier.value.free_symbols:
+            yield replace(earlier, value=earlier.value.subs(time, instant.value)), instant
+
+
+def values_at_place(value: Expr, other: Expr, meaning: Meaning) -> Iterator[tuple[Symbol, Expr, Expr]]:
+    """Yield the values of an expression where its only coordinate that `other` lacks is zero or, for an angle, a
+    quarter or half of a turn. Each result is a tuple of the coordinate, its number, and the value there."""
+    if isinstance(value, MatrixBase) or isinstance(other, MatrixBase):
+        return
+    places = changing_letters(value.free_symbols - other.free_symbols, meaning)
+    if len(places) != 1 or meaning.symbols[places[0]].dots or not other.free_symbols:
+        return
+    is_angle = meaning.symbols[places[0]].base in ANGLES
+    for number in (Integer(0), sympy.pi / 2, sympy.pi) if is_angle else (Integer(0),):
+        there = value.subs(places[0], number)
+        if not there.has(sympy.zoo, sympy.nan, sympy.oo):
+            yield places[0], number, there
+
+
+def zeros_in_time(letter: Symbol, meaning: Meaning, known: Known) -> tuple[Symbol, Expr, int] | None:
+    """Return t, the last earlier value that contains t, and the number of its claim, for the name t_1 of an instant;
+    otherwise None. A value that vanishes at t_1 is zero there."""
+    named = meaning.symbols.get(letter)
+    time = next((s for s, each in meaning.symbols.items() if each.base == "t" and not each.sub), None)
+    if named is None or named.base != "t" or not named.sub or named.dots or time is None:
+        return None
+    found = [each[-1] for each in known.definitions.values() if time in expanded(known, each[-1].value)[0].free_symbols]
+    last = max(found, key=lambda each: each.claim, default=None)
+    return (time, expanded(known, last.value)[0], last.claim) if last is not None else None
 
 
 def frequency_equations(letter: Symbol, meaning: Meaning, known: Known) -> list[tuple[Expr, int]]:

@@ -89,7 +89,7 @@ class Cue(StrEnum):
 
 
 CUES = {
-    Cue.APPROXIMATE: r"\bapproximat\w*|\bsmall\b|\bfirst order\b|\bsecond order\b|\blowest order\b|\bleading order\b"
+    Cue.APPROXIMATE: r"\bapproximat\w*|(?<!\\)\bsmall\b|\b(?:first|second|lowest|leading) order\b"
     r"|\bexpand\w*|\blineari[sz]\w*|\bneglect\w*|\bTaylor\b|\bignor\w+|\broughly\b|\babout\s*(?:\$?[\d.]|$)|\bseries\b",
     Cue.DEFINED: r"\blet\b|\bdefin\w+|\bdenot\w+|\bcall\b|\bcalled\b|\bintroduc\w+"
     r"|\bchoose\b|\bwrite\b|\bset\b|\bsetting\b",

@@ -5,6 +5,9 @@ from __future__ import annotations
 import pytest
 
 from derive.audit.claims import Claim, Outcome
+from derive.audit.named_quantities import named_quantities
+from derive.documents.layout import Cue, read_document
+from derive.documents.source import Format, source_of
 from tests.audit.test_auditing import RIGHT
 from tests.damage import damages_of, trials
 from tests.documents.reading import audit
@@ -351,3 +354,161 @@ def test_most_damages_of_a_small_document_are_blamed() -> None:
 )
 def test_a_slip_that_the_sides_show_is_blamed(text: str) -> None:
     assert len(wrong(text)) == 1
+
+
+MOTOR = (
+    "An arm of mass $M$ and length $b$ is turned through the angle $\\phi$ by a motor with the torque $K$.\n"
+    "The acceleration of free fall is $g$.\n"
+    "$$ \\frac13 M b^2 \\ddot\\phi = K - \\frac12 M g b \\cos\\phi $$"
+)
+
+
+def test_words_give_the_dimensions_of_letters() -> None:
+    assert wrong(MOTOR) == []
+    (claim,) = wrong(MOTOR.replace("b^2", "b^3"))
+    assert claim.verdict is not None and "dimensions" in claim.verdict.because
+
+
+def test_words_near_a_letter_may_mean_something_else() -> None:
+    text = (
+        "A rod of mass per unit length $\\mu$ and angular momentum $l$, with the centre of{~}mass $C$, turns.\n\n"
+        "The coefficient of static friction of the floor is $f$. The square of the speed $v$ grows. "
+        "Let $r$ and $s$ be the distances of two beads on the wire $W$."
+    )
+    document = read_document(source_of(text, Format.TEX))
+    named = named_quantities(document, lambda row: 0)[0]
+    lengths = {letter for letter, powers in named.items() if powers == (0, 1, 0)}
+    assert (set(named), lengths) == ({"l", "f", "s"}, {"s"})
+
+
+def test_a_row_with_the_dimensions_of_an_earlier_slip_is_not_blamed() -> None:
+    text = (
+        "A bar of mass $M$, length $b$ and width $d$ has\n\n$$ A = b d $$\n\n$$ J = \\frac{M}{3 b} (b^3 - d^3) "
+        "= \\frac{M}{3 b} (b^3 - d^2) = \\frac13 M b^2 - \\frac{M d^2}{3 b} $$\n\n$$ F = M g $$"
+    )
+    assert [each.number for each in wrong(text)] == [2]
+
+
+CENTRAL = (
+    "Lagrange's equations need the energies\n$$ T = \\frac12 m \\dot r^2 $$\nand\n$$ U = - \\frac{k}{r}. $$\n"
+    "$$\n\\begin{aligned}\nL &= T - U \\\\\nL &= \\frac12 m \\dot r^2 + \\frac{k}{r}\n\\end{aligned}\n$$\n"
+    "The equation of motion is\n$$ m \\ddot r + \\frac{k}{r^2} = 0 $$"
+)
+
+
+def test_a_value_that_later_rows_support_is_right() -> None:
+    assert wrong(CENTRAL) == []
+    (claim,) = wrong(CENTRAL.replace("= - \\frac{k}", "= \\frac{k}"))
+    assert claim.row.line == 4
+
+
+REFERRED = (
+    "(a) The acceleration is\n\\begin{align} \\ddot x = - \\mu g \\label{a} \\end{align}\n\n"
+    "(b) By \\eqref{a}, the velocity is\n$$ \\dot x = v - \\mu g t $$"
+)
+
+
+def test_a_row_of_another_part_is_used_if_the_sentence_refers_to_it() -> None:
+    slip = REFERRED.replace("v - \\mu g t", "v - 2 \\mu g t")
+    assert [each.row.line for each in wrong(slip)] == [5]
+    assert wrong(REFERRED) == wrong(slip.replace("By \\eqref{a}, the", "The")) == []
+
+
+SLIDING = (
+    "The position of the block is\n\\begin{align} x = v t - \\frac12 \\mu g t^2 \\label{x} \\end{align}\n"
+    "At the time\n$$ t_1 = \\frac{v}{3 \\mu g} $$\nit is, by \\eqref{x},\n$$ x_1 = \\frac{5 v^2}{18 \\mu g} $$"
+)
+
+
+def test_a_value_at_an_instant_is_computed() -> None:
+    assert [str(each.verdict.outcome) for each in audit(SLIDING).claims if each.verdict][-1] == "holds"
+    (claim,) = wrong(SLIDING.replace("\\frac{5 v", "-\\frac{5 v"))
+    assert claim.row.line == 6
+
+
+LOOP = (
+    "The normal force is\n$$ N = \\frac{m v^2}{R} + 3 m g \\cos\\theta - 2 m g $$\n\n"
+    "(b) At the top, it is\n$$ N = \\frac{m v^2}{R} - 5 m g $$"
+)
+
+
+def test_a_value_at_a_place_is_computed() -> None:
+    assert [str(each.verdict.outcome) for each in audit(LOOP).claims if each.verdict] == ["defines", "holds"]
+    (claim,) = wrong(LOOP.replace("- 5 m g", "+ 5 m g"))
+    assert claim.row.line == 5
+    assert wrong(LOOP.replace("- 5 m g", "- \\frac72 m g")) == []  # at another place
+
+
+FALL = (
+    "(a) On the sphere $r = R$. Newton's law is\n$$ r \\ddot\\theta + 2 \\dot r \\dot\\theta = g \\sin\\theta. $$\n"
+    "So the energy is constant,\n$$ E = \\frac12 m R^2 \\dot\\theta^2 + m g R \\cos\\theta $$"
+)
+
+
+@pytest.mark.parametrize("slip", ["m g R \\sin", "2 m g R \\cos"])
+def test_the_time_derivative_of_a_conserved_quantity_vanishes(slip: str) -> None:
+    assert wrong(FALL) == []
+    (claim,) = wrong(FALL.replace("m g R \\cos", slip))
+    assert claim.row.line == 4
+
+
+def test_a_letter_that_appears_once_may_be_a_similar_letter() -> None:
+    text = (
+        "The angular velocity is\n$$ \\Omega = \\sqrt{k/m} $$\nand the frequency is\n"
+        "$$ \\omega_0 = 2 \\sqrt{k/m}. $$\n"
+        "Their ratio is\n$$\n\\begin{aligned}\nn &= \\frac{\\omega_0}{\\Omega} \\\\\nn &= 2\n\\end{aligned}\n$$"
+    )
+    assert wrong(text) == []
+    (claim,) = wrong(text.replace("{\\omega_0}", "{\\Omega_0}"))
+    assert claim.row.line == 8
+
+
+CURVATURE = (
+    "The potential is\n$$ V = m g R \\cos\\theta - \\frac12 m R^2 w^2 \\sin^2\\theta $$\n"
+    "Its second derivative at the top is\n"
+    "$$ \\left.\\frac{d^2 V}{d\\theta^2}\\right|_{\\theta=0} = - m g R - m R^2 w^2 $$"
+)
+
+
+def test_a_lost_term_at_a_place_is_found() -> None:
+    assert wrong(CURVATURE) == []
+    (claim,) = wrong(CURVATURE.replace("- m g R -", "-"))
+    assert claim.row.line == 4
+
+
+def test_a_font_size_is_not_an_approximation() -> None:
+    text = "{\\small Figure 1.} The sum is\n$$ a = b + c $$"
+    (block,) = read_document(source_of(text, Format.TEX)).blocks
+    assert Cue.APPROXIMATE not in block.cues
+
+
+def test_a_letter_may_have_two_meanings() -> None:
+    text = (
+        "A string of length $L$ holds a bob of mass $m$ at the distance $r$.\n"
+        "The angle is $\\phi$, and the force $S$ is small.\n"
+        "$$ A = L r $$\n$$ T = \\frac12 m r^2 \\dot\\phi^2 $$\n$$ L = T $$"
+    )
+    assert wrong(text) == []
+
+
+SLIP = (
+    "The velocity of slip is\n$$ u = v - \\mu g t - \\frac{\\mu m g t}{M}. $$\n\n"
+    "The block stops sliding when it vanishes, at\n$$ t_1 = \\frac{M v}{\\mu (M + m) g} $$"
+)
+
+
+def test_a_quantity_vanishes_at_an_instant() -> None:
+    assert [str(each.verdict.outcome) for each in audit(SLIP).claims if each.verdict][-1] == "holds"
+    (claim,) = wrong(SLIP.replace("M + m", "M - m"))
+    assert claim.row.line == 5
+
+
+def test_a_value_is_compared_with_the_row_to_which_its_sentence_refers() -> None:
+    text = (
+        "The speed is\n\\begin{align} w^2 = \\frac{g}{b} (1 - \\cos\\theta) \\end{align}\nand the force is\n"
+        "\\begin{align} F = m g \\cos\\theta - m b w^2. \\label{f} \\end{align}\n\n"
+        "(b) With this result, \\eqref{f} becomes\n$$ F = m g (2 \\cos\\theta - 1) $$"
+    )
+    assert wrong(text) == []
+    (claim,) = wrong(text.replace("- 1)", "+ 1)"))
+    assert claim.row.line == 7
