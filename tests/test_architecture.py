@@ -385,9 +385,15 @@ def test_each_record_is_used_in_its_module() -> None:
         assert any(const in used for used in uses(module).values()), rule.name
 
 
-FUNCTIONS = {
-    (module, node.name): node for module in ENGINE for node in tree(module).body if isinstance(node, ast.FunctionDef)
-}
+@cache
+def functions() -> dict[tuple[str, str], ast.FunctionDef]:
+    """Return the functions of the engine by module and name."""
+    return {
+        (module, node.name): node
+        for module in ENGINE
+        for node in tree(module).body
+        if isinstance(node, ast.FunctionDef)
+    }
 
 
 @cache
@@ -404,7 +410,7 @@ def names_from_elsewhere(module: str) -> dict[str, tuple[str, str]]:
 @cache
 def rules_and_calls(module: str, name: str) -> tuple[frozenset[Rule], frozenset[str]]:
     """Return the rules that a function names itself, and the names that it has from elsewhere."""
-    within = list(ast.walk(FUNCTIONS[module, name]))
+    within = list(ast.walk(functions()[module, name]))
     its_own = {n.arg for n in within if isinstance(n, ast.arg)}
     its_own |= {n.id for n in within if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)}
     found = {rule for where, const, rule in RECORDS if where == module and const in uses(module)[name]}
@@ -418,7 +424,7 @@ def rules_of(module: str, name: str, seen: set[tuple[str, str]], but_for: Collec
     found = set(its_own)
     for used in names - set(but_for):
         there = names_from_elsewhere(module).get(used, (module, used))
-        if there in FUNCTIONS and there not in seen:
+        if there in functions() and there not in seen:
             found |= rules_of(*there, seen, but_for)
     return found
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from itertools import pairwise
 from math import atan2, degrees
 from typing import Any
@@ -79,15 +80,17 @@ def slab(inertia: Any = None) -> Drawing:
 
 
 SLAB = slab()
-SCENES = [
-    vectors_of_block(),
-    vectors_of_block(axis=(1, 1, 0)),
-    drawing("axes", outline(Cuboid((a, 2 * a, 3 * a), M)), axis_of_rotation(column(1, 2, 3), rate=omega)),
-    drawing("cone", outline(CONE)),
-    drawing("cone_above", outline(CONE, "base"), point_mark(column(0, 0, h / 4), Symbol("C"))),
-    leaning(weights=True),
-    SLAB,
-]
+SCENES: dict[str, Callable[[], Drawing]] = {  # made when a test needs them, because some are derived
+    "vectors0": vectors_of_block,
+    "vectors1": lambda: vectors_of_block(axis=(1, 1, 0)),
+    "axes": lambda: drawing(
+        "axes", outline(Cuboid((a, 2 * a, 3 * a), M)), axis_of_rotation(column(1, 2, 3), rate=omega)
+    ),
+    "cone": lambda: drawing("cone", outline(CONE)),
+    "cone_above": lambda: drawing("cone_above", outline(CONE, "base"), point_mark(column(0, 0, h / 4), Symbol("C"))),
+    "top": lambda: leaning(weights=True),
+    "slab": lambda: SLAB,
+}
 
 
 def plane(*marks: Mark) -> Drawing:

@@ -8,7 +8,6 @@ from typing import Any
 
 import pytest
 
-from derive.figures.marks import Drawing
 from derive.figures.pieces import Bullet, Patch, Stroke, Tag
 from derive.render.drawing.labels import STACKED, Placed, placed
 from tests.figures.scenery import SCENES, pieces_of
@@ -75,9 +74,9 @@ def test_without_labels_nothing_is_placed() -> None:
     assert labels(Bullet((0.0, 0.0))) == []
 
 
-@pytest.mark.parametrize("found", SCENES, ids=lambda found: found.key)
-def test_no_label_stands_on_another_and_every_label_is_near_what_it_names(found: Drawing) -> None:
-    pieces = pieces_of(found)
+@pytest.mark.parametrize("scene", SCENES)
+def test_no_label_stands_on_another_and_every_label_is_near_what_it_names(scene: str) -> None:
+    pieces = pieces_of(SCENES[scene]())
     labels = placed(pieces, lambda label: (6.0 * len(str(label)), 8.0))
     for one, other in combinations((label.extent for label in labels), 2):
         assert one[2] <= other[0] or other[2] <= one[0] or one[3] <= other[1] or other[3] <= one[1]

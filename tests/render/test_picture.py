@@ -8,7 +8,6 @@ import pytest
 
 from derive.algebra.expressions import column
 from derive.figures import drawing, outline
-from derive.figures.marks import Drawing
 from derive.figures.pieces import Bullet, Patch, Tag
 from derive.figures.surfaces import Revolved
 from derive.mechanics import Cuboid
@@ -34,9 +33,9 @@ def test_the_edges_of_a_block_are_in_the_proportion_of_its_sides() -> None:
 
 
 @pytest.mark.parametrize("room", [(5.0, 5.0), (3.0, 8.0), (8.0, 3.0)])
-@pytest.mark.parametrize("found", SCENES, ids=lambda found: found.key)
-def test_the_lines_fill_the_room_and_do_not_leave_it(found: Drawing, room: tuple[float, float]) -> None:
-    pieces = pieces_of(found, *room)
+@pytest.mark.parametrize("scene", SCENES)
+def test_the_lines_fill_the_room_and_do_not_leave_it(scene: str, room: tuple[float, float]) -> None:
+    pieces = pieces_of(SCENES[scene](), *room)
     spots = [s for p in pieces for s in ((p.spot,) if isinstance(p, Bullet | Tag) else p.spots)]
     filled = [
         (max(s[k] for s in spots) - min(s[k] for s in spots)) / (room[k] * POINTS_PER_CM) for k in (0, 1)
