@@ -135,7 +135,8 @@ def read_roster(path: Path) -> tuple[Student, ...]:
             continue
         code = code or code_of(name)
         if not NAME.fullmatch(code):
-            faults.error("roster", f"`{code}` cannot be a code: use letters, digits, `-` and `_`", place)
+            help_line = "use at most 64 letters, digits, `-` and `_`; begin with a letter or a digit"
+            faults.error("roster", f"`{code}` cannot be a code", place, help=help_line)
         elif code.lower() in taken:
             help_line = "give each student a different code, in a column `code`"
             faults.error("roster", f"line {taken[code.lower()]} has the same code, `{code}`", place, help=help_line)
