@@ -872,7 +872,7 @@ class _Auditor:
         """Blame a formula that contradicts the value in `claim`, or else the earlier value of one of its letters, if
         one change of this value, but no change of the formula, gives the value in `claim`."""
         assert claim.verdict is not None
-        because = f"line {claim.row.line} gives a different value, and later rows follow only from that value"
+        because = f"line {claim.row.line} contradicts this row, and later rows follow only from line {claim.row.line}"
         letters = self.letters_behind(formula)
         behind = [each for each in self.claims[: claim.number] if each.values and each.values[0] in letters]
         suspects = [formula, *(each for each in reversed(behind) if each is not formula and self.may_be_changed(each))]
