@@ -67,7 +67,7 @@ from derive.algebra.trig_polynomials import monomial_ratio
 MANY = 20  # greatest number of points drawn for each point that is needed; points without physical meaning are skipped
 FIRST, POINTS = 2, 26  # numbers of points at which sides are compared before `vanishes` is tried, and after it fails
 TURNS = 400  # greatest number of points drawn to find the opposite sign of an argument of `Abs` or `sign`
-FEWEST = 8  # the fewest points at which both sides must have values
+FEWEST = 8  # the fewest points at which two sides with symbols must both have values
 UNTOLD = "undefined at every tested point"
 LETTERS = 6  # greatest number of symbols with respect to which derivatives are compared
 UNDEFINED = (nan, zoo, oo, -oo)
@@ -126,7 +126,9 @@ def equal(left: Any, right: Any, nonzero: Sequence[Expr] = ()) -> Verdict:
     """
     given: tuple[Any, Any] = (left, right)
     if not all(isinstance(value, Basic | MatrixBase | int) for value in given):
-        return Verdict(Grade.REFUTED, f"{_short(left)} against {_short(right)}: one of them is not an expression")
+        return Verdict(
+            Grade.REFUTED, f"{_short(left)} against {_short(right)}: at least one of them is not an expression"
+        )
     try:
         left, right = without_abs(explicit(left)), without_abs(explicit(right))
     except (TypeError, ValueError, AttributeError, NotImplementedError) as error:  # SymPy cannot integrate
@@ -161,11 +163,11 @@ def _equal_matrices(left: Any, right: Any) -> Verdict:
 
 def _equal_scalars(left: Expr, right: Expr) -> Verdict:
     if left.has(*UNDEFINED) or right.has(*UNDEFINED):
-        return Verdict(Grade.REFUTED, f"{_short(left)} against {_short(right)}: one of them is undefined")
+        return Verdict(Grade.REFUTED, f"{_short(left)} against {_short(right)}: at least one of them is undefined")
     if left == right:
         return Verdict(Grade.PROVED, "identical")
     if not (isinstance(left, Expr) and isinstance(right, Expr) and left.is_commutative and right.is_commutative):
-        return Verdict(Grade.REFUTED, f"{_short(left)} against {_short(right)}: one of them is not a number")
+        return Verdict(Grade.REFUTED, f"{_short(left)} against {_short(right)}: at least one of them is not a number")
     left, right = _stripped(left, right)
     if is_identity(left, right):
         return Verdict(Grade.PROVED, "polynomial normal form")
@@ -283,7 +285,7 @@ def _equivalent(left: Any, right: Any, nonzero: Sequence[Expr]) -> Verdict:
     if not (isinstance(left, Relation) and isinstance(right, Relation)):
         return Verdict(Grade.REFUTED, "a relation against a value")
     if left.has(*UNDEFINED) or right.has(*UNDEFINED):
-        return Verdict(Grade.REFUTED, f"{_short(left)} against {_short(right)}: one of them is undefined")
+        return Verdict(Grade.REFUTED, f"{_short(left)} against {_short(right)}: at least one of them is undefined")
     if left == right:
         return Verdict(Grade.PROVED, "identical")
     if any(isinstance(side, MatrixBase) for side in (*left.sides, *right.sides)):
@@ -316,7 +318,8 @@ def _equivalent(left: Any, right: Any, nonzero: Sequence[Expr]) -> Verdict:
         apart = _counterexample(left.residual, right.residual) if left.operator == "=" else None
         if apart is not None:  # a refuted verdict is falsy, so compare with None
             return apart
-        return Verdict(Grade.REFUTED, f"their sides differ by the factor {_short(factor)}, which may be zero")
+        said = f"their sides differ by the factor {_short(factor)}, which may be zero or undefined"
+        return Verdict(Grade.REFUTED, said)
     verdict = _equal_scalars(left.residual, whole * right.residual)
     return verdict if verdict.grade is Grade.REFUTED else Verdict(verdict.grade, f"equal up to the factor {whole}")
 
@@ -348,7 +351,7 @@ def _equivalent_by_entries(left: Relation, right: Relation) -> Verdict:
 
 def _cleared(left: Relation, right: Relation) -> tuple[Relation, Relation] | None:
     """Rewrite strict inequalities n/d > 0 as n d > 0. Each new inequality is equivalent to the old one, because neither
-    is true where d vanishes. None if an inequality is not strict, or if no denominator has a symbol."""
+    is true where d vanishes. None unless both relations are strict inequalities and a denominator has a symbol."""
     strict = {left.operator, right.operator} <= {"<", ">"}
     quotients = [relation.residual.as_numer_denom() for relation in (left, right)]
     if not strict or not any(d.free_symbols for _, d in quotients):

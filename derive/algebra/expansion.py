@@ -155,7 +155,7 @@ def tidied_terms(series: Series, x: Symbol, to: Expr) -> Expr:
 
 
 def in_ascending_powers(series: Series, x: Symbol, to: Expr) -> Expr:
-    """The terms in ascending powers; the leading term is in front of a bracket if this is shorter."""
+    """The terms in ascending powers; the leading term is in front of a bracket if this is not longer."""
     small = small_of(x, to)
     terms = [(n, tidied(c)) for n, c in sorted(series.items())]
     plain = Terms(*(c * small**n for n, c in terms))

@@ -244,10 +244,11 @@ def compared(left: Expr, mark: str, right: Expr, takes_roots: bool = True) -> Re
 def _relation(
     value: Relation, known: Mapping[Expr, Expr], quantities: Mapping[Symbol, Expr], is_motion: bool
 ) -> Shortened:
-    """Rewrite both sides of a relation, but only the right side of an equation whose left side is a symbol.
+    """Rewrite a relation. In an equation for a symbol that is neither replaced nor on the right side, rewrite only the
+    right side.
 
-    An equation whose right side is zero, and a relation with two nonzero sides, are divided by common factors. An
-    equation of motion with two nonzero sides is not divided.
+    In any other relation, rewrite both sides. Divide by common factors if the right side of an equation is zero, or if
+    both sides of a relation are nonzero. Do not divide an equation of motion with two nonzero sides.
     """
     used = tuple(quantities)
     if value.operator == "=" and value.left.is_Symbol and value.left not in {*known, *value.right.free_symbols}:

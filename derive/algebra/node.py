@@ -94,7 +94,7 @@ class ScalarNode(Node, Expr, abstract=True):
 
 
 class MatrixNode(Node, MatrixExpr, abstract=True):
-    """A node whose value is a vector or a tensor."""
+    """A node whose value is a matrix, such as a vector or a tensor."""
 
     def _entry(self, i: Any, j: Any, **_: Any) -> Expr:
         return explicit(self)[i, j]

@@ -94,7 +94,7 @@ def own_meaning() -> Iterator[None]:
 
 @contextmanager
 def where_positive(expr: Expr) -> Iterator[None]:
-    """Compare expressions, within the `with` block, only at points at which this expression is positive."""
+    """Skip points at which this expression is known not to be positive, within the `with` block."""
     token = _POSITIVE.set((*_POSITIVE.get(), expr))
     try:
         yield

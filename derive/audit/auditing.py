@@ -53,7 +53,7 @@ MOST_INDICES = 12
 MOST_LOST = 6  # at most this many missing letters are tried as corrections of a row
 MOST_ROWS = 10  # at most this many of the last equations and displayed claims are searched for lost letters and terms
 FEWEST_OPERATIONS = 3  # only earlier values with at least this number of operations are compared with a later value
-MOST_FIXED = 5  # at most this many earlier rows are searched for a slip
+MOST_FIXED = 5  # at most this many earlier rows are searched for a slip other than a lost term
 SPECIAL = frozenset({Cue.GIVEN, Cue.PUT_IN, Cue.ZERO, Cue.APPROXIMATE})  # cues that explain why a row has fewer terms
 MOST_READINGS = 8
 DISTINCT = ("sign", "exponent", "function")  # changes that do not lead from one special case to another
@@ -872,7 +872,7 @@ class _Auditor:
         """Blame a formula that contradicts the value in `claim`, or else the earlier value of one of its letters, if
         one change of this value, but no change of the formula, gives the value in `claim`."""
         assert claim.verdict is not None
-        because = f"line {claim.row.line} gives a different value, and later rows follow only from that value"
+        because = f"line {claim.row.line} contradicts this row, and later rows follow only from line {claim.row.line}"
         letters = self.letters_behind(formula)
         behind = [each for each in self.claims[: claim.number] if each.values and each.values[0] in letters]
         suspects = [formula, *(each for each in reversed(behind) if each is not formula and self.may_be_changed(each))]

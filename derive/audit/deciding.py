@@ -462,7 +462,7 @@ class Decision:
             if error is None or error > CONVERTED:
                 return None
             if error <= self.tolerance or not self.meaning.decimals:
-                return Verdict(Outcome.APPROXIMATES, "the same bound, to the printed digits", (number,))
+                return Verdict(Outcome.APPROXIMATES, "nearly the same bound", (number,))
             if error > 2 * self.tolerance and self.meaning.units:
                 because = f"the earlier bound is {_number(sympy.N(self.right * bound / self.right, 8))} in SI units"
                 written = max((value for value, _ in self.meaning.decimals), key=Abs)

@@ -46,7 +46,7 @@ class Unclear(Exception):
 class Equation:
     """A product of letters with its dimension."""
 
-    source: int  # the number of a claim, or -1 for the usual dimension of a letter
+    source: int  # the number of a claim, or -1 for a dimension from the words or from the name of a letter
     form: Form
     powers: tuple[Fraction, ...] = (Fraction(0),) * 3
 

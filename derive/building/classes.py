@@ -135,7 +135,8 @@ def read_roster(path: Path) -> tuple[Student, ...]:
             continue
         code = code or code_of(name)
         if not NAME.fullmatch(code):
-            faults.error("roster", f"`{code}` cannot be a code: use letters, digits, `-` and `_`", place)
+            help_line = "use at most 64 letters, digits, `-` and `_`; begin with a letter or a digit"
+            faults.error("roster", f"`{code}` cannot be a code", place, help=help_line)
         elif code.lower() in taken:
             help_line = "give each student a different code, in a column `code`"
             faults.error("roster", f"line {taken[code.lower()]} has the same code, `{code}`", place, help=help_line)
@@ -330,7 +331,7 @@ def _check_codes(students: Sequence[Student], heading: ProblemSet) -> None:
 
 
 def class_is_older(root: Path, set_id: str, engine: Engine) -> list[Complaint]:
-    """Return a warning if documents of a class are older than the set, or were not made."""
+    """Return a warning if documents of a class are older than the set, or if only some of them were made."""
     record = ClassRecord.read(root, set_id)
     if record is None:
         return []
@@ -370,7 +371,7 @@ def why_of_class(root: Path, built: Path, engine: str | None) -> str | None:
 def _why(shared: ClassDocuments, student: Student) -> str:
     made = shared.made(student)
     if made is None:
-        return "the last run did not finish these documents: it was interrupted, or the variant has an error"
+        return "the last run did not finish these documents, or they were removed"
     if made.key != shared.key(student):
         return "an input of the class has changed"
     return "a file was edited or removed"

@@ -72,7 +72,7 @@ def built_page(root: Path, problem_id: str) -> Page:
         message = f"`{problem_id}` has not been built: there is no `{shown_path(file)}` to compare with"
         raise Misused(Complaint("not-built", message, help=fix)) from None
     except (OSError, ValueError):
-        message = f"`{shown_path(file)}` is not a file that a build wrote"
+        message = f"`{shown_path(file)}` cannot be read as a page that a build wrote"
         raise Misused(Complaint("not-built", message, help=fix)) from None
     if not isinstance(page, dict) or any(key not in page for key in _SAYS):
         message = f"`{shown_path(file)}` was written by an earlier version of derive, and lacks entries to compare"

@@ -89,9 +89,7 @@ def _test_page(name: str | None) -> Finding:
 
 def _root(root: Path | None) -> list[Finding]:
     if root is None:
-        return [
-            Finding("problems", False, "no folder `problems` here or above", "name its parent folder with `--root`")
-        ]
+        return [Finding("problems", False, "no folder `problems` was found", "name its parent folder with `--root`")]
     sets = set_names(root)
     found = f"{shown_path(root / 'problems')}, with {', '.join(sets) or 'no set'}"
     return [Finding("problems", bool(sets), found, "a set is a folder with a file `set.yaml`"), _outputs(root)]

@@ -41,8 +41,9 @@ def _converted(figure: OwnFigure, alt: str) -> tuple[bytes, bytes]:
         size = _SIZE.search(page("svg", None))
         width, height = (float(each) for each in size.groups()) if size else (0.0, 0.0)
         if not 0 < width <= LARGEST or not 0 < height <= LARGEST:
-            message = f"`{figure.path}` measures {width:.0f} by {height:.0f} points; at most {LARGEST:.0f} are allowed"
-            raise Rejected(Complaint("figure", message, figure.place, help="reduce the size of the figure"))
+            measured = f"`{figure.path}` measures {width:.0f} by {height:.0f} points"
+            message = f"{measured}; both numbers must be positive and at most {LARGEST:.0f}"
+            raise Rejected(Complaint("figure", message, figure.place, help="change the size of the figure"))
         wide = figure.width or min(width / POINTS_PER_CM, WIDEST, HIGHEST * width / height)
         if wide * height / width > HIGHEST * 1.001:
             message = f"with this width the figure is {wide * height / width:.1f} cm high; at most {HIGHEST:g} cm fit"

@@ -84,7 +84,7 @@ def _commit(root: Path, revision: str) -> str:
             Complaint("no-git", message, help="install git, or compare with the last build: leave `--rev` out")
         )
     if _git(root, "rev-parse", "--git-dir").returncode:
-        message = "`--rev` compares with a revision of git, but the course is not in a repository of git"
+        message = "`--rev` compares with a revision of git, but git finds no repository here that it accepts"
         help_line = "leave `--rev` out to compare with the last build; `git init` creates a repository"
         raise Misused(Complaint("no-repository", message, help=help_line))
     named = not revision.startswith("-") and revision.isprintable()

@@ -38,7 +38,7 @@ def set_since_build(root: Path, set_id: str, detail: str | None, limit: float) -
     after, folder = _written(root, set_id), set_folder(root, set_id)
     built = [f"{set_id}/{name}" for name in Manifest.read(folder).problems]
     if not built:
-        message = f"`{set_id}` has not been built, so there is nothing to compare with"
+        message = f"no build of `{set_id}` is recorded, so there is nothing to compare with"
         help_line = f"`derive build {set_id}` builds it; `--rev HEAD` compares with the last commit"
         raise Misused(Complaint("not-built", message, help=help_line))
     pages = {name: built_page(root, name)["points"] for name in built}

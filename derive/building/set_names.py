@@ -43,7 +43,7 @@ def set_names(root: Path) -> list[str]:
 def wrong_set_name(name: str) -> str:
     """Return why a set cannot have that name; empty if the name is valid."""
     if not NAME.fullmatch(name):
-        return "the name of a set has letters, digits, `-` and `_` only, and begins with a letter or a digit"
+        return "the name of a set has at most 64 letters, digits, `-` and `_`, and begins with a letter or a digit"
     return "`make` has a target of that name" if name in TARGETS else ""
 
 

@@ -60,7 +60,7 @@ def _signature(what: str, content: bytes) -> bytes:
 
 
 def key_file() -> Path | None:
-    """Return the path of this machine's key; None if the user has no home folder."""
+    """Return the path of this machine's key; None if the state folder of the user is unknown."""
     state = os.environ.get("XDG_STATE_HOME", "")
     try:
         folder = Path(state) if os.path.isabs(state) else Path.home() / ".local" / "state"
@@ -81,8 +81,8 @@ def _key() -> bytes:
 
 
 def _read_key(file: Path) -> bytes | None:
-    """Return the key in the file; None if it is incomplete, belongs to another user, or other users may read or write
-    it."""
+    """Return the key in the file; None if the file is missing, incomplete, owned by another user, or accessible to
+    others."""
     try:
         facts = os.lstat(file)
         private = stat.S_ISREG(facts.st_mode) and facts.st_uid == os.getuid() and not facts.st_mode & 0o077
@@ -95,7 +95,7 @@ def _read_key(file: Path) -> bytes | None:
 def _make_key(file: Path) -> None:
     with suppress(OSError):  # no key can be stored, or another process was first
         file.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
-        if os.path.lexists(file) and _read_key(file) is None:  # replace a key that is damaged or readable by others
+        if os.path.lexists(file) and _read_key(file) is None:  # replace a key that `_read_key` rejects
             file.unlink()
         # only its owner can read the temporary file
         with tempfile.NamedTemporaryFile(prefix=f".{file.name}.", dir=file.parent) as temporary:

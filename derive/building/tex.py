@@ -159,7 +159,7 @@ def typeset(
             raise failure(source, output or "", kept=kept)
         content = pdf.read_bytes()
         if not _is_whole(content, source.with_suffix(".log")):
-            raise failure(source, f"`{engine.name}` reports success, but its output is not a PDF", kept=kept)
+            raise failure(source, f"`{engine.name}` reports success, but its output is not a complete PDF", kept=kept)
         changed = write(target, content)
         if numbers and noted.is_file():
             numbers.keep(noted.read_bytes())

@@ -211,7 +211,8 @@ def memory_limit() -> int:
     if not text:
         return round(MEMORY_LIMIT * GIB)
     if not re.fullmatch(r"\d{1,5}(\.\d{1,3})?", text, re.ASCII) or float(text) < SMALLEST_MEMORY:
-        message = f"DERIVE_MEMORY must be a number of GiB, at least {SMALLEST_MEMORY:g}, but it is `{text[:40]}`"
+        allowed = f"a number of GiB from {SMALLEST_MEMORY:g} to 99999.999, with at most three decimals"
+        message = f"DERIVE_MEMORY must be {allowed}, but it is `{text[:40]}`"
         raise Misused(Complaint("memory-limit", message))
     return round(float(text) * GIB)
 

@@ -112,7 +112,7 @@ def _check(check: argparse.ArgumentParser) -> None:
 def _audit(audit: argparse.ArgumentParser) -> None:
     audit.add_argument("file", metavar="FILE", help="a .tex, .md, .ipynb or .txt file")
     audit.add_argument("--format", choices=("text", "json", "html"), default="text", help="(default text)")
-    audit.add_argument("-v", "--verbose", action="store_true", help="show every row, not only those that differ")
+    audit.add_argument("-v", "--verbose", action="store_true", help="show every row, not only probable slips")
     compared = audit.add_argument(
         "--problem", action="append", default=[], metavar="ID", help="compare with this problem (may be repeated)"
     )
@@ -135,7 +135,8 @@ def _grade(grade: argparse.ArgumentParser) -> None:
     grade.add_argument("--roster", metavar="FILE", help="the roster of a class that was made on another machine")
     grade.add_argument("--seed", metavar="TEXT", help="with --roster, the seed of this class")
     grade.add_argument("-o", "--output", dest="output", metavar="FILE", help="file to write; - is standard output")
-    grade.add_argument("--format", choices=("text", "json", "csv"), help="(default text, or csv if -o names a file)")
+    told = "(default text; csv with --answers and -o FILE)"
+    grade.add_argument("--format", choices=("text", "json", "csv"), help=told)
     _time_limit(grade)
     grade.add_argument("-j", dest="jobs", type=_count, default=0, metavar="N", help="problems at once")
     grade.add_argument("-q", "--quiet", action="store_true", help="show only errors and warnings")
@@ -237,7 +238,7 @@ def _evidence(command: argparse.ArgumentParser) -> None:
 
 
 def _engine(command: argparse.ArgumentParser) -> None:
-    command.add_argument("--engine", metavar="NAME", help="TeX engine; `derive doctor` lists all")
+    command.add_argument("--engine", metavar="NAME", help="TeX engine; `derive doctor` lists those it finds")
 
 
 def _time_limit(command: argparse.ArgumentParser, told: str = "processor time of one problem") -> None:
@@ -300,7 +301,7 @@ def _positive(text: str) -> float:
 
 def _count(text: str) -> int:
     if not re.fullmatch("0*[1-9][0-9]{0,8}", text):
-        raise argparse.ArgumentTypeError(f"`{text}` is not a whole number from 1, such as 4")
+        raise argparse.ArgumentTypeError(f"`{text}` is not a whole number from 1 to 999999999, such as 4")
     return int(text)
 
 

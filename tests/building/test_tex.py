@@ -248,7 +248,7 @@ def test_what_is_no_pdf_does_not_replace_one(programs: Path, target: Path, made:
     target.write_bytes(b"earlier")
     script = f"#!/bin/sh\nprintf '{made.replace('%', '%%')}' > block.pdf\n"
     found = complaint("x", target, program(programs, "pdflatex", script))
-    assert found.message == "TeX failed: `pdflatex` reports success, but its output is not a PDF"
+    assert found.message == "TeX failed: `pdflatex` reports success, but its output is not a complete PDF"
     assert target.read_bytes() == b"earlier"
 
 

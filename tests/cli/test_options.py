@@ -34,8 +34,8 @@ def test_a_command_has_its_defaults_and_its_exit_code_is_passed_on(handed: list[
         (["build", "--time-limit", "0"], "`0` is not a positive time in seconds below 1000000, such as 60"),
         (["build", "--time-limit", "inf"], "`inf` is not a positive time in seconds below 1000000, such as 60"),
         (["build", "--time-limit", "nan"], "`nan` is not a positive time in seconds below 1000000, such as 60"),
-        (["check", "-j", "0"], "`0` is not a whole number from 1, such as 4"),
-        (["check", "-j", "1.5"], "`1.5` is not a whole number from 1, such as 4"),
+        (["check", "-j", "0"], "`0` is not a whole number from 1 to 999999999, such as 4"),
+        (["check", "-j", "1.5"], "`1.5` is not a whole number from 1 to 999999999, such as 4"),
         (["list", "hw9", "hw10"], "hw10"),
     ],
 )

@@ -37,7 +37,7 @@ def _offered_course() -> bool:
     """Ask the user at a terminal whether to make a course in the working folder; make it if the user agrees."""
     if not (sys.stdin.isatty() and sys.stderr.isatty()):
         return False
-    print("No course was found here or above. Make one in this folder? [y/N] ", end="", file=sys.stderr, flush=True)
+    print("No course was found. Make one in this folder? [y/N] ", end="", file=sys.stderr, flush=True)
     if sys.stdin.readline().strip().lower() not in ("y", "yes"):
         return False
     _write_course(Path.cwd(), "Mechanics")

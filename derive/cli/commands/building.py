@@ -21,8 +21,8 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Voice:
-    """The messages of a build in addition to errors: with `quiet` there are none, and with `verbose` each finished
-    piece of work is shown."""
+    """The messages of a build in addition to errors and warnings: with `quiet` there are none, and with `verbose` each
+    finished piece of work is shown."""
 
     quiet: bool = False
     verbose: bool = False
