@@ -392,7 +392,7 @@ class LimitKeys(Record):
 
 def _limit(node: Tree, name: str, faults: Faults) -> LimitKeys | None:
     """Read an entry of `limits:`, which must have either `of` with `letter`, or `of` with `where`, or only `step`.
-    Return None after an error."""
+    Return None if these keys are missing or have errors."""
     found = _LIMIT.read(node, name, faults)
     if found is None:
         return None
