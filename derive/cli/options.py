@@ -67,7 +67,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 class _Screen(argparse.RawDescriptionHelpFormatter):
-    """Help that fits a screen: each option on one line if possible, and no heading before the commands."""
+    """Help that fits a screen: each option on one line if possible, without `--help` and the commands in `_ALSO`."""
 
     def __init__(self, prog: str) -> None:
         super().__init__(prog, max_help_position=34)

@@ -36,7 +36,7 @@ def _kept_from(path: Path, root: Path) -> str:
         return f"`{path}` is a folder"
     by_hand = path.suffix in _WRITTEN_BY_HAND and not _is_ours(path)
     written = os.path.isfile(path) and (by_hand or _belongs_to(path, root))
-    return f"`{path}` is a file written by hand, and is not replaced" if written else ""
+    return f"`{path}` is not replaced, because it may be written by hand" if written else ""
 
 
 def _is_ours(path: Path) -> bool:

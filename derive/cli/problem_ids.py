@@ -34,7 +34,7 @@ def found_root(named: str | None) -> Path | None:
 def _has_problems(folder: Path) -> bool:
     try:
         return (folder / "problems").is_dir()
-    except (OSError, ValueError):  # not a valid name of a folder
+    except (OSError, ValueError):  # an invalid name, or a folder that cannot be read
         return False
 
 
@@ -73,7 +73,8 @@ def problem_id_of(text: str) -> str:
 def new_id_of(text: str) -> str:
     """Return the id of a new problem from the id or path that the user wrote.
 
-    A file or a folder that exists may be named by any path to it. Any other path begins with `problems/`.
+    A `.yaml` file that exists may be named by any path to it, and a folder by `.` or by a path with `/`. Any other
+    path begins with `problems/`.
     """
     with suppress(OSError, ValueError, RuntimeError):  # it is not the path of a file in the folder `problems`
         file, root = Path(text).expanduser(), found_root(None)

@@ -98,7 +98,8 @@ def _wrapped(text: str, before: str) -> list[str]:
 
 
 def table(rows: Sequence[Sequence[str]]) -> str:
-    """Return aligned columns: words to the left, numbers to the right; the first row is the heading."""
+    """Return aligned columns; the first row is the heading. Columns of digits and points are aligned to the right,
+    other columns to the left."""
     columns = list(zip(*rows, strict=True))
     numeric = [all(re.fullmatch(r"[\d.]*", cell) for cell in column[1:]) for column in columns]
     widths = [max(map(len, column)) for column in columns]

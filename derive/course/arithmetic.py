@@ -48,7 +48,7 @@ class Term:
     start, end   the places in the text where the value begins and ends
     size         an estimate of the degree of the value and of the number of its binary digits
     terms        a bound for the number of terms of the value after multiplying out
-    kind         the kind of the value, if it is a single declared letter
+    kind         the kind of a value that is a single letter; None for other values
     """
 
     expr: Expr
@@ -168,7 +168,7 @@ class Arithmetic:
 
     def number(self, text: str, start: int, end: int) -> Term:
         digits, _, power = text.lower().partition("e")
-        if len(digits) > MAX_DIGITS or len(power) > 4 or abs(int(power or 0)) > MAX_TEN_POWER:
+        if len(digits.replace(".", "")) > MAX_DIGITS or len(power) > 4 or abs(int(power or 0)) > MAX_TEN_POWER:
             message = (
                 f"a number may have at most {MAX_DIGITS} digits, and a power of ten from -{MAX_TEN_POWER} "
                 f"to {MAX_TEN_POWER}"

@@ -48,7 +48,7 @@ def read_assumed(node: Tree, constant: Mapping[str, Declared], moving: Iterable[
             place = node.place_within(mark.start(), mark.end() - mark.start())
             equal = "; to set letters equal, use `put_in`" if mark[0] in {"=", "=="} else ""
             help_line = f"use `<`, `<=`, `>` or `>=`{equal}"
-            rejected("relation", f"`{mark[0]}` is not an order relation", place, help_line)
+            rejected("relation", f"`{mark[0]}` is not allowed under `assume`", place, help_line)
     if len({mark[0][0] for mark in marks}) > 1:
         rejected("relation", f"`{node.text.strip()}` mixes `<` and `>`", node.place, "write two relations")
     ends = [0, *(at for mark in marks for at in mark.span()), len(node.text)]

@@ -178,7 +178,7 @@ class _Parser(Arithmetic):
 
     def undeclared(self, token: _Token) -> Complaint:
         if self.is_number:
-            message = f"a number is expected here, but `{token.text}` is a letter"
+            message = f"a number is expected here, but `{token.text}` is not a number"
             return self.complaint("expression", message, token.start, token.end, did_you_mean(token.text, RESERVED))
         help_line = did_you_mean(token.text, (*self.symbols, *RESERVED)) or "declare it under `symbols:`"
         return self.complaint("undeclared-symbol", f"`{token.text}` is not declared", token.start, token.end, help_line)

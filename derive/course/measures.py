@@ -105,7 +105,11 @@ def number_with_unit(scalar: Scalar, wanted: Wanted, symbols: Mapping[str, Decla
     if misfit(unit, wanted.kind, unit.dimension):
         is_a = f"{kind_with_article(wanted.kind)}, which is not measured in `{unit.text}`"
         wanted.refuse("wrong-unit", f"{wanted.must} {is_a}", scalar.place)
-    if len(match["number"]) > 30 or (match["over"] or "1").strip("0") == "" or abs(_ten_power(match["number"])) > 50:
+    if (
+        len(_digits(match["number"])) > 30
+        or (match["over"] or "1").strip("0") == ""
+        or abs(_ten_power(match["number"])) > 50
+    ):
         message = f"`{text}` has over 30 digits, a power of ten beyond 50, or denominator 0"
         wanted.refuse("too-large", message, scalar.place)
     value = rational(match["number"]) / int(match["over"] or 1) * (-1 if match["sign"] == "-" else 1)
@@ -116,6 +120,10 @@ def is_more_than_unit(text: str, symbols: Mapping[str, Declared]) -> bool:
     """Return whether a number with its unit is only the beginning of an expression, as in `3 cm*sin(phi)`."""
     names = re.findall(r"(?<![\d.])[A-Za-z_][A-Za-z0-9_]*", text)[1:]  # the first name is the unit
     return any(name in RESERVED or name in symbols and name not in UNIT_NAMES for name in names)
+
+
+def _digits(number: str) -> str:
+    return number.lower().partition("e")[0].replace(".", "")
 
 
 def _ten_power(number: str) -> int:

@@ -1,4 +1,4 @@
-"""A figure that the author supplies: the key `figure:` of a problem names a PDF, SVG or PNG file next to the problem.
+"""A figure that the author supplies: the key `figure:` of a problem names a PDF, SVG or PNG file of the course.
 
 Another program made the file, so its place, size and format are checked. The private data of drawing programs are
 removed from an SVG. An SVG is rejected if it has a script, a reference to another file, or an element that a plain
@@ -62,8 +62,8 @@ class OwnFigure:
 def read_figure(
     root: Path, problem: str, written: FigureKeys | None, drawings: tuple[Placement, ...], faults: Faults
 ) -> OwnFigure | None:
-    """Return the figure of a problem; None without the key `figure:` or after an error in its keys. The path in
-    `written` is relative to the folder of the file `problem`.
+    """Return the figure of a problem; None without the key `figure:`, or if its `file` or `alt` is missing or
+    wrong. The path in `written` is relative to the folder of the file `problem`.
 
     If the file is rejected, an empty figure is returned, so that prose may still mention it.
     """
@@ -121,7 +121,7 @@ def _content(root: Path, problem: str, name: Word, faults: Faults) -> bytes | No
             faults.error("figure", message, name.place, help="each page for a browser contains it: make it smaller")
         else:
             return file.read_bytes()
-    except (OSError, ValueError, RuntimeError) as error:  # a name with a zero byte, or a loop of links
+    except (OSError, ValueError, RuntimeError) as error:  # such as a name with a zero byte, or a loop of links
         faults.error("figure", f"`{name}` cannot be read: {error}", name.place)
     return None
 

@@ -40,7 +40,7 @@ UNIT = {"type": "string", "pattern": r"\S", "examples": list(UNIT_NAMES)}
 def _points(node: Tree, name: str, faults: Faults) -> Fraction | None:
     if isinstance(node, Scalar) and _POINTS.fullmatch(node.text):
         return Fraction(node.text)
-    wrong_type(faults, f"`{name}`", "a whole number or a half-integer, such as 3 or 2.5", node)
+    wrong_type(faults, f"`{name}`", "a number from 0 to 9999.5 in steps of 0.5", node)
     return None
 
 

@@ -352,7 +352,8 @@ def _check_marks_of_body(drawing: Placement, script: Script | StockScript | None
         if mark.mark not in MARKS_OF_BODY:
             continue
         if drawing.is_of_engine or drawing.like or mark.mark not in known:
-            message = f"the mark `{mark.mark}` has no effect on `{drawing.key}`, which is not the drawing of a `body`"
+            what = "repeats another drawing" if drawing.like else "is not the drawing of a `body`"
+            message = f"the mark `{mark.mark}` has no effect on `{drawing.key}`, which {what}"
             help_line = "leave out `like`" if drawing.like and mark.mark in known else "leave it out"
             faults.error("unused-key", message, mark.places["mark"], help=help_line)
         for name in mark.places.keys() - {"", "mark"}:

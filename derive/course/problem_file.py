@@ -216,7 +216,7 @@ class MarkKeys(Record):
     label: Formula | None = key("the letter, formula or answer that names the mark; by default no label", FORMULA)
     at: Tree | None = key(
         "the place of a point, the start of an arrow, the vertex of an angle, the centre of a turn or a circle, or the "
-        "moving point of a curve. In the drawing of a body, the default is the origin; if the body is given by its "
+        "moving point of a curve. In a drawing in space, the default is the origin; if a body is given by its "
         "moments, the components are numbers relative to the semi-axes of the drawn ellipsoid",
         as_written(_PLACE, _A_PLACE),
     )
@@ -392,7 +392,7 @@ class LimitKeys(Record):
 
 def _limit(node: Tree, name: str, faults: Faults) -> LimitKeys | None:
     """Read an entry of `limits:`, which must have either `of` with `letter`, or `of` with `where`, or only `step`.
-    Return None after an error."""
+    Return None if these keys are missing or have errors."""
     found = _LIMIT.read(node, name, faults)
     if found is None:
         return None

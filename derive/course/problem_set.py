@@ -68,7 +68,7 @@ class ProblemSet:
 
     @property
     def form_in_words(self) -> str:
-        """The default form of answers as text; empty if the set states none."""
+        """The default form of answers as text; empty if neither the set nor its course states one."""
         units, figures = (self.form.units, self.form.figures) if self.form else ((), None)
         return ", ".join([*units, *([f"{figures} figures"] if figures else [])])
 
@@ -235,8 +235,8 @@ def known_set(root: Path, set_id: str) -> str:
 
 
 def problem_set(root: Path, set_id: str) -> ProblemSet:
-    """Return the set. Raise `Misused` if it does not exist. If its file or the file of the course has errors, raise one
-    `Rejected` with all of them."""
+    """Return the set. Raise `Misused` if it does not exist. Raise one `Rejected` if its file or the file of the course
+    has errors."""
     path = f"problems/{known_set(root, set_id)}/set.yaml"
     faults = Faults()
     of_course = _course(root, faults)

@@ -188,7 +188,13 @@ class InLetters:
             and about_kind(kind).positive
             and not about_kind(kind).signed
         ):
-            rejected("not-positive", f"`{name}` must be positive, but `{_text(node)}` is not", node.place)
+            text = _text(node)
+            message = (
+                f"`{name}` must not be negative, but `{text}` is"
+                if or_zero
+                else f"`{name}` must be positive, but `{text}` is not"
+            )
+            rejected("not-positive", message, node.place)
         return found
 
     def constant(self, node: Tree, name: str, kind: str, of: int = 1, in_time: bool = False) -> Expr:

@@ -158,7 +158,7 @@ def _axes(given: Mapping | None) -> Iterator[Complaint]:
 def _results(made: Table[Word, Collection[Word]], needed: Collection[str]) -> Iterator[Complaint]:
     for name in made:
         if name not in needed:
-            message = f"no part asks for the result `{name}`, and no other result uses it"
+            message = f"no part asks for the result `{name}`, directly or through another result"
             help_line = "let a part ask for it, or leave it out"
             yield Complaint("unused-result", message, name.place, help=help_line, severity="warning")
 

@@ -93,7 +93,8 @@ def end_of_group(text: str, start: int) -> int | None:
 
 
 def expanded(tokens: Sequence[Token], macros: Mapping[str, Macro]) -> list[Token]:
-    """Return the tokens with every macro replaced by its body, except the commands in `ACCENTS`."""
+    """Return the tokens with each macro replaced by its body. The commands in `ACCENTS`, and a macro within its own
+    body, are kept."""
     if not macros:
         return list(tokens)
     return list(_Expansion(macros).of(tokens, 0))

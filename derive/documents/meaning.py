@@ -2,8 +2,9 @@
 
 A letter and each of its rates are separate symbols: `x`, `x'`, `x''`. The letter of a vector is a column whose
 components are new symbols; they depend on the same variables as the vector. The derivative of a letter about which
-nothing is known is a symbol, too. Letters are positive numbers unless they change with time, are functions, or have a
-name that is usual for an angle, a coordinate or a constant of either sign. Authors rely on this in sqrt(m^2) = m.
+nothing is known is a symbol, too. Letters without a declared kind are positive unless they change with time, are
+functions, or have a name that is usual for an angle, a coordinate or a constant of either sign. Authors rely on this in
+sqrt(m^2) = m.
 """
 
 from __future__ import annotations
@@ -244,7 +245,7 @@ class Meaning:
             if not all(isinstance(each, MatrixBase) for each in terms):
                 zero = [each for each in terms if not isinstance(each, MatrixBase)]
                 if any(each != 0 for each in zero):
-                    raise Meaningless("a vector and a number are added", node.span)
+                    raise Meaningless("a number is added to a vector or a matrix", node.span)
                 terms = [each for each in terms if isinstance(each, MatrixBase)]
             if len({each.shape for each in terms}) > 1:
                 raise Meaningless("matrices of different shapes are added", node.span)
@@ -775,9 +776,7 @@ class Meaning:
             if lower.is_Integer and upper.is_Integer and 0 <= upper - lower <= MOST_TERMS:
                 return self.terms_of(node, indices[0], int(lower), int(upper))
         if node.name != "sum":
-            needed = (
-                f"one index, and two whole numbers as limits, the upper one at most {MOST_TERMS} above the lower one"
-            )
+            needed = f"one index, and two whole numbers as limits, the upper one 0 to {MOST_TERMS} above the lower one"
             raise Meaningless(f"this product cannot be written out: it needs {needed}", node.span)
         value = self._of(node.body)
         bounds = [self.range_of(each) for each in (node.lower, node.upper)]

@@ -643,7 +643,7 @@ class _Reader:
                 return replace(node, label=_joined(node.label, label))
             if isinstance(node, Group | Mat | Vec | Frac):
                 return EvalBar(node.span.to(script.span), node, Text(script.span, label), None)
-            message = "a superscript in words is allowed only on a letter, a bracket, a vector, a matrix or a fraction"
+            message = "a superscript that is a label is allowed only on a letter, bracket, vector, matrix or fraction"
             raise Unreadable(message, script.span)
         if plain and plain[0].is_mark("(") and plain[-1].is_mark(")") and isinstance(node, Letter):
             return replace(node, label=_joined(node.label, self.label(plain[1:-1])))

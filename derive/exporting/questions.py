@@ -22,7 +22,7 @@ _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 class Answer:
     """One answer of a part, or one component of an answer that is a vector.
 
-    sympy    the formula in plain text, in the letters of the problem; an empty text if platforms cannot compare it
+    sympy    the formula in plain text, in the letters of the problem; empty if plain text cannot express it
     positive the letters of the formula that are positive
     names    the defined quantities in the formula, such as mu, each with its own formula
     latex    the formula in TeX

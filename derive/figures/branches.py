@@ -28,7 +28,7 @@ HALVINGS = 80
 TRIED = (0.11, 0.37, 0.68, 0.93)  # the second route is used at these fractions of an interval of the parameter
 # z counts as real if |Im z| <= REAL (1 + |Re z|). Values of a branch below REAL times its greatest value become zero.
 REAL = 1e-6
-CLOSE = 1e-5  # two values count as equal if their difference is smaller than this fraction of their range
+CLOSE = 1e-5  # greatest difference of equal values, relative to their range; for angles, in radians
 # The energy at an equilibrium is compared with the energies at the distance 10^-NEAR times the searched range on both
 # sides, with DIGITS digits.
 NEAR, DIGITS = 5, 40
@@ -105,7 +105,7 @@ def bifurcations_of(
     )
     if not changes:
         span = f"for values of the parameter from {ends[0]:.4g} to {ends[1]:.4g}"
-        message = f"no equilibrium begins, ends or changes its stability {span}"
+        message = f"within the axes of the diagram, no equilibrium begins, ends or changes its stability {span}"
         raise Rejected(
             Complaint("drawing", message, help="a diagram must show such a change: choose a different `range`")
         )

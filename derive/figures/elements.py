@@ -2,9 +2,9 @@
 
     drawing("pendulum", pivot(origin), rod(origin, bob, l), angle_mark(origin, "down", bob, theta), particle(bob, m))
 
-Points are results of `point` or `place`. The points of a mark are all in a plane, or all in space. Parts without a
-given size have a readable size. The order of the marks does not matter: particles are drawn over rods, and rods over
-walls.
+A point is a result of `point` or `place`, a column, or a derived vector. The points of a mark are all in a plane, or
+all in space. Parts without a given size have a readable size. The order of the marks does not matter: particles are
+drawn over rods, and rods over walls.
 """
 
 from __future__ import annotations

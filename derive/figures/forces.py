@@ -484,8 +484,8 @@ def _shows_all(system: System, of: Any, acting: Sequence[PointForce], found: Map
 
 
 def _has_others(system: System) -> bool:
-    """Whether forces or couples act that a force diagram cannot show: given forces, springs, drags, charges, couples of
-    motors and rigid joints, or friction without a symbol."""
+    """Whether forces or couples act that a force diagram cannot show: given forces, springs, drags, charges, other
+    stored energies, constraints by a motor, a rigid joint or a formula, and friction without a symbol."""
     frictions = [force for each in connections_of(system, Connection) for force in each.forces if force.size == 1]
     given = len(system.given_forces) > len(frictions)
     couples = any(not each.forces for each in system.constraints)  # constraints by a motor, a rigid joint or a formula

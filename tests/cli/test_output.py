@@ -24,8 +24,8 @@ def test_an_answer_may_go_where_nobody_wrote(tmp_path: Path, monkeypatch: pytest
     [
         ("", "`-o` needs the name of a file"),
         ("a\0b", "`-o` needs the name of a file"),
-        ("notes.md", "`notes.md` is a file written by hand, and is not replaced"),
-        ("problems/one.txt", "`problems/one.txt` is a file written by hand, and is not replaced"),
+        ("notes.md", "`notes.md` is not replaced, because it may be written by hand"),
+        ("problems/one.txt", "`problems/one.txt` is not replaced, because it may be written by hand"),
         ("problems", "`problems` is a folder"),
         ("linked.txt", "`linked.txt` is a link, and its target is not replaced"),
     ],

@@ -40,7 +40,7 @@ def test_a_relation_decides_whether_an_equilibrium_is_stable(tmp_path: Path) -> 
         ("b < 0", "8: `b < 0` contradicts what is known about these letters"),
         ("mu > 2", "8: `mu > 2` contradicts what is known about these letters"),
         ("a < v_0", "8: a length is compared with a speed"),
-        ("a = b", "8: `=` is not an order relation"),
+        ("a = b", "8: `=` is not allowed under `assume`"),
         ("a < b > c", "8: `a < b > c` mixes `<` and `>`"),
         ("x < a", "8: `assume` is about constant letters, but `x` varies"),
         ("x_dot < v_0", "8: `assume` is about constant letters, but `x_dot` varies"),

@@ -173,7 +173,7 @@ def test_what_is_no_expression_is_refused_at_its_column(text: str, code: str, co
 
 @pytest.mark.parametrize(
     ("text", "message"),
-    [("2*q", "a number is expected here, but `q` is a letter"), ("2 + 3 cm", "a number with a unit, `3 cm`")],
+    [("2*q", "a number is expected here, but `q` is not a number"), ("2 + 3 cm", "a number with a unit, `3 cm`")],
 )
 def test_where_no_letter_is_allowed_none_is_to_be_declared(text: str, message: str) -> None:
     with pytest.raises(Rejected) as caught:

@@ -31,7 +31,7 @@ def test_nothing_is_told_of_a_problem_that_uses_all_it_says(tmp_path: Path) -> N
          "3:22: `b` is declared, but nothing under `given` uses it"),
         ([("{theta: angle}", "{theta: angle, x: length}")],
          "5:31: no place, body, force or energy depends on the coordinate `x`"),
-        ([RESULT], "9:13: no part asks for the result `short`, and no other result uses it"),
+        ([RESULT], "9:13: no part asks for the result `short`, directly or through another result"),
         ([("  gravity: g\n", "  gravity: g\n  at: {theta: 0}\n")], "9:3: nothing that is asked for depends on `at`"),
         ([("  gravity: g\n", "  gravity: g\n  axes: {B: [{z: theta}]}\n")],
          "9:10: no other key under `given` uses the axes `B`"),

@@ -105,7 +105,7 @@ def test_what_an_instructor_says_stands_and_the_rest_is_shared(tmp_path: Path) -
         ("    points: 3\n    rubric: {inertia_tenser: 1}\n", "did you mean `inertia_tensor`"),
         ("    points: 3\n    rubric: {inertia_tensor: 5}\n", "has 3"),
         ("    rubric: {inertia_tensor: 9}\n", "has no points"),
-        ("    points: 3\n    rubric: {inertia_tensor: much}\n", "a whole number or a half-integer"),
+        ("    points: 3\n    rubric: {inertia_tensor: much}\n", "a number from 0 to 9999.5 in steps of 0.5"),
     ],
 )
 def test_a_rubric_that_does_not_fit_its_part_is_refused(tmp_path: Path, said: str, complaint: str) -> None:

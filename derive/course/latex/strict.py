@@ -160,7 +160,7 @@ class _Check:
         if number is not None and number.kind is Kind.NUMBER and len(number.text) > 1:
             help_line = f"write `{self.tokens[at].text}{{{number.text}}}`"
             start, end = number.span.start, number.span.end
-            self.reader.refuse("ambiguous", "only the first digit would be taken by TeX", start, end, help_line)
+            self.reader.refuse("ambiguous", "only the first character would be taken by TeX", start, end, help_line)
 
     def command(self, at: int) -> int:
         token = self.tokens[at]

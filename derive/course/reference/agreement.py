@@ -26,7 +26,7 @@ from derive.steps.derivation import with_ancestors
 from derive.steps.step import Quantity
 from derive.units import read_unit
 
-NOT_MULTIPLIED = "only an equation can be multiplied by a factor"
+NOT_MULTIPLIED = "a factor needs two equations, or two relations with `!=`"
 
 
 def given_values(problem: Problem) -> dict[str, Any]:
@@ -129,7 +129,7 @@ def _of_relation(
     ours = explicit(derived.xreplace(numbers))
     if ours != derived and vanishes(ours.residual) and not vanishes(derived.residual):
         return Verdict(
-            Grade.REFUTED, "with these numbers the derived equation is always true, so any statement would agree"
+            Grade.REFUTED, "with these numbers both sides of the derived relation are equal, so nothing can be compared"
         )
     if entry.figures:
         return _bound_to_figures(stated, ours, entry)
@@ -139,7 +139,7 @@ def _of_relation(
         return Verdict(Grade.REFUTED, NOT_MULTIPLIED)
     factor = explicit(entry.times.sides[0].entries[0][0].xreplace(meanings).xreplace(numbers))
     if vanishes(factor) or is_zero_everywhere(factor) is not False:
-        return Verdict(Grade.REFUTED, "`times` is zero, so any statement would agree")
+        return Verdict(Grade.REFUTED, "`times` is zero or may be zero, so any statement could agree")
     verdict = equal(stated.residual, factor * ours.residual)
     if not verdict:
         turned = equal(stated.residual, -factor * ours.residual)  # the two sides may be exchanged

@@ -118,9 +118,13 @@ class Cited:
                 key=lambda n: abs(n - first),
             )
             help_line = f"the nearest display is in line {near}" if near else None
-            raise Rejected(
-                Complaint("no-formula", f"`{self.file.path}` has no formula at {where}", place, (), help_line)
+            is_partly = any(row.statements for row in stated)
+            message = (
+                f"`{self.file.path}` has a row without a formula at {where}"
+                if is_partly
+                else f"`{self.file.path}` has no formula at {where}"
             )
+            raise Rejected(Complaint("no-formula", message, place, (), help_line))
         if not shown and len(stated) > 1:
             message = f"there are {len(stated)} formulas in sentences at {where}"
             help_line = "write the formula that you mean under `latex:`"

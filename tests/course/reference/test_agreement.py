@@ -180,7 +180,7 @@ def test_a_factor_that_may_vanish_is_no_agreement(compared_with: Compared, entry
 
 def test_a_value_is_not_multiplied_by_a_factor(compared: Compared) -> None:
     found = one(compared(r"answer: inertia_tensor_zz, latex: '\frac{5}{12} M a^2', times: '1'"))
-    assert (found.outcome, found.detail) == ("differs", "only an equation can be multiplied by a factor")
+    assert (found.outcome, found.detail) == ("differs", "a factor needs two equations, or two relations with `!=`")
 
 
 def test_numbers_that_leave_nothing_of_an_equation_leave_nothing_to_compare(
@@ -195,7 +195,7 @@ def test_numbers_that_leave_nothing_of_an_equation_leave_nothing_to_compare(
     found = one(compared(whole=f"{head}{entry}\n"))
     assert (found.outcome, found.detail) == (
         "differs",
-        "with these numbers the derived equation is always true, so any statement would agree",
+        "with these numbers both sides of the derived relation are equal, so nothing can be compared",
     )
 
 
