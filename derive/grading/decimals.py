@@ -140,7 +140,7 @@ def _without_unit(
                 f"the number is right in {unit}, but its unit is missing: {_asked(target, dimension)} is asked for",
             )
     return Verdict(
-        Outcome.DIFFERENT, f"the number is wrong, and its unit is missing: {_asked(target, dimension)} is asked for"
+        Outcome.DIFFERENT, f"the number is wrong or has only one figure, and its unit is missing: {_asked(target, dimension)} is asked for"
     )
 
 
