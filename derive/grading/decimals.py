@@ -140,7 +140,9 @@ def _without_unit(
                 f"the number is right in {unit}, but its unit is missing: {_asked(target, dimension)} is asked for",
             )
     return Verdict(
-        Outcome.DIFFERENT, f"the number is wrong or has only one figure, and its unit is missing: {_asked(target, dimension)} is asked for"
+        Outcome.DIFFERENT,
+        "the number is wrong or has only one figure, and its unit is missing: "
+        f"{_asked(target, dimension)} is asked for",
     )
 
 

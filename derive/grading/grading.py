@@ -642,7 +642,9 @@ class _Grading:
             told = f"as the limiting case of the condition {target.text}"
             return replace(found, outcome=Outcome.CONVENTION, because=told)
         if mark[0] != goal[0]:
-            return replace(found, outcome=Outcome.SIGN, because="the inequality has the wrong direction")
+            is_turned = {mark[0], goal[0]} == {"<", ">"}
+            told = "the inequality has the wrong direction" if is_turned else "it is another condition"
+            return replace(found, outcome=Outcome.SIGN, because=told)
         if mark != goal:
             told = "whether the limiting case is included is not judged"
             return replace(found, outcome=Outcome.CONVENTION, because=told)

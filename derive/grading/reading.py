@@ -297,6 +297,7 @@ def _check_size(value: Any, span: Span) -> None:
             if node.is_Pow and node.exp.is_Number:
                 power, terms = abs(node.exp), len(node.base.args) if node.base.is_Add else 1
                 if power > HIGHEST_POWER and not node.base.is_Number:
-                    raise Meaningless(f"too large: this exponent must be from -{HIGHEST_POWER} to {HIGHEST_POWER}", span)
+                    most = HIGHEST_POWER
+                    raise Meaningless(f"too large: this exponent must be from -{most} to {most}", span)
                 if terms > 1 and sympy.binomial(int(power) + terms, terms) > MOST_TERMS:
                     raise Meaningless("too large: this power of a sum has too many terms", span)
