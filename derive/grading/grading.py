@@ -534,7 +534,7 @@ class _Grading:
             for read in statement.last:
                 zero = Read(Num(Span(0, 0), "0"), sympy.Integer(0))
                 if not isinstance(read.value, Expr):
-                    return Verdict(Outcome.DIFFERENT, f"it is a list, but {asked} is asked for")
+                    return Verdict(Outcome.DIFFERENT, f"it is a vector or a matrix, but {asked} is asked for")
                 if isinstance(goal.left, Symbol) and not goal.right.has(goal.left):
                     alone = replace(
                         target, symbol=goal.left, value=goal.right, dimension=self.key.dimensions.get(goal.left)
