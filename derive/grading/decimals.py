@@ -141,7 +141,7 @@ def _without_unit(
             )
     return Verdict(
         Outcome.DIFFERENT,
-        "the number is wrong or has only one figure, and its unit is missing: "
+        "the number is wrong or has too few figures, and its unit is missing: "
         f"{_asked(target, dimension)} is asked for",
     )
 
@@ -162,7 +162,7 @@ def _in_unit(
         apart = abs(_many_digits(exact) - value)
         if apart <= half:
             if figures < FEWEST and apart:
-                return Verdict(Outcome.DIFFERENT, f"one figure is too few to judge: {right}")
+                return Verdict(Outcome.DIFFERENT, f"at least {FEWEST} figures are needed to judge: {right}")
             short = f"; the problem asks for {number.figures} figures" if figures < number.figures and apart else ""
             return Verdict(Outcome.EQUAL, f"the value rounded to {figures} figures{short}" if apart else "")
         if places > 0 or value % (Integer(10) ** (1 - places)) or figures <= 1:
