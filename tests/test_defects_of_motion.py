@@ -202,7 +202,7 @@ REFUSED: dict[str, list[tuple[str, int, str]]] = {
     "doubleCover": [("folded", 5, "covers places twice")],
     "f02_friction_reaction_missing": [("which-body", 11, "the body that exerts it is not stated")],
     "f03_friction_no_torque": [("which-body", 9, "the force at (x, 0) acts on no particle")],
-    "f06_hole_outside": [("no-such-body", 6, "is partly outside the body")],
+    "f06_hole_outside": [("no-such-body", 6, "is not inside the rest of the body")],
     "fr_rest": [("friction-at-rest", 14, "sliding friction does not act at rest")],
     "gravity-changes": [("changes", 8, "`g*x/a` depends on the coordinate x")],
     "hit_geom": [("which-body", 11, "an impulse at (x, l/2 + y) acts on no particle")],

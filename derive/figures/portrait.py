@@ -77,7 +77,7 @@ def portrait_of(
         ]
         if not own:
             ends = f"{np.min(heights):.4g} to {np.max(heights):.4g}"
-            message = f"the function of the phase portrait nowhere has the value {value:.4g}"
+            message = f"the phase portrait has no curve with the value {value:.4g}"
             raise Rejected(Complaint("drawing", message, help=f"in these ranges, its values are from {ends}"))
         found += own
     return Portrait(*box[2:], values, tuple(found), tuple(_centres(expr, plane, grid, heights)))
@@ -111,7 +111,7 @@ def _on(expr: Expr, plane: tuple[Symbol, Symbol], across: Any, up: Any) -> Any:
     with np.errstate(all="ignore"):
         found = lambdify(plane, expr, "numpy")(across, up) + 0.0 * across
     if not (np.isrealobj(found) and np.all(np.isfinite(found))):
-        message = f"the phase portrait of {expr} is not real and finite over its whole range"
+        message = f"{expr} is not real and finite at every point of the plot"
         raise Rejected(Complaint("drawing", message))
     return found
 

@@ -188,8 +188,8 @@ class _Scene:
         return {**found, **self._carried_round()}
 
     def _carried_round(self) -> Mapping[Symbol, Any]:
-        """Return a mapping with the time at which a system with a prescribed rotation is drawn; it is empty for any
-        other system."""
+        """Return a mapping with the time at which a system in space with one constant prescribed rate of rotation is
+        drawn. The mapping is empty for any other system."""
         if (rate := self._rate_round()) is None:
             return {}
         level = len(self.system.coordinates) > 1 and not moving_in(
@@ -212,8 +212,7 @@ class _Scene:
         found = [*self._all(), *(launch_marks(self.system, self.start) if self.start else ())]
         if not any(isinstance(mark, AxisOfRotation) for mark in found):
             found += self._axis_of_table()
-        # The drawing of an impact omits angles and distances that are zero at the impact, and distances that change
-        # just before it.
+        # The drawing of an impact omits angles that are zero at the impact, and all distances that are coordinates.
         if self.impact is not None:
             found = [
                 mark for mark in found if not (isinstance(mark, OriginMark) or is_of_the_moment(mark, self.impact))
@@ -498,7 +497,7 @@ class _Scene:
                     return LengthMark(column_of(touch.at), column_of(at), aside, self._clear(at), label=q)
                 return LengthMark(column_of(start + down), column_of(at + down), column_of(-touch.normal), label=q)
         beyond = BENEATH * before if self._is_on_carrier(at) else 0.0
-        # The dimension line is above an inclined plane, and below any other place.
+        # A horizontal dimension line is above a place on an inclined plane, and below any other place.
         below = -1 if touch is None or not self._is_inclined(touch.surface) else 1
         aside = ImmutableDenseMatrix([0, below] if y == 0 else [self._free_side(at), 0])
         return LengthMark(column_of(start), column_of(at), aside, self._clear(at), beyond, label=q)

@@ -382,9 +382,9 @@ class _Comparison:
 
     def of_matrix(self, value: Any, right: Any) -> Verdict:
         if not isinstance(right, MatrixBase):
-            if isinstance(value, MatrixBase) and are_equal(sympy.sqrt(value.dot(value)), right):
+            if 1 in value.shape and are_equal(sympy.sqrt(value.dot(value)), right):
                 return Verdict(Outcome.DIFFERENT, "it is a vector; its magnitude is asked for")
-            return Verdict(Outcome.DIFFERENT, "it is a list, but a single value is asked for")
+            return Verdict(Outcome.DIFFERENT, f"it is {_size(value)}, but a single value is asked for")
         if not isinstance(value, MatrixBase):
             if value == 0 and all(each == 0 for each in right):
                 return Verdict(Outcome.EQUAL, "")

@@ -140,7 +140,9 @@ def _without_unit(
                 f"the number is right in {unit}, but its unit is missing: {_asked(target, dimension)} is asked for",
             )
     return Verdict(
-        Outcome.DIFFERENT, f"the number is wrong, and its unit is missing: {_asked(target, dimension)} is asked for"
+        Outcome.DIFFERENT,
+        "the number is wrong or has too few figures, and its unit is missing: "
+        f"{_asked(target, dimension)} is asked for",
     )
 
 
@@ -160,7 +162,7 @@ def _in_unit(
         apart = abs(_many_digits(exact) - value)
         if apart <= half:
             if figures < FEWEST and apart:
-                return Verdict(Outcome.DIFFERENT, f"one figure is too few to judge: {right}")
+                return Verdict(Outcome.DIFFERENT, f"at least {FEWEST} figures are needed to judge: {right}")
             short = f"; the problem asks for {number.figures} figures" if figures < number.figures and apart else ""
             return Verdict(Outcome.EQUAL, f"the value rounded to {figures} figures{short}" if apart else "")
         if places > 0 or value % (Integer(10) ** (1 - places)) or figures <= 1:

@@ -328,7 +328,7 @@ class _Grading:
         for target in [each for each in targets if each.of_set]:
             if (of_set := self.of_set(rest, target)) is not None:
                 verdict, used = of_set
-                found[target.key] = (verdict, used)
+                found[target.key] = (replace(verdict, target=target.key), used)
                 rest = [each for each in rest if each not in used]
         for statement in list(rest):
             named = [each for each in targets if each.key not in found and self.is_named(statement, each)]
@@ -511,7 +511,8 @@ class _Grading:
 
     def unequal_side(self, statement: _Statement) -> Read | None:
         """Return a side of an equation, other than a name, that differs from the last side; None if no side does. A
-        side is not compared if it has no letters, or letters that the last side lacks."""
+        side is not compared if it has no letters, or letters that the last side lacks. In a chain of more than two
+        sides, the first side is not compared."""
         if statement.is_single or statement.read is None:
             return None
         first = 0 if statement.name is None and len(statement.read.sides) == 2 else 1
@@ -533,7 +534,7 @@ class _Grading:
             for read in statement.last:
                 zero = Read(Num(Span(0, 0), "0"), sympy.Integer(0))
                 if not isinstance(read.value, Expr):
-                    return Verdict(Outcome.DIFFERENT, f"it is a list, but {asked} is asked for")
+                    return Verdict(Outcome.DIFFERENT, f"it is a vector or a matrix, but {asked} is asked for")
                 if isinstance(goal.left, Symbol) and not goal.right.has(goal.left):
                     alone = replace(
                         target, symbol=goal.left, value=goal.right, dimension=self.key.dimensions.get(goal.left)
@@ -570,8 +571,8 @@ class _Grading:
         return best_of(verdicts)
 
     def as_number(self, statement: _Statement, target: Target) -> Verdict | None:
-        """Judge a number, with or without a unit. Return None if the problem gives no number, if no number is typed, or
-        if the number is zero without a unit.
+        """Judge a number, with or without a unit. Return None if the statement is not compared as a number, for example
+        if the problem gives no number, or if the number is zero without a unit.
         """
         if target.is_relation and (angle := angle_of(target, self.angle_in(statement, target))) is not None:
             target = angle
@@ -641,7 +642,9 @@ class _Grading:
             told = f"as the limiting case of the condition {target.text}"
             return replace(found, outcome=Outcome.CONVENTION, because=told)
         if mark[0] != goal[0]:
-            return replace(found, outcome=Outcome.SIGN, because="the inequality has the wrong direction")
+            is_turned = {mark[0], goal[0]} == {"<", ">"}
+            told = "the inequality has the wrong direction" if is_turned else "it is another condition"
+            return replace(found, outcome=Outcome.SIGN, because=told)
         if mark != goal:
             told = "whether the limiting case is included is not judged"
             return replace(found, outcome=Outcome.CONVENTION, because=told)

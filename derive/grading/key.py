@@ -63,7 +63,7 @@ class Target:
 
     symbol   the name of the answer, if it has one: a symbol, or an expression such as tan(delta)
     value    a formula, a matrix or a relation
-    of_set   whether the value is a set of numbers, in any order
+    of_set   whether the value is a set of values, in any order
     scaled   whether the value is known up to a factor only, such as the amplitudes of a mode
     own      the points of the answer in the rubric
     whole    the points of the answer and of the steps before it

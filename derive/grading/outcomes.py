@@ -31,7 +31,7 @@ _ORDER = tuple(Outcome)
 class Verdict:
     """A verdict with its reason, the reading of the typed text, and the right answer with which the text was compared.
 
-    target   the key of the right answer; empty if the typed text was compared with no answer
+    target   the key of the right answer, or empty
     marked   the typed text with a caret under the place that cannot be read
     """
 

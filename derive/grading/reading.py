@@ -151,12 +151,12 @@ class _InProblem(Meaning):
 
     def of_num(self, node: Num) -> Expr:
         if len(node.text) > 40:
-            raise Meaningless("too large: this number has more than 40 digits", node.span)
+            raise Meaningless("too large: this number has more than 40 characters", node.span)
         return super().of_num(node)
 
     def of_vec(self, node: Vec) -> Any:
         if not 1 < len(node.entries) <= 9:
-            raise Meaningless("this list is not a vector", node.span)
+            raise Meaningless("this list does not have 2 to 9 entries", node.span)
         return sympy.Matrix([self.entry(each) for each in node.entries])
 
     def of_pow(self, node: Pow) -> Any:
@@ -165,7 +165,7 @@ class _InProblem(Meaning):
             return base.T
         most = HIGHEST_POWER_OF_TEN if base == 10 else HIGHEST_POWER
         if isinstance(exponent, Expr) and exponent.is_Number and abs(exponent) > most:
-            raise Meaningless(f"too large: this exponent must be at most {most}", node.exponent.span)
+            raise Meaningless(f"too large: this exponent must be from -{most} to {most}", node.exponent.span)
         if isinstance(base, Rational) and exponent.is_Number and _bits(base) * abs(exponent) > MOST_BITS:
             raise Meaningless("too large: this number has too many digits", node.span)
         if base == 10 and exponent.is_Integer:
@@ -297,6 +297,7 @@ def _check_size(value: Any, span: Span) -> None:
             if node.is_Pow and node.exp.is_Number:
                 power, terms = abs(node.exp), len(node.base.args) if node.base.is_Add else 1
                 if power > HIGHEST_POWER and not node.base.is_Number:
-                    raise Meaningless(f"too large: this exponent must be at most {HIGHEST_POWER}", span)
+                    most = HIGHEST_POWER
+                    raise Meaningless(f"too large: this exponent must be from -{most} to {most}", span)
                 if terms > 1 and sympy.binomial(int(power) + terms, terms) > MOST_TERMS:
                     raise Meaningless("too large: this power of a sum has too many terms", span)

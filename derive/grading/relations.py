@@ -31,7 +31,7 @@ def verdict_on_relation(left: Read, mark: str, right: Read, target: Target, key:
     """Compare a typed relation with an answer that is a relation."""
     goal = target.value
     if isinstance(left.value, MatrixBase) or isinstance(right.value, MatrixBase):
-        return Verdict(Outcome.DIFFERENT, "it is an equation between vectors")
+        return Verdict(Outcome.DIFFERENT, "a side of this relation is a vector or a matrix")
     comparison = _Comparison(Read(left.node, left.value, (*left.decimals, *right.decimals),
                                   tuple({*left.unknown, *right.unknown})), target, key)  # fmt: skip
     mark = {"~": "=", ":=": "=", "to": "="}.get(mark, mark)

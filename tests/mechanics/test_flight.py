@@ -429,7 +429,7 @@ def test_a_flight_that_begins_downwards_has_no_greatest_height_later(tmp_path: P
         ("flight: {flight: lost}", "flight: {flight: lost}\n    top: {maximum: flight_y, for: t}"),
         ("[flight, landing_x, landing_speed]", "[flight, landing_x, landing_speed, top]"),
     )
-    assert any("only before the motion begins" in each.message for each in complaints(tmp_path, text))
+    assert any("is before the motion begins" in each.message for each in complaints(tmp_path, text))
 
 
 def test_a_plane_that_the_particle_departs_from_and_does_not_meet_again_is_refused(tmp_path: Path) -> None:

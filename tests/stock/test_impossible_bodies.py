@@ -66,27 +66,27 @@ IN_BOWL = "centre: [r*sin(theta), -r*cos(theta)], turned: phi"
 IMPOSSIBLE = {
     "a hole that leaves the disc": (
         of_parts(DISC + "}", "{shape: disc, radius: R/2, at: [3*R/4, 0, 0], " + HALF, whole=ONE),
-        "is partly outside the body",
+        "is not inside the rest of the body",
     ),
     "a hole larger than the disc": (
         of_parts(DISC + "}", "{shape: disc, radius: 2*R, " + HALF, whole=ONE),
-        "`two` is cut out of the body, but is partly outside the body",
+        "`two` is cut out of the body, but is not inside the rest of the body",
     ),
     "a hole as large as the disc": (of_parts(DISC + "}", DISC + ", " + HALF, whole=ONE), "nothing is left"),
     "a hole beside the ball": (
         of_parts(BALL + "}", "{shape: ball, radius: R/2, at: [3*R, 0, 0], " + HALF, whole=ONE),
-        "is partly outside the body",
+        "is not inside the rest of the body",
     ),
     "a hole through the ball and beyond": (
         of_parts(BALL + "}", "{shape: cylinder, radius: R/4, height: 3*R, at: [0, 0, 0], " + HALF, whole=ONE),
-        "is partly outside the body",
+        "is not inside the rest of the body",
     ),
     "a hole outside by its numbers": (
         of_parts(
             DISC + "}", "{shape: disc, radius: a, at: [d, 0, 0], " + HALF,
             whole=ONE, values="values: {R: 1 m, a: 60 cm, d: 50 cm}\n",
         ),
-        "is partly outside the body",
+        "is not inside the rest of the body",
     ),
     "two holes that overlap": (
         of_parts(

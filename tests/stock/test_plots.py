@@ -409,7 +409,7 @@ OVER = "    over: {theta: [-180 deg, 180 deg], p_theta: [-9 kg*m^2/s, 9 kg*m^2/s
         ([("-9 kg*m^2/s, 9", "9 kg*m^2/s, -9")], 17, "must go from a smaller number to a larger number", ""),
         ([("-9 kg*m^2/s", "-9 kg*m/s")], 17, "`range` must be an angular momentum", ""),
         ([(", g: 9.8 m/s^2", "")], 14, "the plot `portrait` needs a number for `g`", ""),
-        ([("15 J", "200 J")], 14, "the function of the phase portrait nowhere has the value 200",
+        ([("15 J", "200 J")], 14, "the phase portrait has no curve with the value 200",
          "in these ranges, its values are from -9.8 to 50.3"),
     ],
 )  # fmt: skip

@@ -124,8 +124,8 @@ def _extremum(
         raise _not_one(of, x, verb, len(fitting), slope.has(x) and not found)
     ((place, conditions),) = fitting
     if x == TIME and sign_known(place) == -1:
-        message = f"`{verb}`: the slope of `{of.key}` vanishes only before the motion begins, at t = {place}"
-        raise Rejected(Complaint("no-extremum", message, help="the extreme value is at the start, t = 0"))
+        message = f"`{verb}`: the only possible {verb} of `{of.key}` is before the motion begins, at t = {place}"
+        raise Rejected(Complaint("no-extremum", message, help="the extreme value may be at the start, t = 0"))
     name = scalar(f"{x.name}_{verb[:3]}", **({"positive": True} if x.is_positive else {}))
     at = establish(
         EXTREMUM_PLACE,

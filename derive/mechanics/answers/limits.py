@@ -107,7 +107,7 @@ def limiting_case(
     solved = _solved_for(of)
     if isinstance(of.value, Relation) and solved is None:
         if symbol is not None:
-            message = f"`{of.key}` is a relation that is not solved for a letter, so its limit has no symbol of its own"
+            message = f"`{of.key}` is not solved for a letter with =, >= or <=, so its limit has no symbol of its own"
             raise Rejected(Complaint("wrong-argument", message))
         return equation_in_limit(of, letter, to, order, key)
     value = explicit(of.value.right if solved is not None else of.value)

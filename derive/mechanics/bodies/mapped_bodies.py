@@ -246,7 +246,7 @@ def exact(body: GeneralBody, integrand: Expr, what: str) -> Expr:
     _, limits = body.map()
     found = definite(integrand, list(reversed(limits)))
     if found is None or found.has(nan, zoo, oo):
-        message = f"the {what} of {body.name} needs an integral without a known antiderivative"
+        message = f"the {what} of {body.name} needs an integral that is not finite or has no known antiderivative"
         help_line = "choose variables in which the integrand consists of powers, sines and cosines"
         raise Rejected(Complaint("no-antiderivative", message, help=help_line))
     return tidied(found)

@@ -91,7 +91,7 @@ class Fault:
         if len(self.names) > 1:
             message = f"{named} are cut out of the body, but they overlap"
             return Complaint("no-such-body", message, help="cut out each part of the body once")
-        message = f"{named} is cut out of the body, but is partly outside the body"
+        message = f"{named} is cut out of the body, but is not inside the rest of the body"
         return Complaint("no-such-body", message, help="a hole must be inside the rest of the body")
 
 

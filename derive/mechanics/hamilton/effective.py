@@ -265,7 +265,10 @@ def effective_potential(
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 3.3; Taylor, *Classical Mechanics*, section 8.4.
     """
     if depends_on_time(of.value):
-        message = f"`effective_potential`: `{of.key}` contains the time t, so it has no effective potential energy"
+        message = (
+            f"`effective_potential`: `{of.key}` contains the time or a prescribed function of the time, "
+            "so it has no effective potential energy"
+        )
         help_line = (
             "if a support has a constant acceleration A along x, describe the positions relative to the support, and "
             "add `potential: m*A*x`, with the horizontal position x of the mass m"

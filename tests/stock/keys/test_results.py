@@ -105,7 +105,7 @@ def test_an_equation_has_a_limit_too(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("edit", "said"),
     [
-        (("to: 0}", "to: 0, symbol: f}"), "is a relation that is not solved for a letter"),
+        (("to: 0}", "to: 0, symbol: f}"), "is not solved for a letter with =, >= or <="),
         (("for: omega", "for: theta"), "theta changes in the motion"),
     ],
 )
