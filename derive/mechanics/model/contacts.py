@@ -155,8 +155,8 @@ def contact(
     hoop, a cylinder or a cone touches a plane at the lowest point of a rim. Let e be the unit vector along the axis of
     the body, n the unit normal of the plane and R the radius of the rim. The distance of the body from the plane is
     then the distance of the centre of this rim from the plane, minus R sqrt(1 - (n.e)^2). A cone that lies on its side
-    must be held at its apex. If a round body touches a curve, its centre is on the normal at the point of contact. The
-    horizontal distance of this point from the origin of the curve must be a coordinate.
+    must be held at its apex. If a round body touches a curve, its centre is on the normal at the point of contact. A
+    coordinate, such as the horizontal distance of this point from the origin of the curve, must describe this point.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapters 3 and 7; for a disc in
     space, Landau, Lifshitz, *Mechanics*, section 38.
     """
