@@ -179,7 +179,7 @@ def _problem(verb: str, equations: Sequence[Quantity], keeping: Sequence[Coordin
 
 def _lagrangian_of(verb: str, equation: Quantity) -> Quantity:
     fact = equation.fact(ForcedMotion) or equation.fact(FromLagrangian)
-    if fact is None or equation.fact(OfCoordinate) is None:
+    if fact is None or equation.fact(OfCoordinate) is None or not isinstance(equation.value, Relation):
         raise Rejected(Complaint("wrong-argument", f"`{verb}`: `{equation.key}` is not an equation of motion"))
     return fact.lagrangian
 
@@ -872,8 +872,9 @@ def _undetermined(problem: _Problem, matrix: ImmutableDenseMatrix) -> Rejected:
     held = matrix[count:, :count]
     if len(problem.constraints) and _is_singular(ImmutableDenseMatrix(held * held.T)):
         names = ", ".join(each.force.name for each in problem.constraints)
-        how = "contradict one another" if _contradict(problem.constraints) else "are not independent"
-        message = f"the constraints enforced by {names} {how}, so the forces are not determined"
+        message = f"the equations do not determine the constraint forces {names}"
+        if _contradict(problem.constraints):
+            message = f"the constraints enforced by {names} contradict one another, so the forces are not determined"
         return Rejected(
             Complaint("constraints", message, help="remove constraints that follow from the others or contradict them")
         )
