@@ -279,10 +279,10 @@ def _contact(of: Any, on: Any) -> Contact:
 
 
 def _check_reached(touch: Contact) -> None:
-    """Reject a body that never touches the surface, because the body is always away from it or partly inside it."""
+    """Reject a body that never touches the surface, because it is always away from it or at least partly behind it."""
     sign = sign_known(touch.gap)
     if sign in (1, -1):
-        where = "always away from the surface" if sign == 1 else "always partly inside the surface"
+        where = "always away from the surface" if sign == 1 else "always at least partly behind the surface"
         message = f"the body is {where}, since its distance from the surface is {touch.gap}"
         raise Rejected(Complaint("no-contact", message, help="change the place of the body, its size or the surface"))
 
