@@ -279,7 +279,7 @@ def _contact(of: Any, on: Any) -> Contact:
 
 
 def _check_reached(touch: Contact) -> None:
-    """Reject a body that never touches the surface, because it is always away from it or at least partly behind it."""
+    """Reject a body that is always away from the surface, or always at least partly behind the surface."""
     sign = sign_known(touch.gap)
     if sign in (1, -1):
         where = "always away from the surface" if sign == 1 else "always at least partly behind the surface"
