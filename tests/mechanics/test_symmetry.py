@@ -128,7 +128,7 @@ def test_what_falls_gains_momentum_at_a_known_rate() -> None:
         (lambda x, y: {x: 1}, r"changes `lagrangian` by epsilon times -k\*x"),
         (lambda x, y: {x: y, y: x}, "not a symmetry"),
         (lambda x, y: {x: 0}, "moves no coordinate"),
-        (lambda x, y: {x.symbol: 1}, "needs the shift of each coordinate"),
+        (lambda x, y: {x.symbol: 1}, "needs a mapping from coordinates to shifts"),
         (lambda x, y: {x: x.rate}, "without rates"),
         (lambda x, y: {x: Function}, "without rates"),
         (lambda x, y: {coordinate("z", "length"): 1}, "does not depend on the coordinate"),

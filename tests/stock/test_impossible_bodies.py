@@ -146,7 +146,7 @@ IMPOSSIBLE = {
     "three moments in symbols": (turning("[A, B, A + 2*B]"), "no body has such moments"),
     "a ball half in the floor": (
         touching("x: length", "radius: R, centre: [x, R/2], turned: -x/R", FLOOR, "friction: rolling"),
-        "always partly inside the surface",
+        "always at least partly behind the surface",
     ),
     "a ball above the floor": (
         touching("x: length", "radius: R, centre: [x, 2*R], turned: -x/R", FLOOR, "friction: rolling"),
@@ -156,7 +156,7 @@ IMPOSSIBLE = {
         touching(
             "r: positive length, theta: angle, phi: angle", f"radius: 2*R, {IN_BOWL}", BOWL, "normal: N"
         ),
-        "always partly inside the surface",
+        "always at least partly behind the surface",
     ),
 }  # fmt: skip
 POSSIBLE = {

@@ -245,7 +245,7 @@ def rate_of(quantity: Quantity, key: str | None = None) -> Quantity:
     require_all_times("rate_of", quantity)
     if not isinstance(quantity.symbol, Symbol) or isinstance(quantity.value, MatrixBase):
         message = (
-            f"`rate_of` needs a scalar with a plain symbol, but `{quantity.key}` is a vector or has another symbol"
+            f"`rate_of` needs a scalar with a plain symbol, but `{quantity.key}` is a vector or has no plain symbol"
         )
         raise Rejected(Complaint("wrong-argument", message))
     moving = [q for q in quantity.coordinates if q != quantity.symbol]  # the value x(t) does not depend on x itself

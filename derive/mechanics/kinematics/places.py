@@ -125,9 +125,9 @@ class Axes:
 
     def place(self, *components: Any) -> Location:
         """Return the position with three given components along these axes, in m; all axes have the same origin."""
-        along = point(*components)
-        if len(along.components) != 3:
+        if len(components) != 3:
             raise Rejected(Complaint("wrong-argument", f"`place` needs three components, not {len(components)}"))
+        along = point(*components)
         found = self.in_space * ImmutableDenseMatrix(along.components)
         if not equal(ImmutableDenseMatrix(self.in_space.T * found), ImmutableDenseMatrix(along.components)):
             raise Unverified(Complaint("unverified", "`place`: the components along the axes are not the given ones"))

@@ -42,7 +42,7 @@ class ActedOn(Fact):
     """The forces without a potential energy on a system: the given forces, the dampers and the dissipation function of
     the dampers."""
 
-    missing = "has no forces other than those of its potential energy"
+    missing = "has no given forces, couples or dampers"
     system: Any
     forces: tuple[GivenForce, ...]
     dampers: tuple[Damper, ...]
@@ -132,7 +132,7 @@ def squares_of_velocity(damper: Damper, moving: Sequence[Symbol]) -> Expr:
     velocity = _velocity_of(damper.at, moving)
     if not damper.point.held and not all(v in {ZERO, *map(rate, moving)} for v in velocity):
         return squares_of_rates(damper.at, moving)
-    if damper.point.held:  # the particle at the contact of a rolling body is at rest
+    if damper.point.held:  # a component of the velocity of a particle of a body may vanish identically
         velocity = [ZERO if is_zero(v) else v for v in damper.velocity(moving)]
     squares = [Pow(v, 2) for v in velocity if v != 0]
     return Terms(*squares) if len(squares) > 1 else squares[0] if squares else ZERO

@@ -179,7 +179,7 @@ def _problem(verb: str, equations: Sequence[Quantity], keeping: Sequence[Coordin
 
 def _lagrangian_of(verb: str, equation: Quantity) -> Quantity:
     fact = equation.fact(ForcedMotion) or equation.fact(FromLagrangian)
-    if fact is None or equation.fact(OfCoordinate) is None:
+    if fact is None or equation.fact(OfCoordinate) is None or not isinstance(equation.value, Relation):
         raise Rejected(Complaint("wrong-argument", f"`{verb}`: `{equation.key}` is not an equation of motion"))
     return fact.lagrangian
 
@@ -196,8 +196,8 @@ def accelerations(*equations: Quantity) -> tuple[Quantity, ...]:
     for every coordinate.
     Check: the accelerations satisfy the constraints, differentiated as functions of t.
     Errors: an equation is missing or is given twice; the equations belong to different Lagrangians; there are too many
-    unknowns; the constraints contradict or repeat one another; a coordinate has no inertia; a surface would have to
-    pull, or a string would have to push; the solution has too many terms.
+    unknowns; the constraints contradict one another or are not independent; a coordinate has no inertia; a surface
+    would have to pull, or a string would have to push; the solution has too many terms.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 2.4.
     """
     problem = _problem("accelerations", equations)
@@ -715,7 +715,7 @@ def constraint_force(
     """
     kept = [force.needed(ForceOf) for force in forces]
     if not kept or any(each.problem.lagrangian.step != kept[0].problem.lagrangian.step for each in kept):
-        raise Rejected(Complaint("different-subjects", "`constraint_force` needs forces of the same system"))
+        raise Rejected(Complaint("different-subjects", "`constraint_force` needs one or more forces of one system"))
     problem: _Problem = kept[0].problem
     way = {q.symbol if isinstance(q, Coordinate) else q: as_expr(value) for q, value in along.items()}
     strange = [q for q in way if q not in problem.moving]
@@ -872,8 +872,9 @@ def _undetermined(problem: _Problem, matrix: ImmutableDenseMatrix) -> Rejected:
     held = matrix[count:, :count]
     if len(problem.constraints) and _is_singular(ImmutableDenseMatrix(held * held.T)):
         names = ", ".join(each.force.name for each in problem.constraints)
-        how = "contradict" if _contradict(problem.constraints) else "repeat"
-        message = f"the constraints enforced by {names} {how} one another, so the forces are not determined"
+        message = f"the equations do not determine the constraint forces {names}"
+        if _contradict(problem.constraints):
+            message = f"the constraints enforced by {names} contradict one another, so the forces are not determined"
         return Rejected(
             Complaint("constraints", message, help="remove constraints that follow from the others or contradict them")
         )

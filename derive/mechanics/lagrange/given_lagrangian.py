@@ -96,7 +96,7 @@ def given_lagrangian(
     )
     moving = system.coordinates
     if not whole.has(*(rate(q) for q in moving)) if moving else True:
-        message = "a given Lagrangian needs the rates of coordinates"
+        message = "a given Lagrangian needs the rate of a coordinate"
         raise Rejected(Complaint("wrong-argument", message, help="write the rate of x as `x_dot`"))
     for q in moving:
         if whole.has(rate(q, 2), rate(q, 3)):

@@ -104,7 +104,7 @@ def _formulas(of: Quantity, shift: Mapping[Coordinate, Any]) -> dict[Symbol, Exp
     named: list[Any] = list(shift)
     for q in named:
         if not isinstance(q, Coordinate):
-            message = "`noether` needs the shift of each coordinate: {x: 1}, or {x: -y, y: x}"
+            message = "`noether` needs a mapping from coordinates to shifts: {x: 1}, or {x: -y, y: x}"
             raise Rejected(Complaint("wrong-argument", message))
         required(of.coordinates, q, "noether", of)
     found = {q.symbol: _plain(x, f"shift of {q.symbol.name}", of) for q, x in shift.items()}

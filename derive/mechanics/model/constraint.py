@@ -103,7 +103,7 @@ class Constraint(Part):
         """Return the result of `sense` for a vertical or horizontal force.
 
         For an oblique friction force of constant direction, such as friction on a slope, the result is "up_slope" or
-        "down_slope". For any other oblique force, the result is empty.
+        "down_slope", or empty if the sense is unknown. For any other oblique force, the result is empty.
         """
         sense = self.sense(side)
         if not sense or any(is_zero(c) for c in self.acting[0].direction):

@@ -155,8 +155,8 @@ def contact(
     hoop, a cylinder or a cone touches a plane at the lowest point of a rim. Let e be the unit vector along the axis of
     the body, n the unit normal of the plane and R the radius of the rim. The distance of the body from the plane is
     then the distance of the centre of this rim from the plane, minus R sqrt(1 - (n.e)^2). A cone that lies on its side
-    must be held at its apex. If a round body touches a curve, its centre is on the normal at the point of contact. The
-    horizontal distance of this point from the origin of the curve must be a coordinate.
+    must be held at its apex. If a round body touches a curve, its centre is on the normal at the point of contact. A
+    coordinate, such as the horizontal distance of this point from the origin of the curve, must describe this point.
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, chapters 3 and 7; for a disc in
     space, Landau, Lifshitz, *Mechanics*, section 38.
     """
@@ -279,10 +279,10 @@ def _contact(of: Any, on: Any) -> Contact:
 
 
 def _check_reached(touch: Contact) -> None:
-    """Reject a body that never touches the surface, because the body is always away from it or partly inside it."""
+    """Reject a body that is always away from the surface, or always at least partly behind the surface."""
     sign = sign_known(touch.gap)
     if sign in (1, -1):
-        where = "always away from the surface" if sign == 1 else "always partly inside the surface"
+        where = "always away from the surface" if sign == 1 else "always at least partly behind the surface"
         message = f"the body is {where}, since its distance from the surface is {touch.gap}"
         raise Rejected(Complaint("no-contact", message, help="change the place of the body, its size or the surface"))
 

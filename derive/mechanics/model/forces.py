@@ -242,7 +242,7 @@ def force(components: Any, at: Location, of: Any = None, by: Any = None) -> Give
     found = GivenForce(_vector("force", "components", components, len(place.components)), place.components, of, by)
     for each in (found, found.opposite):
         if each is not None:
-            each.load(())  # raises an error if `of` is not a body or particle
+            each.load(())  # raises an error if `of` is not valid
     return found
 
 
@@ -263,10 +263,10 @@ def damping(constant: Any, at: Any, of: Any = None) -> Damper:
     require_constant("damping", "constant", constant)
     if isinstance(at, Location):
         found = Damper(constant, at.components, body_at(at, of))
-        found.load(())  # raises an error if `of` is not a body or particle
+        found.load(())  # raises an error if `of` is not valid
         return found
     if not isinstance(at, Coordinate | Expr) or not coordinates_in(as_expr(at)):
-        message = "`damping` must act on a place or along a coordinate"
+        message = "`damping` must act on a place, or along a coordinate or a formula in coordinates"
         raise Rejected(Complaint("wrong-argument", message))
     return Damper(constant, (as_expr(at),))
 

@@ -327,7 +327,8 @@ def _of_length(verb: str, ends: Sequence[Any], length: Any, letter: str) -> tupl
     if whole is not None:
         require_no_coordinate(verb, "length", whole)
     if not all(is_end(each) or isinstance(each, Pulley) for each in ends):
-        message = f"`{verb}` must end at a particle, at a body or a point of a body, or at a place"
+        message = f"each end of a `{verb}` must be a particle, a body, a point of a body or a place"
+        message += "; `over` may also contain pulleys" if len(ends) > 2 else ""
         how = Spelled('give a point of a body as `rod.place_of("end")`', "give a point of a body as `rod.end`")
         raise Rejected(Complaint("wrong-argument", message, help=how))
     for wheel in ends[1:-1]:
@@ -347,7 +348,7 @@ def _of_length(verb: str, ends: Sequence[Any], length: Any, letter: str) -> tupl
         message = f"`{verb}` with a force also needs its length"
         raise Rejected(Complaint("missing-key", message, help="give its `length`"))
     if kept is not None:
-        message = f"the coordinates keep the length {kept} constant, so the force `{letter}` does not appear"
+        message = f"the coordinates determine the length {kept}, so the force `{letter}` does not appear"
         key, what = ("force", "rod") if is_rod else ("tension", "string")
         help_line = f"leave out `{key}`, or give the end a coordinate along the {what}, so that the length can change"
         raise Rejected(Complaint("not-an-unknown", message, help=help_line))
@@ -494,7 +495,7 @@ def wound_string(end: Any, on: Any, tension: str = "T", over: Sequence[Any] = ()
         raise Rejected(Complaint("wrong-argument", message))
     if not all(is_end(each) or isinstance(each, Pulley) and each in over for each in other):
         message = (
-            "`end` of a `wound_string` must be a particle, a point of a body or a place; "
+            "`end` of a `wound_string` must be a particle, a body, a point of a body or a place; "
             "`over` may also contain pulleys"
         )
         raise Rejected(Complaint("wrong-argument", message))

@@ -320,7 +320,8 @@ def curve(
     apart = coordinates_in(column_of(through - origin)) if of is not None else {}
     if apart:
         message = (
-            f"the curve does not move with the body that carries it: their distance changes with {next(iter(apart))}"
+            "the curve does not move with the body that carries it: "
+            f"their relative position changes with {next(iter(apart))}"
         )
         raise Rejected(Complaint("which-body", message, help="give a place that moves with the body, `through: track`"))
     if isinstance(of, PlacedBody) and not is_zero(_turning(of)):

@@ -319,7 +319,7 @@ class System:
             message = "some places of this `System` have two components, and some have three"
             raise Rejected(Complaint("wrong-argument", message, help="give all places in a plane, or all in space"))
         if not self.coordinates:
-            message = "nothing in this `System` moves: its places depend on no coordinate"
+            message = "no place in this `System` depends on a coordinate"
             raise Rejected(
                 Complaint(
                     "wrong-argument",

@@ -97,7 +97,7 @@ class InFlight(Fact):
     matter         the mass points of the system and the forces on them, including the force of the lost constraint
     point          the mass that flies, at its place as a function of the coordinates
     noun           "particle" or "body"
-    radius         the radius of a round body, 0 for a particle; None for a body that is not round
+    radius         the radius of a body that is round about its centre of mass, 0 for a particle; None for other bodies
     ended          the symbols of the constraint force and of the friction of the lost contact
     lost           the relation `unknown = place` at which the constraint is lost
     force          the constraint force, which vanishes where the constraint is lost

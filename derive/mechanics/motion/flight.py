@@ -379,8 +379,10 @@ def _why_it_is_not_free(departure: Departure, flyer: Flyer) -> str:
     acting = [each for each in _constraints(departure) if any(force.of == flyer.part for force in each.forces)]
     if any(depends_on_time(c) for c in flyer.point.place) or depends_on_time(departure.kept.residual):
         return f"the {noun} has another constraint, or a support that moves"
-    if any(each not in lost for each in acting) or any(not each.forces for each in _constraints(departure)):
+    if any(each not in lost for each in acting):
         return f"the {noun} has another constraint, or a support that moves"
+    if any(not each.forces for each in _constraints(departure)):
+        return "a constraint is given as a formula"
     others = [each for each in matter.points if each != flyer.point]
     if any(explicit(c).free_symbols & own for each in others for c in each.place):
         return f"the coordinates of the place of the {noun} also rotate the {noun}, or move another body"
@@ -1041,7 +1043,10 @@ def _passes_through(first: Quantity, second: Quantity, through: Sequence[Any], k
         raise Rejected(Complaint("wrong-argument", message))
     time = tidied((X - known.path[0].xreplace({TIME: ZERO})) / v)
     if sign_known(time) != 1:
-        message = f"`passes`: it is not known that the place is ahead of the particle, since {time} may be negative"
+        message = (
+            "`passes`: the place is not known to be ahead of the particle, "
+            f"since the time {time} is not known to be positive"
+        )
         help_line = (
             "give a place ahead of the particle, or set `at` of the flight to a symbol declared with a range, "
             "such as `theta_1: 'angle in (pi/2, pi)'`"
@@ -1084,7 +1089,7 @@ def _check_before_circle(known: InFlight, place: Vector) -> None:
     if known.orbit is None or not known.orbit.inside:
         return
     if sign_known(tidied(_beyond(place, known.orbit))) != -1:
-        message = "`passes`: it is not known whether the place is inside the circle, on which the flight ends"
+        message = "`passes`: the place is not known to be inside the circle, on which the flight ends"
         raise Rejected(Complaint("not-decided", message, help="give a place that is inside the circle"))
 
 

@@ -167,7 +167,7 @@ def common_condition(of: Quantity, arrivals: Sequence[Arrival]) -> Relation | No
     """Return the condition under which the motion comes to all these places; None if there is no condition."""
     found = list(dict.fromkeys(each.reached for each in arrivals if each.reached is not None))
     if len(found) > 1:
-        message = f"`{of.key}` at these places depends on two conditions, {found[0]} and {found[1]}"
+        message = f"`{of.key}` at these places depends on different conditions, such as {found[0]} and {found[1]}"
         raise Rejected(Complaint("not-reached", message, help="substitute one place after the other"))
     return found[0] if found else None
 

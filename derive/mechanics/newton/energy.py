@@ -54,7 +54,10 @@ def total_energy(system: System, symbol: str | None = None, key: str = "energy_f
         return by_functions_of_time(found, moving), Add(*works, lost)
 
     if not is_zero(Add(*(a - b for a, b in [along_the_motion(kinetic.value + potential.value)]))):
-        message = "the energy is not conserved: a force without a potential energy does work, or a motion is prescribed"
+        message = (
+            "the energy is not conserved: a force without a potential energy does work, "
+            "or the system depends on the time explicitly"
+        )
         raise Rejected(Complaint("method", message, help="use `method: newton` or `method: lagrange`"))
     return establish(
         TOTAL_ENERGY,

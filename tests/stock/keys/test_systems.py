@@ -78,7 +78,7 @@ def test_a_free_relativistic_particle_in_polar_coordinates(tmp_path: Path) -> No
             "6: `gravity` cannot be combined with `lagrangian`, which replaces bodies and forces",
         ),
         (("q_dot**2/2", "q_dot**2/2 + m"), "6: "),
-        (("L_1*q_dot**2/2 - ", "-"), "5: a given Lagrangian needs the rates"),
+        (("L_1*q_dot**2/2 - ", "-"), "5: a given Lagrangian needs the rate of a coordinate"),
         (("normal_modes", "kinetic_energy"), "10: this answer needs bodies and forces"),
         (("normal_modes", "multipliers"), "10: `multipliers`"),
     ],
