@@ -61,7 +61,10 @@ def pendulum(view: View) -> Observed:
 
 
 def _seen(of: Quantity) -> str:
-    """Return the word for an answer that belongs to an oscillation or a rotation; "" for any other answer."""
+    """Return the word for a period, the frequency of an oscillation or the rate of a rotation.
+
+    The word is "" for any other answer, such as a growth rate, zero, or a rate with a minus sign.
+    """
     if of.step.rule == PERIOD:
         return "period"
     mode = of.fact(Mode)
