@@ -339,8 +339,8 @@ def exact(view: View) -> Observed:
 def _one_coordinate(view: View) -> tuple[Quantity, OneCoordinate] | None:
     """Return the step of the Lagrangian and the parts of this Lagrangian.
 
-    The Lagrangian must have the form mu(q) q_dot^2/2 - U(q), and its only coordinate must oscillate about an
-    equilibrium. If the page has no such Lagrangian, the result is None.
+    The Lagrangian must have one coordinate and the form mu(q) q_dot^2/2 - U(q). The page must have the linear equation
+    of this coordinate about an equilibrium. Otherwise the result is None.
     """
     linear = next((fact for q in view.shown if (fact := q.fact(Linear)) is not None), None)
     lagrangian = next((q for q in view.shown if q.fact(Energies) is not None), None)
