@@ -76,7 +76,7 @@ class Drawn:
 
 
 class Opened:
-    """A problem that is derived once, when an answer or a drawing is first requested."""
+    """A problem that is derived once, when its answers or drawings are first requested."""
 
     def __init__(self, problem: Problem):
         self._problem = problem

@@ -30,7 +30,7 @@ def limits_left_out(problem: Problem, derivation: Derivation) -> list[Complaint]
             of = given.of or given.step
             letters = [str(given.letter)] if given.letter else [str(letter) for letter in given.where]
             on = ("all of " if len(letters) > 1 else "") + ", ".join(f"`{letter}`" for letter in letters)
-            message = f"this case is left out: `{of}` does not depend on {on}"
+            message = f"this case is left out: `{of}` does not depend on {on}, or other inputs exclude the case"
             found.append(Complaint("unused-limit", message, given.places[""], severity="warning"))
     return found
 

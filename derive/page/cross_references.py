@@ -92,7 +92,7 @@ class References:
             code, message = "undefined-name", f"no step on this page is called `{mention.name}`"
             help_line = did_you_mean(mention.name, numbers) or "use the key of a step on which the answers depend"
             if mention.name in known:
-                code, message = "not-shown", f"the equation of `{mention.name}` is hidden, so it has no number"
+                code, message = "not-shown", f"the equation of `{mention.name}` is not shown, so it has no number"
                 help_line = f"change `{mention.name}: hidden` under `show`, or write `<<{mention.name}>>`"
             self.faults.append(Complaint(code, message, mention.place, help=help_line))
 

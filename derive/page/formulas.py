@@ -2,9 +2,10 @@
 checked.
 
 A formula in prose is data: derive prints it in the order in which the author wrote it and does not prove it. But an
-equation of the solution (in `strategy:`, `wording:` or `note:`) that contains results must hold for the results of the
-page. If it does not, for example because the problem was changed and the equation was not, the author is warned. The
-author is also warned of a formula that is printed but cannot be parsed.
+equation of the solution (in `strategy:`, `wording:` or `note:`) that contains results is compared with the results of
+the page. If the two disagree, for example because only the problem was changed, the author is warned. An equation that
+may be a condition on a result causes no warning. The author is also warned of a formula that is printed but cannot be
+parsed.
 """
 
 from __future__ import annotations

@@ -14,7 +14,7 @@ FORMULA = 10  # a formula or a reference counts as this number of characters
 
 
 def without_short_paragraphs(blocks: Sequence[Block]) -> tuple[Block, ...]:
-    """Return all blocks, with each short paragraph joined to the paragraph directly after it."""
+    """Return all blocks, with short paragraphs joined to the paragraph directly after them. A theorem stays apart."""
     found: list[Block] = []
     for block in blocks:
         last = found[-1] if found else None

@@ -373,7 +373,7 @@ def test_what_an_earlier_part_has_answered_is_referred_to(solved: list[Rendered]
         ),
         (
             "<<eq spin>>",
-            "the equation of `spin` is hidden, so it has no number",
+            "the equation of `spin` is not shown, so it has no number",
             "change `spin: hidden` under `show`, or write `<<spin>>`",
         ),
         ("<<problem blok>>", "`blok` is not a problem of this set", "did you mean `block`?"),

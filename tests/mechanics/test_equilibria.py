@@ -261,7 +261,7 @@ def wrong(case: str) -> Any:
     ("case", "said"),
     [
         ("never", "has no equilibrium"),
-        ("no closed form", "have no closed form"),
+        ("no closed form", "not found in closed form"),
         ("no energy", "needs an energy"),
         ("stranger", "does not depend on x"),
         ("time", "contains the time explicitly"),

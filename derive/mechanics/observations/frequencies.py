@@ -61,7 +61,10 @@ def pendulum(view: View) -> Observed:
 
 
 def _seen(of: Quantity) -> str:
-    """Return the word for an answer that belongs to an oscillation or a rotation; "" for any other answer."""
+    """Return the word for a period, the frequency of an oscillation or the rate of a rotation.
+
+    The word is "" for any other answer, such as a growth rate, zero, or a rate with a minus sign.
+    """
     if of.step.rule == PERIOD:
         return "period"
     mode = of.fact(Mode)
@@ -336,8 +339,8 @@ def exact(view: View) -> Observed:
 def _one_coordinate(view: View) -> tuple[Quantity, OneCoordinate] | None:
     """Return the step of the Lagrangian and the parts of this Lagrangian.
 
-    The Lagrangian must have the form mu(q) q_dot^2/2 - U(q), and its only coordinate must oscillate about an
-    equilibrium. If the page has no such Lagrangian, the result is None.
+    The Lagrangian must have one coordinate and the form mu(q) q_dot^2/2 - U(q). The page must have the linear equation
+    of this coordinate about an equilibrium. Otherwise the result is None.
     """
     linear = next((fact for q in view.shown if (fact := q.fact(Linear)) is not None), None)
     lagrangian = next((q for q in view.shown if q.fact(Energies) is not None), None)

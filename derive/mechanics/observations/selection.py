@@ -42,7 +42,7 @@ class Observation:
 
     name    the name by which an author chooses this kind
     found   a function that yields the steps of this kind about the answers of a part
-    at_end  whether the page states an observation of this kind in the last part that has one, not in the first
+    at_end  whether the default choice takes the observation of the last part that has one, not of the first
     """
 
     name: str

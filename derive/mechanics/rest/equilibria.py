@@ -179,7 +179,8 @@ def equilibria(of: Quantity, *coordinates: Coordinate) -> tuple[Quantity, ...]:
     missing = [q.name for q in sought if not explicit(potential.value).has(q)]
     if missing or not sought:
         message = (
-            f"`{of.key}` does not depend on {' and '.join(missing) or 'any coordinate'}: every value is an equilibrium"
+            f"`{of.key}` does not depend on {' and '.join(missing) or 'any coordinate'}, "
+            "so any value is possible at equilibrium"
         )
         raise Rejected(Complaint("wrong-argument", message))
     forces = {q: _factored(tidied(derivative(explicit(potential.value), q))) for q in sought}
@@ -220,7 +221,7 @@ def _states(of: Quantity, forces: Mapping[Symbol, Expr]) -> list[State]:
         help_line = "specify the side: give a coordinate a range, such as `x: positive length`"
         raise Rejected(Complaint("no-closed-form", message, help=help_line)) from None
     except Unsolved as fault:
-        message = f"the equilibria of `{of.key}` have no closed form: the zeros of {fault.factor} are unknown"
+        message = f"the equilibria of `{of.key}` were not found in closed form, because of {fault.factor}"
         known = "if an answer needs an equilibrium, give a known one, "
         help_line = Spelled(f"{known}`at={{theta: 0}}`", f"{known}`at: {{theta: 0}}`")
         raise Rejected(Complaint("no-closed-form", message, help=help_line)) from None
@@ -503,7 +504,7 @@ def _rest(
 
 
 def place_given(at: Quantity | Mapping[Any, Expr]) -> dict[Symbol, Expr]:
-    """Return the equilibrium value of each coordinate, from a result of `equilibria` or from a mapping of a script."""
+    """Return the equilibrium value of each coordinate, from a result of `equilibria` or from given values."""
     if isinstance(at, Quantity):
         return dict(at.needed(Rest).values)
     return {q.symbol if isinstance(q, Coordinate) else q: as_expr(value) for q, value in at.items()}

@@ -466,8 +466,8 @@ def _check_nothing_else_holds_it(place: Place, outcome: str) -> None:
     """
     matter = all_matter(place.potential)
     if matter is not None and not has_positive_inertia(matter, place.values):
-        message = f"`stability`: a minimum of `{place.potential.key}` is stable only if the kinetic energy is"
-        message += " positive for every motion, which is unknown here"
+        message = "`stability`: the kinetic energy is not positive for every motion, "
+        message += f"so a minimum of `{place.potential.key}` need not be stable"
         raise Rejected(Complaint("not-decided", message, help=BY_FIRST_ORDER))
     if outcome.startswith("stable") or matter is None:
         return

@@ -74,7 +74,7 @@ class RigidBody(Placeable, OfParticles):
 
     mass      the mass, kg, which a `System` needs; Euler's equations do not contain it
     moments   the three principal moments of inertia, kg m^2, about the body axes x, y and z. Plane motion needs only
-              the moment about the axis perpendicular to the plane: a symbol, or the step that derived this moment
+              the moment about the axis perpendicular to the plane: its value, or the step that derived it
     centre    the position of the centre of mass relative to the "pivot", the origin of the body axes, m
     about     the point of the moments: "centre_of_mass", or "fixed_point" for the pivot; the default is the
               centre of mass if `centre` is zero, otherwise the pivot

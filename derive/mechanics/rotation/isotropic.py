@@ -39,7 +39,7 @@ def isotropic_where(moments: Quantity, letter: Expr, key: str = "special_case") 
     derived, the sign of this difference is checked instead.
     Outcomes: special (for one value of the symbol), always (the moments are equal for all values of the symbols), never
     (one moment is greater for all values of the symbols).
-    Errors: all three moments are distinct; the equation does not have exactly one positive root for the symbol.
+    Errors: all three moments are distinct; no single positive root for the symbol is found.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 5.4.
     """
     one, other = _two_to_compare(moments)
@@ -104,20 +104,20 @@ def _two_to_compare(moments: Quantity) -> tuple[int, int]:
 
 
 def _solved(letter: Expr, difference: Expr, moments: Quantity) -> tuple[Symbol, Expr, int]:
-    """Return the first symbol in `letter` for which the equation difference = 0 has exactly one positive root, this
-    root, and 2 or 1 as in `_root`."""
+    """Return the first symbol in `letter` for which `_root` finds a root of the equation difference = 0, this root, and
+    2 or 1 as in `_root`."""
     for symbol in sorted(letter.free_symbols & difference.free_symbols, key=str):
         root = _root(difference, symbol)
         if root is not None:
             return symbol, *root
-    message = f"the equation of the moments of `{moments.key}` does not have exactly one positive root for {letter}"
+    message = f"no single positive root for {letter} was found in the equation of the moments of `{moments.key}`"
     raise Rejected(Complaint("no-condition", message, help="solve for another symbol in the moments"))
 
 
 def _root(difference: Expr, letter: Symbol) -> tuple[Expr, int] | None:
     """Return the only positive root, and 2 if the equation contains only even powers of the symbol, otherwise 1.
 
-    Return None if the equation does not have exactly one positive root.
+    Return None if no such root is found.
     """
     core = difference.as_numer_denom()[0]
     parts = [part for part in Mul.make_args(factor(core)) if part.has(letter) and not part.is_positive]

@@ -64,7 +64,7 @@ def _rate_of(equations: Sequence[Quantity]) -> RateOfMomentum:
     found = [parent.fact(RateOfMomentum) for equation in equations for parent in equation.parents]
     rates = [fact for fact in found if fact is not None]
     if len(equations) != 3 or not rates:
-        raise Rejected(Complaint("wrong-argument", "a perturbed rotation needs all three Euler equations"))
+        raise Rejected(Complaint("wrong-argument", "this step needs all three Euler equations"))
     return rates[0]
 
 

@@ -379,7 +379,7 @@ def _needed(system: Gyroscopic) -> list[Expr]:
     free = [part for part in system.factors if part.is_free or part.degree > 2 or part.times > 1]
     if free or any(_may_drift(part, system) for part in system.factors):
         message = (
-            "`linear_stability`: the determinant has a zero or repeated root, "
+            "`linear_stability`: the determinant may have a zero or repeated root, "
             "so the linear equations do not determine the stability"
         )
         if any(not part.is_free and part.degree > 2 for part in free):

@@ -209,7 +209,8 @@ def linear_equation(equation: Quantity, q: Coordinate) -> LinearCoefficients:
     constant = not any(k.has(*state) or depends_on_time(k) for k in (a, b, c))
     whole = is_zero(left - a * state[0] - b * state[1] - c * state[2] - rest)
     if not constant or not whole or (a == 0 and b == 0):
-        message = f"`{equation.key}` is not a linear equation in {q.symbol.name} alone with constant coefficients"
+        message = f"`{equation.key}` is not a linear differential equation in {q.symbol.name} alone"
+        message += " with constant coefficients"
         raise Rejected(Complaint("not-linear", message))
     sign = -1 if (a if a != 0 else b).could_extract_minus_sign() else 1
     return LinearCoefficients(sign * a, sign * b, sign * c, -sign * rest)

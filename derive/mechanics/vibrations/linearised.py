@@ -296,8 +296,8 @@ def _check_whole(equations: Sequence[Quantity], moving: Sequence[Coordinate]) ->
 
 
 def _place_of(equations: Sequence[Quantity], moving: Sequence[Coordinate], at: Any) -> dict[Symbol, Expr]:
-    """Return the equilibrium value of each coordinate; by default 0 for a coordinate that occurs only through its
-    rates."""
+    """Return the equilibrium value of each coordinate. The value is 0 if `at` is None, or if `at` has no value for a
+    coordinate that occurs only through its rates."""
     known = dict.fromkeys((q.symbol for q in moving), ZERO) if at is None else place_given(at)
     strange = [s for s in known if s not in {q.symbol for q in moving}]
     if strange:
