@@ -218,7 +218,7 @@ def undecided(value: Any) -> Doubt:
         if is_constant and each.count_ops() <= SHORT and sign_known(each) is None:
             relation = " < ".join(sorted(map(str, sides_without_minus(each)), key=lambda side: (len(side), side)))
             return Doubt(f"it is not known whether {relation}", f"{DECIDES} {relation}")
-    return Doubt("numerically the result does not always agree with the sentence")
+    return Doubt("the result is not known to agree with the sentence")
 
 
 # --- numbers ---
