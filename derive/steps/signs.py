@@ -8,7 +8,7 @@ Several means are tried:
     squares, roots     even powers that do not vanish, sums that are positive by the AM-GM inequality, and roots
     numbers            the numbers that the problem gives for the symbols, only in `sign_known`
 
-A derivation stays symbolic, so numbers are used only to choose between cases, such as whether a top spins fast enough.
+A derivation stays symbolic: the numbers only decide a sign, for example whether a top spins fast enough.
 """
 
 from __future__ import annotations
