@@ -141,7 +141,7 @@ def test_a_letter_has_one_value_in_a_run() -> None:
 
 def test_a_result_that_breaks_off_is_refused_under_the_letter_of_the_whole(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("derive.mechanics.answers.limits.letter_of_limit", lambda whole, *_: whole)
-    with pytest.raises(Unverified, match="needs a letter other than"):
+    with pytest.raises(Unverified, match="an exact result with a letter other than"):
         limiting_case(given(sqrt((M + m) * g / (m * l)), "w", symbol="w"), M)
 
 

@@ -45,7 +45,7 @@ def templates_of(root: Path) -> Templates:
     folders = [each / "templates" for each in (root, Path(FOLDER), Path(FOLDER).parent)]
     complete = next((folder for folder in folders if (folder / COMPLETE).is_dir()), None)
     if complete is None:
-        raise Rejected(Complaint("no-templates", "no `templates/` with phrases was found"))
+        raise Rejected(Complaint("no-templates", "the templates of derive were not found"))
     own = folders[0]
     return Templates((own, complete) if own != complete and own.is_dir() else (complete,))
 

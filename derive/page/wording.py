@@ -365,7 +365,7 @@ def filled(template: str, names: Mapping[str, Any]) -> tuple[Inline, ...]:
     try:
         text = _compiled(template).render({name: nodes.token(value) for name, value in names.items()})
     except UndefinedError as error:
-        message = f"a phrase uses a name that this step does not have: {error.message}"
+        message = f"a phrase uses an unknown name: {error.message}"
         raise Rejected(Complaint("undefined-name", message, _place_of(template))) from error
     except DeriveError:
         raise

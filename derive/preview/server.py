@@ -144,7 +144,7 @@ class Handler(BaseHTTPRequestHandler):
         if page and page[1] == "index":
             name = self.first
         if name not in self.pages.names:
-            self._plain(HTTPStatus.NOT_FOUND, "no problem of this set has this name")
+            self._plain(HTTPStatus.NOT_FOUND, "this preview has no such page")
         elif events:
             self._events(name)
         else:

@@ -21,8 +21,8 @@ def highest_rates(equations: Sequence[Quantity], moving: Sequence[Symbol]) -> di
     matrix = Matrix([[diff(residual, a) for a in unknown] for residual in residuals])
     rest = Matrix([bound(residual, dict.fromkeys(unknown, Integer(0))) for residual in residuals])
     if not unknown or matrix.rows != matrix.cols or matrix.has(*unknown) or tidied(matrix.det()) == 0:
-        count = "1 equation of motion does" if len(equations) == 1 else f"{len(equations)} equations of motion do"
-        message = f"{count} not determine {', '.join(a.name for a in unknown) or 'any rate'}"
+        count = "1 equation" if len(equations) == 1 else f"{len(equations)} equations"
+        message = f"derive cannot solve {count} of motion for {', '.join(a.name for a in unknown) or 'any rate'}"
         raise Rejected(Complaint("wrong-argument", message, help="give one equation for each coordinate that moves"))
     return dict(zip(unknown, (tidied(value) for value in matrix.LUsolve(-rest)), strict=True))
 

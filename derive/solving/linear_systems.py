@@ -621,9 +621,8 @@ class Damped(LinearSystem):
         found = [Factor.of(*each) for each in self._factored(determinant_of(self.at(S)), S, 2 * size)]
         worst = max(each.degree for each in found)
         if worst > 2:
-            exponents = f"{worst} exponents are the roots of a polynomial that does not factor"
-            help_line = "the modes separate if masses, springs and drags are equal, or if drag is proportional to mass"
-            message = f"with this drag the modes do not separate: {exponents}"
+            help_line = "with two equal masses, equal springs and equal drags the polynomial may factor"
+            message = f"with this drag {worst} exponents are the roots of a polynomial that does not factor"
             raise Rejected(Complaint("no-closed-form", message, help=help_line))
         return tuple(sorted(found, key=lambda each: (not each.is_free, each.degree, len(str(each.at(S))))))
 

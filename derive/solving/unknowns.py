@@ -136,7 +136,8 @@ def residual_of(verb: str, equation: Quantity, or_value: bool = False) -> Expr:
     if or_value and is_number(equation):
         return explicit(value)
     if not isinstance(value, Relation) or value.operator != "=":
-        message = f"`{verb}` needs an equation, but `{equation.key}` is not one"
+        wanted, kind = ("an equation or a scalar", "neither") if or_value else ("an equation", "not one")
+        message = f"`{verb}` needs {wanted}, but `{equation.key}` is {kind}"
         raise Rejected(
             Complaint(
                 "wrong-argument",

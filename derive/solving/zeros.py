@@ -59,7 +59,8 @@ class Unsolved(Exception):
 class Zero:
     """A value of the coordinate at which the force vanishes.
 
-    exists   the condition under which this value is real and in the range of the coordinate; None if this is always so
+    exists   the condition under which this value is real and, for a positive coordinate, positive; None if there is no
+             such condition
     """
 
     value: Expr
@@ -67,8 +68,8 @@ class Zero:
 
 
 def zeros_of(force: Expr, q: Symbol) -> list[Zero]:
-    """All real zeros. For an angle, only zeros within one turn are returned; for a positive coordinate, only positive
-    zeros. Raises `Unsolved` if a factor cannot be solved."""
+    """All real zeros. For a sine or cosine of the coordinate, only zeros within one turn are returned. Zeros of any
+    other function are positive if the coordinate is positive. Raises `Unsolved` if a factor cannot be solved."""
     found: dict[Expr, Zero] = {}
     for factor in factors_of(force, q):
         for zero in _of_factor(factor, q):

@@ -161,7 +161,8 @@ def approximation_evidence(
     """
     last = chain[-1]
     if last.because in ONLY_ABOUT and not isinstance(last.expr, Truncated) and (whole is None or whole == symbol):
-        raise Unverified(Complaint("unverified", f"`{key}`: an approximation needs a letter other than {symbol}"))
+        message = f"`{key}`: an approximation needs an exact result with a letter other than {symbol}"
+        raise Unverified(Complaint("unverified", message))
     if whole is not None:
         return whole, False, []
     found = [quantity for quantity in rests if not quantity.exact]

@@ -1,5 +1,5 @@
-"""The numbers that a problem gives for its symbols. A derivation stays symbolic: these numbers only decide between
-cases and test statements."""
+"""The numbers that a problem gives for its symbols. A derivation stays symbolic: the numbers decide between cases, test
+statements and set the proportions of drawings."""
 
 from __future__ import annotations
 

@@ -47,7 +47,8 @@ class Display:
     result_in         names of rules; if such a rule made an input, the lines of this input may already contain the
                       result, and the sentence may then point to these lines
     conditions        roles of those conditions in the sentence that are part of the answer
-    quoted            whether only the result is shown, unless a part asks for the step or the level is `full`
+    quoted            whether only the result is shown, unless a part asks for the step, the level is `full`, or `show:`
+                      states `full` for the step
     verdict           whether the answer is the sentence, and the formula only its reason
     """
 

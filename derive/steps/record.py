@@ -429,10 +429,11 @@ def called_if_changing(moving: Symbol) -> str:
 
 
 def require_no_coordinate(verb: str, role: str, given: Any, help: str | None = None) -> None:
-    """Reject an input that depends on a coordinate, for a law that needs a function of the time alone."""
+    """Reject an input that contains a coordinate or its rate, for a law that needs a function of the time alone."""
     moving = next(iter(coordinates_in(explicit(given))), None)
     if moving is not None:
-        message = f"`{verb}` needs a {role} that is constant or a function of the time, but {given} depends on {moving}"
+        wanted = f"`{verb}` needs a {role} that is constant or a function of the time"
+        message = f"{wanted}, but {given} contains {moving} or a rate of {moving}"
         raise Rejected(Complaint("changes", message, help=help))
 
 

@@ -8,7 +8,7 @@ Several means are tried:
     squares, roots     even powers that do not vanish, sums that are positive by the AM-GM inequality, and roots
     numbers            the numbers that the problem gives for the symbols, only in `sign_known`
 
-A derivation stays symbolic, so numbers are used only to choose between cases, such as whether a top spins fast enough.
+A derivation stays symbolic: the numbers only decide a sign, for example whether a top spins fast enough.
 """
 
 from __future__ import annotations
@@ -218,7 +218,7 @@ def undecided(value: Any) -> Doubt:
         if is_constant and each.count_ops() <= SHORT and sign_known(each) is None:
             relation = " < ".join(sorted(map(str, sides_without_minus(each)), key=lambda side: (len(side), side)))
             return Doubt(f"it is not known whether {relation}", f"{DECIDES} {relation}")
-    return Doubt("numerically the result does not always agree with the sentence")
+    return Doubt("the result is not known to agree with the sentence")
 
 
 # --- numbers ---

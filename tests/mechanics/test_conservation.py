@@ -130,14 +130,14 @@ def test_only_the_last_line_rests_on_the_equations() -> None:
 @pytest.mark.parametrize(
     ("equations", "message"),
     [
-        ([], "0 equations of motion do not determine any rate"),
-        ([equation(k * x.symbol, x)], "1 equation of motion does not determine any rate"),
+        ([], "derive cannot solve 0 equations of motion for any rate"),
+        ([equation(k * x.symbol, x)], "derive cannot solve 1 equation of motion for any rate"),
         (
             [equation(M * x.acceleration + M * l * theta.acceleration, both)],
-            "1 equation of motion does not determine x_ddot, theta_ddot",
+            "derive cannot solve 1 equation of motion for x_ddot, theta_ddot",
         ),
-        ([equation(M * x.acceleration, x)] * 2, "2 equations of motion do not determine x_ddot"),
-        ([equation(x.acceleration**2 - k, x)], "1 equation of motion does not determine x_ddot"),
+        ([equation(M * x.acceleration, x)] * 2, "derive cannot solve 2 equations of motion for x_ddot"),
+        ([equation(x.acceleration**2 - k, x)], "derive cannot solve 1 equation of motion for x_ddot"),
     ],
 )
 def test_equations_must_determine_the_motion(equations: list[Quantity], message: str) -> None:

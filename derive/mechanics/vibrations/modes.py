@@ -82,7 +82,7 @@ def normal_modes(linear: Sequence[Quantity], symbol: str | None = None, key: str
     (growing), any_of_several (repeated).
     With drag: the characteristic equation has the outcome several (several coordinates) or one (one coordinate).
     Errors: an equation is missing; a driving force acts; the roots have no closed form and cannot be numbered; with
-    drag the modes do not separate; there are too many coordinates or too many symbols.
+    drag the determinant has a factor of a degree above two; there are too many coordinates or too many symbols.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, sections 6.2 and 6.3.
     """
     together = together_for("normal_modes", linear)

@@ -79,7 +79,7 @@ class Numbers:
             value = explicit(expr)
             number = self._put_in(value).evalf()
             if not number.is_real or not isfinite(float(number)):
-                message = f"a drawing needs the value of {value}, which is not a real number"
+                message = f"with the numbers of the drawing, {value} is not a real number"
                 raise Rejected(Complaint("drawing", message))
             self._found[expr] = float(number)
         return self._found[expr]

@@ -83,7 +83,7 @@ class Typed:
 
 
 def typed_formula(step: Step, letters: set[Symbol], known: set[Symbol]) -> Typed | None:
-    """Return an answer as students type it; None if plain text cannot express it.
+    """Return an answer as students type it; None if plain text cannot express it, or if its form is not unique.
 
     letters  the letters of the problem
     known    the letters that a solved equation may contain: with an unknown force in it, its form is not unique

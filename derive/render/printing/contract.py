@@ -142,8 +142,8 @@ def _symbol(step: Step, notation: Notation) -> str:
 
 
 def number_told(value: Any) -> dict[str, Any] | None:
-    """Return a number as data; for a relation, return the number on its right side. Return None if there is no
-    number."""
+    """Return a number as data; for a relation, return the number on its right side. Return None for a comparison of two
+    numbers, and if symbols remain."""
     shown, unit = value.right if isinstance(value, ex.Relation) else value, ""
     if isinstance(value, ex.Relation) and not isinstance(value.left, Symbol):
         return None  # a comparison of two numbers
