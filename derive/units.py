@@ -140,7 +140,7 @@ def misfit(unit: Unit, kind: str | None, dimension: Dimension) -> Misfit | None:
         )
     if kind is None and (unit.angles or "Hz" in unit.names):
         why = f"has no kind, so `{unit.text}` is not allowed as its unit"
-        return Misfit("wrong-unit", why, "leave the unit out, or give the result a `kind=` in its script")
+        return Misfit("wrong-unit", why, "leave the unit out; in a script, you can give the result a `kind=` instead")
     if unit.angles not in about_kind(kind).angles:
         return Misfit("wrong-unit", f"is {is_a}, which is not measured in `{unit.text}`")
     return None

@@ -324,8 +324,9 @@ class BodyAnswers(Answers[Asked]):
             return radius_of_gyration(moment, key=key, **letter)
         if own == "moment_about":
             return self.about_direction(inertia_tensor(self.body, self.about, **tensor), key=key, **letter)
-        known = "a tensor, a moment of inertia, a radius of gyration, or a centre of mass"
-        rejected("wrong-argument", f"`answer` must be {known}, not `{name}`", name.place)
+        known = ("inertia_tensor", "centre_of_mass", "moment_about", "moment_of_inertia_z", "radius_of_gyration_z")
+        help_line = f"write an answer such as {', '.join(f'`{each}`' for each in known)}"
+        rejected("wrong-argument", f"`answer` cannot derive `{name}` for another point or axis", name.place, help_line)
 
 
 class BodiesAnswers(StockAnswers[DescribedBodies]):

@@ -403,8 +403,8 @@ class RotationAnswers(StockAnswers[DescribedRotation]):
     @answer
     def precession_rate(self) -> Quantity:
         if not self.described.start:
-            message = "free precession needs a body on which no torque acts"
-            rejected("missing-key", message, self.described.place, "give its angular velocity at one instant, `start`")
+            message = "free precession needs the angular velocity at one instant, with no torque on the body"
+            rejected("missing-key", message, self.described.place, "write `start: [omega_x, 0, omega_z]`")
         return precession_rate(self.inertia_tensor, self.angular_momentum)
 
 

@@ -331,7 +331,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
     @answer
     def conserved(self) -> tuple[Quantity, ...]:
         help_line = "`noether` under `results` finds what another symmetry conserves, such as a sum of momenta"
-        return _some(self.cyclic.values(), "no coordinate of this system is cyclic", help_line)
+        return _some(self.cyclic.values(), "no cyclic coordinate of this system has a constant momentum", help_line)
 
     @answer
     def energy_function(self) -> Quantity:
@@ -419,7 +419,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
 
     @answer
     def no_slip(self) -> tuple[Quantity, ...]:
-        kept = "constraint forces enforce rolling here, so `no_slip` eliminates no coordinate"
+        kept = "here constraint forces prevent slipping, so `no_slip` eliminates no coordinate"
         solved = [each for each in chain(*map(parts_of, self.acting)) if isinstance(each, Quantity)]
         is_kept = any(each.enforcer == "friction" for each in self.system.constraints)
         return _some(solved, kept if is_kept else "nothing rolls in this system")

@@ -39,7 +39,9 @@ from derive.witness.geometry import (
 )
 from derive.witness.tape import Compiled, Tape
 
-NEAR = 1e-4  # greatest step for second derivatives of a given Lagrangian, which may be singular at a nearby speed
+NEAR = (
+    1e-4  # greatest spacing of points for second derivatives of a Lagrangian, which may be singular at a nearby speed
+)
 LEAST = 1e-12  # an equation whose coefficients are all smaller than this counts as zero
 RANK = 1e-9  # singular values below this number, for entries of order one, count as zero
 Found = TypeVar("Found")

@@ -51,7 +51,7 @@ JUDGES: Mapping[str, Judge] = {
 }
 
 
-@lru_cache(maxsize=8)  # all steps of a problem need the same system
+@lru_cache(maxsize=8)  # most steps of a problem need the same system
 def blueprint(description: Description) -> Blueprint:
     return Blueprint(description)
 

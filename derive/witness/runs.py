@@ -302,7 +302,8 @@ def landing(claim: Claim) -> Verdict | None:
             continue
         found = np.inf if run.end is None else run.end.t - start.t
         if not abs(found - stated) <= FLOWN * 10 * (1 + stated):
-            return claim.refuted(f"the described flight ends after {found:.4g} instead of {stated:.4g}", trial, start)
+            ends = "much later or never" if run.end is None else f"after {found:.4g}"
+            return claim.refuted(f"the described flight ends {ends} instead of after {stated:.4g}", trial, start)
         count += 1
     return seen(count, "flights")
 

@@ -201,7 +201,7 @@ def _goes_as_stated(claim: Claim, near: Neighbourhood, is_stable: bool) -> Verdi
     except (Singular, Contradiction, np.linalg.LinAlgError):
         if near.momenta:  # a cyclic coordinate may be singular here, like an angle at r = 0, so there is no test
             return 0
-        return claim.refuted("the accelerations near this equilibrium are not determined", near.trial, near.state)
+        return claim.refuted("the small motion about this equilibrium is not determined", near.trial, near.state)
     size = max(float(np.max(np.abs(growth), initial=0.0)), 1e-3)
     leaves = bool(np.max(growth.real) > SURE * size)
     at_zero = bool(np.min(np.abs(growth), initial=size) < np.sqrt(SURE) * size)

@@ -89,7 +89,7 @@ def test_a_number_that_is_only_named_is_in_no_unit_that_only_a_kind_has(unit: st
     complaint = refused(tmp_path, f"{{swinging: {{unit: {unit}}}}}")
     assert complaint.code == "wrong-unit"
     assert complaint.message == f"`swinging` has no kind, so `{unit}` is not allowed as its unit"
-    assert complaint.help == "leave the unit out, or give the result a `kind=` in its script"
+    assert complaint.help == "leave the unit out; in a script, you can give the result a `kind=` instead"
 
 
 def test_a_unit_of_another_dimension_is_told_where_it_is_written(tmp_path: Path) -> None:

@@ -112,6 +112,15 @@ def test_the_axis_of_a_root_with_its_own_symbol_has_a_unit(tmp_path: Path) -> No
         ([("    against: theta\n", "")], "needs `against`"),
         ([("    range: [-200 deg, 200 deg]\n", "")], "needs `against` with a letter, and `range`"),
         ([("    against: theta\n", "    against: phi\n")], "does not depend on `phi`"),
+        (
+            [
+                ("plot: effective_potential", "plot: hamiltonian"),
+                ("against: theta", "against: p_theta"),
+                ("[-200 deg, 200 deg]", "[1 J s, 2 J s]"),
+                ("answer: energy_function", "answer: hamiltonian"),
+            ],
+            "`p_theta` is not a coordinate, a rate, `t` or a symbol under `symbols`",
+        ),
         ([("    plot: effective_potential\n", "")], "`against` has no effect without `plot` or `curves`"),
         ([("    plot: effective_potential\n", "    plot: stability\n")], "is several results"),
         ([("    plot: effective_potential\n", "    plot: effective\n")], "`effective`"),

@@ -120,7 +120,7 @@ def test_the_cones_of_a_free_symmetric_body(tmp_path: Path) -> None:
 def test_free_precession_is_that_of_a_free_body(tmp_path: Path) -> None:
     edits = (BLOCK_IS, "moments: [A, A, C]"), asked("precession_rate")
     assert messages(tmp_path, edited(BLOCK, *edits, ("  along: diagonal", "  along: [1, 0, 1]"))) == [
-        "5: free precession needs a body on which no torque acts"
+        "5: free precession needs the angular velocity at one instant, with no torque on the body"
     ]
     text = edited(COIN, ("  results:\n", "  torque: [0, 0, A*omega**2]\n  results:\n"))
     assert messages(tmp_path, text) == ["6: `torque` and `start` cannot be combined"]

@@ -168,7 +168,10 @@ def routhian(of: Quantity, *constants: Quantity, symbol: str | None = None, key:
             Complaint(
                 "wrong-argument",
                 "`routhian` needs a conserved momentum",
-                help=Spelled("`conserved(L, phi)` gives the momentum of phi", "no coordinate of this system is cyclic"),
+                help=Spelled(
+                    "`conserved(L, phi)` gives the momentum of phi",
+                    "no cyclic coordinate of this system has a constant momentum",
+                ),
             )
         )
     left = _put_aside(of, constants, "routhian")

@@ -12,7 +12,7 @@ MEANINGS: Mapping[str, str] = {
     "lagrangian": "the Lagrangian",
     "equations_of_motion": "the equation of motion of each coordinate",
     "momenta": "the momentum of each coordinate",
-    "conserved": "the momenta of all cyclic coordinates",
+    "conserved": "the constant momenta of cyclic coordinates",
     "energy_function": "the energy function h",
     "energy_function_rate": "the rate of change of the energy function",
     "hamiltonian": "the Hamiltonian",

@@ -71,8 +71,8 @@ def check_effect(method: Word | None, answers: Mapping[str, object]) -> None:
     if not any(each.step.rule in RULES[method] for each in steps.values()):
         if method == BOTH:
             message = "`method: both` shows Lagrange's equations only among the `equations_of_motion`"
-            help_line = "let a part ask for `equations_of_motion`, or write `method: newton`"
-            rejected("method", f"{message}, and no part asks for these", method.place, help_line)
+            help_line = "ask for `equations_of_motion` in a part with this method, or write `method: newton`"
+            rejected("method", f"{message}, and no part with this method asks for these", method.place, help_line)
         message = f"no answer here is derived by `method: {method}`, so it has no effect"
         rejected("method", message, method.place, "leave it out")
 

@@ -313,6 +313,9 @@ class Plotted:
         known = {symbol.name: symbol for symbol in letters}
         moving, declared = self.coordinates.get(str(against)), self.drawing.letters.get(str(against))
         kind = moving.kind if moving else "time" if against == TIME.name else declared.kind if declared else None
+        if kind is None and str(against) in known:
+            message = f"`{against}` is not a coordinate, a rate, `t` or a symbol under `symbols`"
+            rejected("wrong-argument", f"{message}, so it cannot vary in a plot", against.place)
         if kind is None or str(against) not in known:
             rejected("wrong-argument", message, against.place, did_you_mean(against, known))
         return known[str(against)], kind

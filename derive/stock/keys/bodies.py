@@ -245,7 +245,7 @@ class Bodies:
         names = list(written.points)
         for name in names:
             if name in ("centre", "origin"):
-                rejected("duplicate-key", f"every body already has a point `{name}`", name.place)
+                rejected("duplicate-key", f"a body with `points` already has a point `{name}`", name.place)
         found = each([partial(self.place, written.points[name], f"the point {name}") for name in names])
         return {str(name): place for name, place in zip(names, found, strict=True)}
 
@@ -337,11 +337,11 @@ class Bodies:
             message = f"a body specified by `position` has no `{size}`"
             rejected("unknown-key", message, written.places[size], "`limits` determine its size")
         if len(written.limits) not in MAPS:
-            message = f"a body needs one, two or three symbols with limits, not {len(written.limits)}"
+            message = f"`position` needs one, two or three symbols with limits, not {len(written.limits)}"
             place = written.places.get("limits", written.places["position"])
             rejected("wrong-length", message, place, "write `limits: {r: [0, R], phi: [0, 2*pi]}`")
         if written.mass is None and written.density is None:
-            rejected("missing-key", "a body needs `mass` or `density`", written.places[""])
+            rejected("missing-key", "a body specified by `position` needs `mass` or `density`", written.places[""])
         known, limits = self._limits(written.limits)
         shape = MAPS[len(limits)]
         _, kind = DENSITIES[shape.filling]

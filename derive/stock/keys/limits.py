@@ -65,7 +65,7 @@ def _is_of_another_case(
 
 
 def _letters(problem: Problem, known: Mapping[str, Quantity]) -> dict[str, Declared]:
-    """Return every symbol of the problem and of its steps, with the dimension of its value."""
+    """Return the symbols of the problem, and those symbols of its steps whose dimension is known."""
     table, _ = dimension_table(problem.dimensions, [quantity.step for quantity in known.values()])
     of_steps = {
         letter.name: OfKnownDimension(letter.name, letter, "", has=dimension)

@@ -120,7 +120,7 @@ class ForceKeys(Record):
                 "by": named_bodies("by", [self.by], bodies, GROUND),
             }
             return Deferred(force, (components, places.acted_on(self.at)), bodies=named, place=self.places[""])
-        if beside := self.of or self.by:
+        if (beside := self.of or self.by) and (self.torque or self.on) and not (self.components or self.at):
             message = "`of` and `by` belong to a force at a place, but this is a torque"
             rejected("unused-key", message, beside.place, "leave them out")
         if self.torque and self.on and not (self.components or self.at):

@@ -172,7 +172,7 @@ class MovingBodyKeys(BodyKeys, QuotedKeys):
         ends = places.ends(self.start, self.to)
         start, end = (each if isinstance(each, Location) else None for each in ends)
         if start is None or end is None:
-            message = "the direction between points of other bodies is unknown here"
+            message = "the direction from or to a point of another body is unknown here"
             rejected("wrong-argument", message, self.places["to"], "give the direction as `along`")
         length = letters.constant(self.length, "length", "length") if self.length is not None else None
         if length is not None and not is_zero(tidied(dot(end - start, end - start)) - length**2):

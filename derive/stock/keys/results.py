@@ -158,14 +158,16 @@ def _values(verb: ResultVerb, key: ResultKey, written: Mapping[Word, Tree], lett
 
 def _order(verb: ResultVerb, key: ResultKey, word: Word, letters: InLetters) -> int:
     if not word.isdigit() or len(word) > 2:
-        rejected("wrong-type", f"`{key.name}` must be a whole number, but it is `{word}`", word.place)
+        rejected("wrong-type", f"`{key.name}` must be a whole number from 0 to 99, but it is `{word}`", word.place)
     return int(word)
 
 
 def _symbol(verb: ResultVerb, key: ResultKey, node: Tree, letters: InLetters) -> Word:
     found = names(node)
     if len(found) > 1:
-        rejected("wrong-argument", f"`{verb.name}` finds one quantity, so only one symbol is allowed", found[1].place)
+        rejected(
+            "wrong-argument", f"`{verb.name}` finds one quantity, so its `{key.name}` must be one name", found[1].place
+        )
     return found[0]
 
 
@@ -277,7 +279,7 @@ def _meaning(name: str) -> str:
     return "; ".join(f"{hint} ({', '.join(f'`{verb}`' for _, verb in verbs)})" for hint, verbs in together)
 
 
-ALIKE = {  # keys that mean the same for every verb
+ALIKE = {  # the meaning of a key, unless a verb states another meaning
     "symbol": "the symbol of the result, or a list of symbols for several results",
     "results": "answers that are substituted",
     "order": "the highest order",

@@ -183,7 +183,7 @@ def test_a_coordinate_that_rolling_gives_has_no_equation_of_its_own(tmp_path: Pa
     ("asked", "said"),
     [
         ("multipliers", "`multipliers` needs constraints enforced by forces"),
-        ("conserved", "no coordinate of this system is cyclic"),
+        ("conserved", "no cyclic coordinate of this system has a constant momentum"),
         ("no_slip", "nothing rolls in this system"),
         ("lagrangan", "`lagrangan` is not the name of an answer"),
     ],

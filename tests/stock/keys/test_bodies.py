@@ -151,8 +151,8 @@ def test_what_is_cut_out_has_its_share_of_the_mass(tmp_path: Path) -> None:
             "{position: [R, 0], limits: {x: [0, h]}, mass: M}",
             "5: the position of this `Wire` does not vary independently with each of its variables",
         ),
-        ("{position: [x, 0], mass: M}", "5: a body needs one, two or three symbols with limits, not 0"),
-        ("{position: [x, 0], limits: {x: [0, h]}}", "5: a body needs `mass` or `density`"),
+        ("{position: [x, 0], mass: M}", "5: `position` needs one, two or three symbols with limits, not 0"),
+        ("{position: [x, 0], limits: {x: [0, h]}}", "5: a body specified by `position` needs `mass` or `density`"),
         (
             "{position: [R, 0], limits: {R: [0, h]}, mass: M}",
             "5: `R` is declared under `symbols`, but is also a variable of this body",
@@ -185,7 +185,7 @@ def test_what_is_cut_out_has_its_share_of_the_mass(tmp_path: Path) -> None:
         ),
         (
             "{shape: disc, radius: R, mass: M, points: {centre: [0, 0, 0]}}",
-            "5: every body already has a point `centre`",
+            "5: a body with `points` already has a point `centre`",
         ),
     ],
 )

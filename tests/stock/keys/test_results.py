@@ -65,7 +65,7 @@ def test_a_letter_may_be_given_to_what_is_found(tmp_path: Path) -> None:
         ("{where: acceleration_x, is: '>', for: m_1, symbol: a}", "`symbol` has no effect on `where`"),
         (
             "{put_in: acceleration_x, values: {m_2: m_1}, symbol: [a, b]}",
-            "`put_in` finds one quantity, so only one symbol is allowed",
+            "`put_in` finds one quantity, so its `symbol` must be one name",
         ),
         ("{for: m_2}", "`made` needs one of `amplitude`, `answer`"),
         ("{limit: acceleration_x, put_in: acceleration_y}", "`made` needs one of `amplitude`"),
@@ -76,7 +76,10 @@ def test_a_letter_may_be_given_to_what_is_found(tmp_path: Path) -> None:
         ("{put_in: acceleration_x, values: {m_1: m_2, l: x_0}}", "12: `acceleration_x` does not contain `l`"),
         ("{limit: accelerations, for: m_2, to: 0}", "`limit` needs one answer, not 2"),
         ("{speed: lagrangian, for: m_1, start: 0}", "`speed` needs a coordinate as its `for`"),
-        ("{limit: acceleration_x, for: m_2, order: many}", "`order` must be a whole number, but it is `many`"),
+        (
+            "{limit: acceleration_x, for: m_2, order: many}",
+            "`order` must be a whole number from 0 to 99, but it is `many`",
+        ),
         ("{limt: acceleration_x}", "a result has no key `limt`"),
     ],
 )
