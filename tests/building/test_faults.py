@@ -109,9 +109,9 @@ def test_the_makefile_has_the_same_reserved_names() -> None:
     ("output", "code", "said"),
     [
         ("", 2, "`-o` needs the name of a file"),
-        ("problems/hw1/one.yaml", 2, "`problems/hw1/one.yaml` is a file written by hand"),
-        ("problems/hw1/notes.txt", 2, "is a file written by hand"),
-        ("script.py", 2, "is a file written by hand"),
+        ("problems/hw1/one.yaml", 2, "`problems/hw1/one.yaml` is not replaced, because it may be written by hand"),
+        ("problems/hw1/notes.txt", 2, "is not replaced, because it may be written by hand"),
+        ("script.py", 2, "is not replaced, because it may be written by hand"),
         ("link", 2, "`link` is a link"),
         ("problems", 1, "a folder is where a file should be"),
         ("x" * 300, 1, "the name is too long"),

@@ -55,5 +55,5 @@ def test_a_page_that_derive_wrote_may_be_written_again(tmp_path: Path, monkeypat
     Path("page.md").write_text(f"<!-- {WRITTEN} from problems/hw1/one.yaml -->\n\n# One\n")
     check_output("page.md", tmp_path)
     Path("page.md").write_text(f"# One\n\n{WRITTEN} by somebody\n")
-    with pytest.raises(Misused, match="is a file written by hand"):
+    with pytest.raises(Misused, match="is not replaced, because it may be written by hand"):
         check_output("page.md", tmp_path)

@@ -82,7 +82,7 @@ def test_a_choice_replaces_the_value_of_the_file(tmp_path: Path) -> None:
         ("{b: 0,8..1,6 m in steps of 0,1}", "has a comma in it", "0,8..1,6 m in steps of 0,1"),
         ("{b: [0,8 m, 0,9 m]}", "has a comma in it", "0,8 m"),
         ("{b: 10..30 cm}", "must be a range such as", "10..30 cm"),
-        ("{b: [20 cm]}", "it is a list", "[20 cm]"),
+        ("{b: [20 cm]}", "it has one value", "[20 cm]"),
         ("{b: 9e999..9e9999 cm in steps of 1}", "must be a range such as", "9e999"),
         ("[b]", "must be a mapping", "[b]"),
         ("{}", "must be a mapping", "{}"),

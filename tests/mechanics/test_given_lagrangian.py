@@ -149,7 +149,7 @@ def test_rest_modes_and_routhian_of_what_is_given() -> None:
 
 def test_what_needs_bodies_is_refused() -> None:
     x = coordinate("x", "length")
-    with pytest.raises(Rejected, match="needs the rates"):
+    with pytest.raises(Rejected, match="needs the rate of a coordinate"):
         given_lagrangian(k * x.symbol**2)
     with pytest.raises(Rejected, match="but not x_ddot"):
         given_lagrangian(m * x.rate**2 + m * x.symbol * x.acceleration)
