@@ -125,7 +125,8 @@ def faults_of_rubric(document: Document, said: Mapping[str, Mapping[Word, Fracti
         steps = [group.key for group in _groups(part)]
         for key in said.get(part.label, {}):
             if key not in steps:
-                help_line = did_you_mean(key, steps) or f"the part has {', '.join(f'`{step}`' for step in steps)}"
+                names = f"has {', '.join(f'`{step}`' for step in steps)}" if steps else "shows no step"
+                help_line = did_you_mean(key, steps) or f"the part {names}"
                 message = f"part ({part.label}) has no step `{key}` that could have points"
                 faults.append(Complaint("no-such-step", message, key.place, help=help_line))
     return faults
