@@ -68,13 +68,11 @@ class Zero:
 
 
 def zeros_of(force: Expr, q: Symbol) -> list[Zero]:
-    """All real zeros. For a sine or cosine of the coordinate, only zeros within one turn are returned. If the coordinate
-    is positive, a zero that is known not to be positive is omitted. Raises `Unsolved` if a factor cannot be solved."""
+    """All real zeros. For a sine or cosine of the coordinate, only zeros within one turn are returned. Zeros of any
+    other function are positive if the coordinate is positive. Raises `Unsolved` if a factor cannot be solved."""
     found: dict[Expr, Zero] = {}
     for factor in factors_of(force, q):
         for zero in _of_factor(factor, q):
-            if q.is_positive and zero.value.is_nonpositive:
-                continue
             found.setdefault(tidied(zero.value), Zero(without_abs(zero.value), zero.exists))
     return sorted(found.values(), key=_order)
 

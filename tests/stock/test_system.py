@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from sympy import Rational, cos, sin, sqrt, symbols
+from sympy import Rational, cos, pi, sin, sqrt, symbols
 
 from derive.algebra.equality import equal
 from derive.algebra.expressions import Relation, explicit
@@ -277,6 +277,22 @@ def test_a_rod_on_a_peg_rests_where_the_cube_of_the_sine_has_a_value(tmp_path: P
     assert equal(sin(found["rest"].value) ** 3, 2 * a / l)
     assert dict(found["rest"].step.words)["seen"] == "any", "a range of an angle is not a side of a distance"
     assert found["stability"].step.outcome == "unstable"
+
+
+def test_a_positive_angle_has_the_equilibria_of_half_a_turn(tmp_path: Path) -> None:
+    text = """\
+title: A pendulum
+solve: system
+symbols: {m: mass, g: acceleration, l: length}
+given:
+  coordinates: {theta: positive angle}
+  particles: {bob: {mass: m, at: [l*sin(theta), -l*cos(theta)]}}
+  gravity: g
+statement: A pendulum.
+parts:
+  - {ask: Find the equilibria., answer: equilibria}
+"""
+    assert solved(tmp_path, text)["rest"].value == pi
 
 
 def test_critical_damping_has_a_rate_and_no_frequency(tmp_path: Path) -> None:
