@@ -65,8 +65,9 @@ def faults_of_numbers(
 ) -> list[Complaint]:
     """Return errors and warnings about the numbers of the answers.
 
-    It is an error if a form asks for a number that does not exist. Another answer without a number leads to a warning
-    if all its letters have numbers, or if one of them has a number that no other result uses.
+    It is an error if a form asks for a number that does not exist. Any other answer without a number leads to a
+    warning if all its letters have numbers, or if a letter has a number that neither a plot nor an answer with a number
+    uses.
 
     values     the steps that evaluate answers numerically, by key
     drawings   the drawings of the problem

@@ -103,7 +103,7 @@ def _apply(node: Open, facts: Facts) -> tuple[int, str, bool]:
         if isinstance(inner, Letter) and inner.base == "t" and head.base != "t":
             return 0, "a function of time", False
         if isinstance(inner, Num):
-            return 0, "a value of a function: a product has no bracket around a number", False
+            return 0, "a value of a function, because a product rarely has brackets around a number", False
         is_sure = head.base not in ("f", "F", "y", "U", "V", "u", "h")
         return 1, "elsewhere a factor at least as often as a function", is_sure
     letters = {each.identity for each in argument.walk() if isinstance(each, Letter)}

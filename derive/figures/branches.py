@@ -269,7 +269,8 @@ def _confirm(
     searched: tuple[float, float],
     is_angle: bool,
 ) -> None:
-    """Compare the branches with the potential energy, for a few values of the parameter between the changes.
+    """Compare the branches with the stationary points of the potential energy, for a few values of the parameter
+    between those at which the branches change.
 
     Symbols without a given number get trial numbers, because the branches do not depend on these symbols.
     """

@@ -50,7 +50,7 @@ class GroundMark(Surface):
     """A floor, a ceiling or a wall: a line that is hatched on its solid side.
 
     solid   a direction towards the solid side
-    off     the shift of the line to the solid side, in points, for a body with a size in points
+    off     the distance in points by which the line is shifted to its solid side, for a body of fixed size on paper
     """
 
     start: Position

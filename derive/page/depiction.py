@@ -252,7 +252,7 @@ def _cases(problem: Problem, drawing: m.Recorded) -> list[Complaint]:
     for i, case in enumerate(placement.cases):
         for number in (each for each in case if each.symbol == drawing.variable):
             along = "the horizontal axis of" if drawing.across is None else "the path"
-            message = f"`{number.symbol}` varies along {along} `{drawing.key}`, so it has no number"
+            message = f"`{number.symbol}` varies along {along} `{drawing.key}`, so a number for it has no effect"
             found.append(Complaint("unused-key", message, number.place, help="leave it out"))
         numbers = {number.symbol: number.si for number in (*placement.cases[0], *case)}
         if numbers in before and not of_several:

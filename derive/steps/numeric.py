@@ -429,7 +429,7 @@ def coefficient_of(answer: Quantity, figures: int, of_vectors: bool = False) -> 
     """
     value = answer.value
     if answer.step.chain[-1].because == NATURAL:
-        return None  # sqrt(2 - sqrt(2)) omega_0 contains symbols that its value does not contain
+        return None  # its last line, such as sqrt(2 - sqrt(2)) omega_0, contains symbols that `value` does not
     if isinstance(value, Relation) or not value.free_symbols or (isinstance(value, MatrixBase) and not of_vectors):
         return None
     common, rest = factored_matrix(value) if isinstance(value, MatrixBase) else (value, Integer(1))

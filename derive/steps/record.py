@@ -408,8 +408,8 @@ def _check_one_meaning(
 
 
 def _is_open(quantity: Quantity) -> bool:
-    """Whether the components of a vector are only names, so that another vector with the same symbol is a case of
-    it."""
+    """Whether the components of a vector are unspecified symbols. Another vector with the same symbol is then a
+    special case of this vector."""
     symbol, value = quantity.symbol, quantity.value
     return isinstance(symbol, MatrixSymbol) and list(value) == list(component_names(symbol.name))
 

@@ -1,4 +1,4 @@
-"""Facts of a quantity about a state of the system, used by verbs and by the witness."""
+"""Facts about the equilibrium to which a quantity belongs, for verbs and for the witness."""
 
 from __future__ import annotations
 

@@ -320,7 +320,7 @@ def test_a_mistake_in_a_path_is_reported(tmp_path: Path, edits: list[tuple[str, 
         (
             [("against: t", "against: alpha"), ("0 s, 2*top_t", "0 deg, 45 deg")],
             24,
-            "`alpha` varies along the path `path`, so it has no number",
+            "`alpha` varies along the path `path`, so a number for it has no effect",
         ),
         ([("[path_x, path_z]", "[path_x, sqrt(-path_z/v_0)]")], 18, "is not real and finite over its whole range"),
         ([("alpha: 30 deg", "alpha: 30 deg, m: 1 kg")], 24, "`m` does not occur in the drawing `path`"),

@@ -65,7 +65,7 @@ LIMITING_CASE = Rule(
 
 @in_results(
     "limit",
-    "the limiting case; for an equation its expansion: `{limit: motion_x, for: Omega, to: 0, order: 1}` to first order",
+    "the limiting case; for an equation, its expansion, such as `{limit: motion_x, for: Omega, to: 0, order: 1}`",
     of="limit: an answer, or an equation",
     letter="for: a letter",
     to="to: a value or `infinity`, 0 by default",

@@ -439,8 +439,8 @@ def _name(of: Quantity, symbol: str | None) -> Any:
 
 
 def _means(name: Any, result: Any) -> dict[Any, Any]:
-    """Return the value of the symbol that the name of the result contains, such as theta_dot in theta_dot^2. In
-    |q_dot|, q_dot has the value of the result.
+    """Return the value of the symbol that the name of the result contains, such as theta_dot in theta_dot^2. For
+    the name |q_dot|, this is the symbol q_dot.
     """
     if isinstance(name, Abs):
         return {name.args[0]: result}

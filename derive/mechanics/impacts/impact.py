@@ -222,8 +222,8 @@ class Impact:
             )
 
     def _check_material_points(self, acts: Sequence[Impulse | Collision]) -> None:
-        """If no body is stated for an impulse or for an end of a collision, its place must be at rest, or move with a
-        body or a particle."""
+        """If no body is stated for an impulse, or for one of the two places that collide, this place must be at rest,
+        or move with a body or a particle."""
         asked: list[tuple[Any, Vector]] = []
         for act in acts:
             if isinstance(act, Impulse):

@@ -85,8 +85,8 @@ def _is_negative(root: Expr) -> bool:
 
 
 def arrives_as_told(facts: Judged, outcome: str) -> bool:
-    """Whether, numerically, the motion reaches each place if and only if the stated condition holds. A place that was
-    derived from the motion is not tested.
+    """Whether, numerically, the motion reaches each place if and only if the stated condition holds. Whether
+    the motion reaches a place is not tested if the place was derived from the motion.
 
     If the result contains the rate with its sign, the place must be ahead of the start, or behind the start if the
     motion turns back first. If a condition is stated and a surface or a string guides the motion, the sentence must

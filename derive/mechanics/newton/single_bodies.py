@@ -141,8 +141,8 @@ class Alone:
 
     @cached_property
     def forces(self) -> tuple[Force, ...]:
-        """The forces and couples on this body, including its weight, without the forces of constraints that all values
-        of the coordinates satisfy."""
+        """The forces and couples on this body, including its weight. If all values of the coordinates satisfy a
+        constraint, its force is left out."""
         return tuple(force for force, on in _forces(self.system) if on is self.part)
 
 

@@ -205,8 +205,8 @@ def precession_rate(
         return round_it, explicit(Cross(omega.value, axis)) * length_by_turning(L)
 
     def leaves_a_spin(found: Expr) -> tuple[Any, Any]:
-        """Check that w minus the precession gives an angular momentum along the axis only, by an integral over the
-        mass."""
+        """Check, by an integral over the mass, that the rotation omega - Omega_p L/|L| has an angular momentum along
+        the axis only."""
         rest = explicit(omega.value) * length_by_turning(L) - L * found
         moved = explicit(body.over_mass(lambda r: Cross(r, Cross(rest, r)), point))
         return explicit(Cross(axis, moved)), column(0, 0, 0)

@@ -69,7 +69,7 @@ class ReportPage:
         return rf"{formula}~{numbered}" if numbered else formula
 
     def what(self, row: Row) -> str:
-        """Return a short description of the steps in a row."""
+        """Return a short description of the steps that a row of the table lists."""
         return self.words.rule(row.rule)
 
     def grade(self, row: Row) -> Tex:
