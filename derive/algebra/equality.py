@@ -66,7 +66,7 @@ from derive.algebra.trig_polynomials import monomial_ratio
 
 MANY = 20  # greatest number of points drawn for each point that is needed; points without physical meaning are skipped
 FIRST, POINTS = 2, 26  # numbers of points at which sides are compared before `vanishes` is tried, and after it fails
-TURNS = 400  # greatest number of points drawn to find the opposite sign of an argument of `Abs` or `sign`
+TURNS = 400  # greatest number of points drawn to find one where an argument of `Abs` or `sign` has the opposite sign
 FEWEST = 8  # the fewest points at which two sides with symbols must both have values
 UNTOLD = "undefined at every tested point"
 LETTERS = 6  # greatest number of symbols with respect to which derivatives are compared

@@ -260,7 +260,7 @@ def _square_to(line: Spot, away: Spot) -> Spot:
     size = hypot(x, y)
     if size > 0.05:
         return x / size, y / size
-    return (line[1], -line[0]) if line[1] - line[0] > 0 else (-line[1], line[0])  # to the left or upwards
+    return (line[1], -line[0]) if line[1] - line[0] > 0 else (-line[1], line[0])  # upwards or to the right
 
 
 # --- vectors and angles ----------------------------------------------------------------------------------------------

@@ -98,5 +98,5 @@ def test_a_set_that_was_not_built_or_has_a_fault_is_refused(tmp_path: Path) -> N
     assert caught.value.complaints[0].code == "not-built"
     with pytest.raises(Misused, match="did you mean `hw1`"):
         set_since_build(tmp_path, "hw2", None, 60)
-    with pytest.raises(DeriveError, match="`points` must be a whole number"):
+    with pytest.raises(DeriveError, match="`points` must be a number from 0 to"):
         set_since_build(course(built(tmp_path, one=3), one="three"), "hw1", None, 60)

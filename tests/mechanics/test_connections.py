@@ -239,7 +239,7 @@ parts:
             "friction: {static: mu, force: F}",
             "must keep it there",
         ),
-        ("{through: [0, 0], along: [1, 0]}", "{through: [0, 0]}", "not a plane, a circle or a curve"),
+        ("{through: [0, 0], along: [1, 0]}", "{through: [0, 0]}", "do not specify its shape"),
         ("on: ground, normal", "on: one, normal", "no contact uses the surface `ground`"),
         ("along: [1, 0]}", "along: [1, 0], velocity: [g*t, 0]}", "the velocity of a surface must be constant"),
         ("along: [1, 0]}", "along: [1, 0], velocity: [0, sqrt(g*a)]}", "must be along the surface"),
@@ -672,7 +672,10 @@ def test_a_cone_that_lies_on_its_side_rolls_about_its_apex(tmp_path: Path) -> No
             [("held: apex", "centre: [3*h/4*cos(alpha)*cos(phi), 3*h/4*cos(alpha)*sin(phi), 3*h/4*sin(alpha)]")],
             "a line",
         ),
-        ([("shape: cone, radius: h*tan(alpha)", "shape: cylinder, radius: h"), ("held: apex", "held: base")], "inside"),
+        (
+            [("shape: cone, radius: h*tan(alpha)", "shape: cylinder, radius: h"), ("held: apex", "held: base")],
+            "partly behind the surface",
+        ),
         ([("pi/2 - alpha", "beta"), ("h: length", "h: length, beta: 'angle in (0, pi/2)'")], "it is unknown which end"),
     ],
 )

@@ -407,9 +407,10 @@ def slope_vanishes_by(facts: Judged, letter: Any) -> bool:
 
 
 def names_put_in(facts: Judged, value: Any) -> bool:
-    """Whether the value is an equation without a minus sign before its left side, and the stated values, substituted in
-    the original, give the result. Equivalent equations are accepted. If a rate has changed its sign, the result must be
-    the negative of the value that the substitution gives. The result is not compared if other results or rates are also
+    """Whether `value` is an equation whose left side has no minus sign in front, and whether substituting the stated
+    values in the original gives the result. Equivalent equations are accepted.
+
+    If a rate has changed its sign, the result must be the negative of the value that the substitution gives. The result is not compared if other results or rates are also
     replaced, if an expression such as cos(theta) is replaced, or if a value contains a replaced symbol.
     """
     told = {v.left: v.right for role, v in facts.inputs.items() if role.rpartition("_")[0] == "value"}

@@ -108,7 +108,8 @@ class MovingBody(Part):
         return [point for point in points if point.mass != 0]
 
     def described(self, bodies: Sequence[Any]) -> Mapping[str, Sequence[Any]]:
-        """The body for the witness: the place of its given point, and its centre of mass relative to this point."""
+        """The body for the witness: its mass, the place of its given point, its centre of mass relative to this point,
+        its second moments, and its rotations."""
         placed = self.placed
         axes = placed.in_plane if placed.is_plane else (0, 1, 2)
         arm = explicit(ImmutableDenseMatrix(placed.body.middle.position - placed.point.position))

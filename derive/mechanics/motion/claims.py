@@ -441,8 +441,8 @@ def turns_back_there(facts: Judged, amplitude: Any) -> bool:
 
 
 def pushes_there(facts: Judged, place: Any) -> bool:
-    """Whether the relation gives a value of the unknown of the result. If the unknown is a symbol, the force there must
-    not be known to be negative."""
+    """Whether `place` is an equation for the unknown on the left side of the result. If the unknown is a
+    symbol, the force there must not be known to be negative."""
     alone = bool(facts.result.left == place.left) and place.operator == "="
     if not isinstance(place.left, Symbol):
         return alone

@@ -945,7 +945,8 @@ LANDING_PLACE = Rule("motion.landing_place", source=SOURCE, evidence={"orbit": R
 def _component_there(when: Quantity, path: Quantity, i: int, key: str) -> Quantity:
     """A component of the place where the flight ends.
 
-    Second route: the equation of the orbit, v_x^2 (y_2 - y_1) = v_x v_y (x_2 - x_1) + a (x_2 - x_1)^2/2.
+    Second route: the equation of the orbit from the start 1 to the end 2. For an acceleration a along y, it is
+    v_x^2 (y_2 - y_1) = v_x v_y (x_2 - x_1) + a (x_2 - x_1)^2/2 with the initial velocity (v_x, v_y).
     Source: the same as for `landing`.
     """
     known = path.needed(InFlight)

@@ -140,7 +140,7 @@ def characteristic_equation(facts: Judged, equation: Any) -> bool:
 
 
 def axis_of(different: int, alone: bool | None = None) -> Predicate:
-    """Judge whether the number of distinct moments is `different`. If `alone` is given, also judge whether the moment
+    """Judge whether there are exactly `different` distinct moments. If `alone` is given, also judge whether the moment
     of this axis differs from all others if and only if `alone` is true."""
 
     def is_so(facts: Judged) -> bool:

@@ -400,7 +400,7 @@ def _open(need: Expr, system: Gyroscopic) -> Expr:
 
 
 def _may_drift(part: Factor, system: Gyroscopic) -> bool:
-    """Whether a root may be zero, so that the coordinates may move uniformly although some stiffness remains."""
+    """Whether a root may be zero although not all stiffnesses vanish. The coordinates may then move uniformly."""
     if not part.mirrored or part.degree != 2 or system.sign(part.coefficients[2]) is not None:
         return any(system.sign(need) == 0 for need in part.needs)
     below = (cancel(entry / part.coefficients[2]).as_numer_denom()[1] for entry in system.stiffness)

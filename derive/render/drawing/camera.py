@@ -24,7 +24,7 @@ from derive.figures.space import Stance, Vector, angle_of, cross, dot, plus, siz
 
 ANGLE = pi / 5
 APART = 0.25  # an arrowhead closer than this to a corner makes a view less suitable; relative to the size of the bodies
-OPEN = 0.5  # least cosine, if possible, of the angle between the normal of a flat body and the line of sight
+OPEN = 0.5  # a view of a flat body is preferred if the cosine between its normal and the line of sight is above this
 THIN = 0.1  # greatest thickness of a flat body, relative to its size
 SHARES = (0.8, 0.6, 1.0, 0.7)  # values of coordinates without a number, except angles, in units of a typical length
 

@@ -129,8 +129,8 @@ def _has_known_centre(body: Body) -> bool:
 
 
 def _proportions(body: Body) -> dict[Expr, Expr]:
-    """Return values for the drawing, such as the radius of the section of a torus as a fraction of the radius of the
-    torus."""
+    """Return substitute sizes for the drawing, such as a fraction of the radius of a torus for the radius of its
+    section."""
     match body.boundary:
         case Toroidal(radius, section):
             small, large = section, radius / 4

@@ -74,7 +74,7 @@ class Sort:
     read   a function of the verb, the key, the written value and the symbols; it returns the value in symbols
     made   a function of the result, the key, the value in symbols and the surroundings; it returns the argument of the
            verb
-    uses   a function of the value in symbols; it returns the names of answers in it
+    uses   a function of the value in symbols; it returns the names of the answers that the value contains
     """
 
     shape: Reader[Any]
