@@ -410,8 +410,9 @@ def names_put_in(facts: Judged, value: Any) -> bool:
     """Whether `value` is an equation whose left side has no minus sign in front, and whether substituting the stated
     values in the original gives the result. Equivalent equations are accepted.
 
-    If a rate has changed its sign, the result must be the negative of the value that the substitution gives. The result is not compared if other results or rates are also
-    replaced, if an expression such as cos(theta) is replaced, or if a value contains a replaced symbol.
+    If a rate has changed its sign, the result must be the negative of the value that the substitution gives. The result
+    is not compared if other results or rates are also replaced, if an expression such as cos(theta) is
+    replaced, or if a value contains a replaced symbol.
     """
     told = {v.left: v.right for role, v in facts.inputs.items() if role.rpartition("_")[0] == "value"}
     others = [role for role in facts.quantities if role.rpartition("_")[0] == "other"]
