@@ -48,8 +48,8 @@ def moment_of_parts(body: Any, axis: str, point: Point, symbol: str, key: str) -
     For each part except particles, a step derives the moment I_part about the parallel axis through the centre of mass
     of the part. The distance between the two axes is d. Return None if some part has no body axis parallel to `axis`.
     For a composite part, the result is also None unless this parallel axis has the name `axis`.
-    Second routes: the sum of m d^2 over the equimomental particles of all parts, and the integral of the squared
-    distance from the axis over the mass of the whole body.
+    Second route: the sum of m d^2 over the equimomental particles of all parts. Another second route is the integral
+    of the squared distance from the axis over the mass of the whole body.
     Outcomes: moved (the centre of some part is off the axis), alone (all centres are on the axis, and exactly one part
     has a nonzero moment), on_axis (all centres are on the axis, and no part or several parts have a nonzero moment).
     Source: Kleppner, Kolenkow, *An Introduction to Mechanics*, 2nd edition, section 7.3 (parallel axes).
