@@ -81,7 +81,7 @@ def test_a_component_of_a_force_of_constraint_is_refused_where_it_is_none() -> N
             constraint_force(forces, {X: 1})
         with pytest.raises(Rejected, match="lambda_v is not given, but does work in this displacement"):
             constraint_force(forces[:1], {V: 1})
-        with pytest.raises(Rejected, match="forces of the same system"):
+        with pytest.raises(Rejected, match="forces of one system"):
             constraint_force([], {V: 1})
         with pytest.raises(Rejected, match="is not the force of a constraint"):
             constraint_force([motion(l * sin(q), -l * cos(q), THETA)], {V: 1})
