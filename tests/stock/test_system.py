@@ -279,7 +279,7 @@ def test_a_rod_on_a_peg_rests_where_the_cube_of_the_sine_has_a_value(tmp_path: P
     assert found["stability"].step.outcome == "unstable"
 
 
-def test_a_positive_angle_has_the_equilibria_of_half_a_turn(tmp_path: Path) -> None:
+def test_an_angle_without_an_upper_limit_has_no_list_of_equilibria(tmp_path: Path) -> None:
     text = """\
 title: A pendulum
 solve: system
@@ -292,7 +292,9 @@ statement: A pendulum.
 parts:
   - {ask: Find the equilibria., answer: equilibria}
 """
-    assert solved(tmp_path, text)["rest"].value == pi
+    assert "has no limit on one side" in messages(tmp_path, text)[0]  # 2 pi is an equilibrium, too
+    within = edited(text, ("positive angle", "'angle in (0, 2*pi)'"))
+    assert solved(tmp_path, within)["rest"].value == pi
 
 
 def test_critical_damping_has_a_rate_and_no_frequency(tmp_path: Path) -> None:

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from sympy import Abs, Add, Expr, ImmutableDenseMatrix, Integer, Mul, Symbol, cos, factor, sin
+from sympy import Abs, Add, Expr, ImmutableDenseMatrix, Integer, Mul, Symbol, cos, factor, pi, sin
 from sympy.polys.polyerrors import PolynomialError
 
 from derive.algebra.amplitudes import Amplitudes
@@ -166,8 +166,8 @@ def equilibria(of: Quantity, *coordinates: Coordinate) -> tuple[Quantity, ...]:
     Outcomes: always, where (the equilibrium exists under a condition), only (there is no other equilibrium); for an
     equilibrium condition: generic, zero (no force acts along this coordinate).
     Errors: a zero of the force has no closed form; there is no equilibrium; the symbols leave open whether an
-    equilibrium is in the given range; the energy contains the time; a constraint between the coordinates is maintained
-    by a force; the coordinates are singular at an equilibrium.
+    equilibrium is in the given range; the range of an angle has no limit on one side; the energy contains the time; a
+    constraint between the coordinates is maintained by a force; the coordinates are singular at an equilibrium.
     Source: Taylor, *Classical Mechanics*, section 4.6 and example 7.6.
     """
     require_kind("equilibria", "of", of, "energy")
@@ -188,6 +188,7 @@ def equilibria(of: Quantity, *coordinates: Coordinate) -> tuple[Quantity, ...]:
     if others:
         message = f"`equilibria`: the forces also depend on {others[0].name}"
         raise Rejected(Complaint("wrong-argument", message, help=f"add {others[0].name} to the coordinates"))
+    _check_turns(potential, forces)
     states = _states(of, forces)
     for state in states:
         check_regular("equilibria", all_matter(potential), state.values)
@@ -203,6 +204,18 @@ def _check_free(of: Quantity, sought: Sequence[Symbol]) -> None:
         message = f"`equilibria`: a force maintains the constraint {tied.left} = {tied.right} between the coordinates"
         help_line = "write the positions with fewer coordinates, so that this constraint is not needed"
         raise Rejected(Complaint("constrained", message, help=help_line))
+
+
+def _check_turns(potential: Quantity, forces: Mapping[Symbol, Expr]) -> None:
+    """Reject an angle that is positive without an upper limit, if its force repeats after each turn: then there are
+    infinitely many equilibria, and the list for one turn would omit the others, such as 2 pi for a pendulum."""
+    for q, force in forces.items():
+        known = range_of(q)
+        is_limited = known.least.is_finite and known.greatest.is_finite if known is not None else not q.is_positive
+        if potential.coordinates.get(q) == "angle" and not is_limited and is_zero(force.subs(q, q + 2 * pi) - force):
+            message = f"`equilibria`: the range of the angle {q.name} has no limit on one side, so equilibria repeat"
+            help_line = f"give {q.name} a range of one turn or less, or none, which means from -pi to pi"
+            raise Rejected(Complaint("wrong-argument", message, help=help_line))
 
 
 def _factored(force: Expr) -> Expr:

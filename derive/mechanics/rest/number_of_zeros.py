@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from itertools import pairwise
 from typing import Any
 
-from sympy import Expr, Rational, Symbol, lambdify, oo, pi
+from sympy import Expr, Rational, Symbol, lambdify, pi
 
 from derive.algebra.derivatives import derivative
 from derive.algebra.equality import Grade, Verdict
@@ -48,10 +48,7 @@ def signs_counted(
         curve = lambdify([q], force.xreplace(point), "math")
         scale = max([abs(x) for x in expected if x] or [1.0])
         known = range_of(q)
-        if known is None or once_round and (known.least, known.greatest) == (0, oo):
-            grid = _grid(once_round, bool(q.is_positive or known is not None), scale)
-        else:
-            grid = _grid_within(known)
+        grid = _grid(once_round, bool(q.is_positive), scale) if known is None else _grid_within(known)
         signs = [(x, s) for x in grid if (s := _sign(curve, x))]
         turns = [(x, y) for (x, one), (y, other) in pairwise(signs) if one != other]
         changes = sum(_vanishes_between(curve, x, y) for x, y in turns)
@@ -78,8 +75,7 @@ def _is_place(value: Expr, q: Symbol) -> bool:
 def _grid(once_round: bool, positive: bool, scale: float) -> list[float]:
     """Return the values of the coordinate at which the force is evaluated."""
     if once_round:
-        start, turn = (0.01234, math.pi) if positive else (-math.pi - 0.01234, 2 * math.pi)  # without 0, with pi
-        return [start + turn * i / STEPS for i in range(STEPS + 1)]
+        return [-math.pi - 0.01234 + 2 * math.pi * i / STEPS for i in range(STEPS + 1)]
     ends = [
         (i + 0.5) / STEPS * math.pi / (2 if positive else 1) - (0 if positive else math.pi / 2) for i in range(STEPS)
     ]
