@@ -13,14 +13,16 @@ from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
 from types import ModuleType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import derive.building
-from derive.building.document_list import Paper, listed
 from derive.course.problem_set import path_of
 from derive.errors import Complaint, Place, Rejected
 from derive.render.formats import formats
 from derive.render.rendered import Html, Rendered, Tex
+
+if TYPE_CHECKING:
+    from derive.building.document_list import Paper
 
 TEX = """#!/bin/sh
 case "$*" in *-ini*) exit 1 ;; esac  # it makes no formats
@@ -154,6 +156,8 @@ def problem_page(root: Path, problem: Rendered, heading: object) -> str:
 
 
 def index_page(root: Path, heading: Any, problems: list[Rendered], papers: Sequence[Paper] = (), **_: object) -> str:
+    from derive.building.document_list import listed  # which loads SymPy
+
     return "".join(f"<!-- {problem.id} -->\n" for problem in problems) + listed(root, heading.id, papers)
 
 
@@ -210,6 +214,13 @@ def stand_in_course(root: Path, monkeypatch: Any) -> Course:
     monkeypatch.setenv("DERIVE_ENGINE", "pdflatex")
     monkeypatch.chdir(root)
     return course
+
+
+class Lasting:
+    """Replaces things like `pytest.MonkeyPatch`, until the process ends; pytest takes long to load."""
+
+    setattr = staticmethod(lambda target, name, value, raising=True: setattr(target, name, value))
+    setitem = staticmethod(lambda found, name, value: found.update({name: value}))
 
 
 def replace_derivation(monkeypatch: Any) -> None:

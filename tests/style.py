@@ -10,10 +10,10 @@ import re
 import sys
 from collections import Counter
 from collections.abc import Iterator
-from functools import cache
 from pathlib import Path
 
 from tests.courses import ROOT
+from tools.trees import nodes_of
 
 # words to write -> pattern of the words that they replace
 INSTEAD = {
@@ -38,17 +38,12 @@ ANY = re.compile("|".join(f"(?:{pattern})" for pattern in INSTEAD.values()))
 PROSE = ("README.md", "CONTRIBUTING.md", "NOTATION.md", "docs", "templates/phrases")
 
 
-@cache
-def parsed(path: Path) -> ast.Module:
-    return ast.parse(path.read_text(encoding="utf-8"))
-
-
 def texts_of_code(path: Path) -> Iterator[tuple[int, str]]:
     """Yield the line and text of each comment, and of each string with a space, in a module."""
     for line, text in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
         if comment := re.search(r"(?:^|\s)# .*", text):
             yield line, comment[0]
-    for node in ast.walk(parsed(path)):
+    for node in nodes_of(path):
         if isinstance(node, ast.Constant) and isinstance(node.value, str) and " " in node.value:
             yield node.lineno, node.value
 
@@ -70,6 +65,8 @@ def files(*under: str) -> list[Path]:
 
 def uses(path: Path) -> Iterator[tuple[int, str, str]]:
     """Yield the line, the words to write, and the words that were found."""
+    if not ANY.search(path.read_text(encoding="utf-8")):
+        return
     for line, text in texts(path):
         if not ANY.search(text):
             continue

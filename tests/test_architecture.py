@@ -24,7 +24,7 @@ from tests.loops import over
 from tests.mechanics.block import a, known_block
 from tests.page.test_wording import WORDS
 from tests.rules import records
-from tests.style import parsed
+from tools.trees import nodes_of, nodes_under, parsed
 
 SOURCE = ROOT / "derive"
 MODULES = {
@@ -71,9 +71,7 @@ def tree(name: str) -> ast.Module:
 
 @cache
 def nodes(name: str) -> tuple[ast.AST, ...]:
-    """Return the nodes of a module, without those that carry no text."""
-    silent = (ast.expr_context, ast.operator, ast.unaryop, ast.cmpop, ast.boolop)
-    return tuple(node for node in ast.walk(tree(name)) if not isinstance(node, silent))
+    return nodes_of(MODULES[name])
 
 
 def dotted(function: ast.AST) -> str:
@@ -410,7 +408,7 @@ def names_from_elsewhere(module: str) -> dict[str, tuple[str, str]]:
 @cache
 def rules_and_calls(module: str, name: str) -> tuple[frozenset[Rule], frozenset[str]]:
     """Return the rules that a function names itself, and the names that it has from elsewhere."""
-    within = list(ast.walk(functions()[module, name]))
+    within = list(nodes_under(functions()[module, name]))
     its_own = {n.arg for n in within if isinstance(n, ast.arg)}
     its_own |= {n.id for n in within if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)}
     found = {rule for where, const, rule in RECORDS if where == module and const in uses(module)[name]}

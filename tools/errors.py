@@ -14,6 +14,8 @@ from pathlib import Path
 
 import yaml
 
+from tools.trees import nodes_of, nodes_under, parsed
+
 ROOT = Path(__file__).resolve().parent.parent
 DOCUMENT, TOLD = ROOT / "docs" / "errors.md", ROOT / "tools" / "errors.yaml"
 EXAMPLES = ROOT / "tests" / "complaints"
@@ -39,17 +41,21 @@ def messages() -> dict[str, list[str]]:
     """Return the codes of errors and warnings in the modules of derive, each with its messages in the order of the
     modules."""
     found: dict[str, list[str]] = {}
-    sources = (file.read_text(encoding="utf-8") for file in sorted((ROOT / "derive").rglob("*.py")))
-    for source in (each for each in sources if any(name in each for name in _RAISING)):
-        for code, message in _raised_in(ast.parse(source)):
+    for file in sorted((ROOT / "derive").rglob("*.py")):
+        for code, message in _raised_in(file) if _may_raise(file) else ():
             told = found.setdefault(code, [])
             if message and message not in told:
                 told.append(message)
     return dict(sorted(found.items()))
 
 
-def _raised_in(module: ast.Module) -> Iterator[tuple[str, str]]:
-    names, nodes = _named_texts(module), [*ast.walk(module)]
+def _may_raise(file: Path) -> bool:
+    source = file.read_text(encoding="utf-8")
+    return any(name in source for name in _RAISING)
+
+
+def _raised_in(file: Path) -> Iterator[tuple[str, str]]:
+    names, nodes = _named_texts(parsed(file)), nodes_of(file)
     functions = [node for node in nodes if isinstance(node, ast.FunctionDef)]
     for call in (node for node in nodes if isinstance(node, ast.Call)):
         at = _code_at(call)
@@ -73,7 +79,7 @@ def _code_at(call: ast.Call) -> int | None:
 def _named_texts(scope: ast.AST, before: float = float("inf")) -> dict[str, list[ast.expr]]:
     """Return, for each name in a scope, the expression that is assigned to it last before the given line."""
     found: dict[str, list[ast.expr]] = {}
-    assigned = [node for node in ast.walk(scope) if isinstance(node, ast.Assign) and node.lineno < before]
+    assigned = [node for node in nodes_under(scope) if isinstance(node, ast.Assign) and node.lineno < before]
     for node in sorted(assigned, key=lambda each: each.lineno):
         for name, value in (pair for target in node.targets for pair in _pairs(target, node.value)):
             if isinstance(name, ast.Name):

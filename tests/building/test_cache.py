@@ -10,13 +10,13 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from fake_course import Course, stand_in_course
 
 from derive.building.cache import NO_CACHE, Cache, digest, engine_digest, file_digest, folder_digest
 from derive.building.sets import Options, built_set
 from derive.building.signatures import SIGNATURE_BYTES
 from derive.building.solution import rendered
 from tests.courses import course_in
+from tests.fake_course import Course, stand_in_course
 
 ONE, TWO, THREE = digest("one"), digest("two"), digest("three")
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from fake_course import Course, stand_in_course
 
 from derive.building import doctor
 from derive.building.doctor import Finding, findings
+from tests.fake_course import Course, stand_in_course
 
 
 @pytest.fixture

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import os
+import shlex
 import subprocess
-import sys
 from pathlib import Path
 
 import pytest
-from fake_course import Course, stand_in_course
 from pypdf import PdfReader
 
 from derive.building.set_document import problem_document, set_document, sheet_document
@@ -20,7 +19,9 @@ from derive.course import problem_set as sets_of_problems
 from derive.course.problem_set import ProblemSet, problem_set
 from derive.errors import BuildFailed, DeriveError, Misused, Rejected
 from derive.render.rendered import Rendered
+from tests.cli.started import command
 from tests.courses import ROOT, course_in, rendered_once
+from tests.fake_course import Course, stand_in_course
 
 EVIL = (
     r"Mon & Wed, 100% done, Sheet #3, a_b^c~ \input{/etc/passwd}\immediate\openout3=taken \immediate\write3{x}"
@@ -113,7 +114,7 @@ def test_the_makefile_has_the_same_reserved_names() -> None:
         ("problems/hw1/notes.txt", 2, "is not replaced, because it may be written by hand"),
         ("script.py", 2, "is not replaced, because it may be written by hand"),
         ("link", 2, "`link` is a link"),
-        ("problems", 1, "a folder is where a file should be"),
+        ("problems", 2, "`problems` is a folder"),
         ("x" * 300, 1, "the name is too long"),
         ("/dev/full", 1, "the disk is full"),
     ],
@@ -183,11 +184,6 @@ def test_thousands_of_faults_in_one_line_are_found_in_no_time(tmp_path: Path) ->
 
 # --- where it prints, and where it stands ----------------------------------------------------------------------------
 
-COMMAND = (
-    "import pytest, sys; sys.path.insert(0, sys.argv.pop(1)); import fake_course; from derive.cli.options import main;"
-    "m = pytest.MonkeyPatch(); fake_course.replace_derivation(m); sys.exit(main())"
-)
-
 
 @pytest.mark.parametrize(
     ("shell", "code", "said"),
@@ -205,13 +201,13 @@ COMMAND = (
 def test_a_full_or_closed_output_and_a_folder_that_is_gone_are_told_in_a_line(
     course: Course, shell: str, code: int, said: str
 ) -> None:
-    program = f"{sys.executable} -P -c '{COMMAND}' {ROOT / 'tests'}"
     environment = {**os.environ, "PYTHONPATH": str(ROOT)}
-    run = subprocess.run(["bash", "-c", shell.format(program)], capture_output=True, text=True, env=environment)
-    assert run.returncode == code
-    assert run.stderr.startswith(said)
-    assert "Traceback" not in run.stderr
-    assert "internal error" not in run.stderr
+    run = ["bash", "-c", shell.format(shlex.join(command()))]
+    done = subprocess.run(run, capture_output=True, text=True, env=environment)
+    assert done.returncode == code
+    assert done.stderr.startswith(said)
+    assert "Traceback" not in done.stderr
+    assert "internal error" not in done.stderr
 
 
 @pytest.mark.usefixtures("workers")

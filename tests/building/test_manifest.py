@@ -8,12 +8,12 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from fake_course import Course, stand_in_course
 
 from derive.building import signatures
 from derive.building.cache import digest
 from derive.building.manifest import Manifest, outputs_of, outputs_of_document
 from derive.building.sets import Options, Report, built_set
+from tests.fake_course import Course, stand_in_course
 
 
 @pytest.fixture

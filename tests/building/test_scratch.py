@@ -11,12 +11,12 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from fake_course import stand_in_course
 
 from derive.building.files import write
 from derive.building.scratch import HELD, PREFIX, Scratch, sweep
 from derive.building.sets import Options, built_set
 from tests.courses import ROOT
+from tests.fake_course import stand_in_course
 
 # Begins to write a file, and has some scratch, until somebody ends it.
 AT_WORK = """

@@ -10,11 +10,11 @@ import time
 from pathlib import Path
 
 import pytest
-from fake_course import Course, stand_in_course
 
 from derive.building.manifest import Manifest, outputs_of
 from derive.building.sets import Options, Report, built_set
 from derive.errors import BuildFailed, Misused
+from tests.fake_course import Course, stand_in_course
 
 
 @pytest.fixture

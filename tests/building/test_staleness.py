@@ -7,13 +7,13 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from fake_course import Course, stand_in_course
 
 from derive.building.manifest import Manifest
 from derive.building.recipe import recipe_of
 from derive.building.sets import Options, built_set
 from derive.building.staleness import MOST, Asked, Staleness, asked_about, staleness
 from derive.errors import DeriveError, Misused
+from tests.fake_course import Course, stand_in_course
 
 
 @pytest.fixture

@@ -6,7 +6,6 @@ import os
 from pathlib import Path
 
 import pytest
-from fake_course import TEX
 from pypdf import PdfReader
 
 from derive.building import tex as pdf
@@ -15,6 +14,7 @@ from derive.building.tex import Engine, chosen_engine, engines, typeset
 from derive.errors import BuildFailed, Complaint, Misused
 from derive.page.template import templates_of
 from tests.courses import ROOT
+from tests.fake_course import TEX
 
 
 def source(body: str, preamble: str = "") -> str:

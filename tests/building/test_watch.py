@@ -12,7 +12,6 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from fake_course import Course, stand_in_course
 
 from derive.building import watch as watching
 from derive.building.sets import Options, Report
@@ -20,6 +19,7 @@ from derive.building.watch import Shown, seen_in, watch
 from derive.errors import BuildFailed, Misused
 from tests.cli.started import alone, alone_in, command
 from tests.courses import ROOT, course_in
+from tests.fake_course import Course, stand_in_course
 
 
 @pytest.fixture

@@ -6,9 +6,9 @@ from argparse import Namespace
 from pathlib import Path
 
 import pytest
-from fake_course import Course, stand_in_course
 
 from derive.cli import running
+from tests.fake_course import Course, stand_in_course
 
 
 @pytest.fixture

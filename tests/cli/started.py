@@ -6,22 +6,20 @@ import os
 import sys
 from pathlib import Path
 
-from fake_course import Course
-
 import derive
+from tests.fake_course import Course
 
 PACKAGE = Path(derive.__file__).resolve().parent.parent
 
 # The stand-in for the derivation, then the real command, in a process of its own.
-STARTED = (
-    "import pytest, pathlib, sys; sys.path.insert(0, sys.argv.pop(1)); import fake_course; "
-    "from derive.cli.options import main"
+STAND_IN = (
+    "import sys; from derive.cli.options import main; from tests.fake_course import Lasting, replace_derivation; "
+    "replace_derivation(Lasting()); sys.exit(main())"
 )
-STAND_IN = f"{STARTED}; m = pytest.MonkeyPatch(); fake_course.replace_derivation(m); sys.exit(main())"
 
 
 def command(*arguments: str) -> list[str]:
-    return [sys.executable, "-P", "-c", STAND_IN, str(Path(__file__).parents[1]), *arguments]
+    return [sys.executable, "-P", "-c", STAND_IN, *arguments]
 
 
 def alone(course: Course) -> dict[str, str]:

@@ -9,10 +9,10 @@ import sys
 from pathlib import Path
 
 import pytest
-from fake_course import Course
 
 from derive.cli.completing import offered
 from tests.cli.started import alone
+from tests.fake_course import Course
 
 RUN = "import sys; from derive.cli.options import main; main()"
 

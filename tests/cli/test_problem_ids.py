@@ -5,10 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from fake_course import Course
 
 from derive.cli.options import main
 from derive.cli.problem_ids import problem_id_of
+from tests.fake_course import Course
 
 
 @pytest.mark.parametrize(

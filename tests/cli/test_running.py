@@ -8,10 +8,10 @@ import sys
 from pathlib import Path
 
 import pytest
-from fake_course import Course
 
 from derive.cli.options import main
 from tests.cli.started import PACKAGE, alone, command
+from tests.fake_course import Course
 
 
 def test_a_bug_is_told_with_how_to_report_it_and_a_traceback_on_request(

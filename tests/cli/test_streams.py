@@ -6,9 +6,9 @@ import shlex
 import subprocess
 
 import pytest
-from fake_course import Course
 
 from tests.cli.started import alone, command
+from tests.fake_course import Course
 
 
 @pytest.mark.parametrize("shell", ["{} --version > /dev/full", "{} --help > /dev/full", "{} solve --help > /dev/full"])

@@ -5,11 +5,10 @@ from __future__ import annotations
 import ast
 import re
 import runpy
-from pathlib import Path
-
-import pytest
+from itertools import pairwise
 
 from tests.courses import ROOT
+from tools.trees import nodes_of
 
 MADE = runpy.run_path(str(ROOT / "tools" / "errors.py"))
 MODULES = sorted((ROOT / "derive").rglob("*.py"))
@@ -36,10 +35,10 @@ def test_every_code_has_a_cause_and_a_mend_and_none_is_spare() -> None:
         assert cause != fix, code
 
 
-@pytest.mark.parametrize("path", MODULES, ids=lambda path: str(path.relative_to(ROOT)))
-def test_a_code_beside_its_message_is_told_of_whatever_function_takes_it(path: Path) -> None:
-    for call in (n for n in ast.walk(ast.parse(path.read_text(encoding="utf-8"))) if isinstance(n, ast.Call)):
-        for code, message in zip(call.args, call.args[1:], strict=False):
+def test_a_code_beside_its_message_is_told_of_whatever_function_takes_it() -> None:
+    calls = [(path, node) for path in MODULES for node in nodes_of(path) if isinstance(node, ast.Call)]
+    for path, call in calls:
+        for code, message in pairwise(call.args):
             if isinstance(code, ast.Constant) and re.fullmatch(r"[a-z]+(-[a-z]+)+", str(code.value)):
-                if " " in ast.unparse(message) and isinstance(message, ast.JoinedStr | ast.Constant):
-                    assert code.value in MADE["messages"]()
+                if isinstance(message, ast.JoinedStr | ast.Constant) and " " in ast.unparse(message):
+                    assert code.value in MADE["messages"](), path

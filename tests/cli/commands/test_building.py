@@ -10,10 +10,10 @@ import subprocess
 import sys
 
 import pytest
-from fake_course import Course
 
 from derive.cli.options import main
 from tests.cli.started import alone, command
+from tests.fake_course import Course
 from tests.waiting import until
 
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 import re
 
 import pytest
-from fake_course import Course
 
 from derive.cli.check_table import HEADING
 from derive.cli.options import main
+from tests.fake_course import Course
 
 
 def test_check_prints_a_table_and_fails_with_any_problem(course: Course, capfd: pytest.CaptureFixture[str]) -> None:

@@ -6,7 +6,6 @@ import json
 from pathlib import Path
 
 import pytest
-from fake_course import Course
 
 import derive.building.diff
 import derive.building.set_diff
@@ -15,6 +14,7 @@ from derive.building.diff import Diff
 from derive.building.set_diff import SetDiff
 from derive.cli.options import main
 from derive.errors import Complaint
+from tests.fake_course import Course
 
 CHANGED = Diff("the last build", (Change("points", "the problem", "10", "12"),))
 

@@ -6,9 +6,9 @@ import re
 from pathlib import Path
 
 import pytest
-from fake_course import Course
 
 from derive.cli.options import main
+from tests.fake_course import Course
 
 
 def test_clean_takes_away_what_builds_made(course: Course, capfd: pytest.CaptureFixture[str]) -> None:

@@ -8,11 +8,11 @@ import sys
 from pathlib import Path
 
 import pytest
-from fake_course import Course
 
 from derive.cli.options import main
 from tests.cli.started import alone_in
 from tests.courses import course_in
+from tests.fake_course import Course
 
 
 def test_list_shows_problems_even_if_one_does_not_read(course: Course, capfd: pytest.CaptureFixture[str]) -> None:

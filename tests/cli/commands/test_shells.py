@@ -8,11 +8,11 @@ import sys
 from pathlib import Path
 
 import pytest
-from fake_course import Course
 
 from derive.cli.command_options import SHELLS
 from derive.cli.options import main
 from tests.cli.started import alone
+from tests.fake_course import Course
 
 ASKED = r"""
 eval "$(derive completion bash)"

@@ -7,10 +7,10 @@ import re
 from pathlib import Path
 
 import pytest
-from fake_course import Course
 
 from derive.cli.options import main
 from tests.courses import course_in
+from tests.fake_course import Course
 
 
 def test_solve_prints_the_text_and_nothing_else(course: Course, capfd: pytest.CaptureFixture[str]) -> None:

@@ -6,10 +6,10 @@ import subprocess
 import sys
 
 import pytest
-from fake_course import Course
 
 from derive.cli.options import main
 from tests.cli.started import alone
+from tests.fake_course import Course
 
 
 def test_why_names_the_edited_file_and_the_mend(course: Course, capfd: pytest.CaptureFixture[str]) -> None:
