@@ -24,8 +24,8 @@ MOST_PARTS = 12  # the highest power that is integrated by parts
 
 
 def definite(value: Expr, limits: Limits) -> Expr | None:
-    """The integral of an explicit expression; `limits` begins with the innermost limits. None if a term is of an
-    unknown kind."""
+    """The integral of an explicit expression; `limits` begins with the innermost limits. None if the methods of this
+    module do not apply to a term."""
     return _definite(value, tuple(tuple(limit) for limit in limits))
 
 
