@@ -68,7 +68,7 @@ def named_students(students: Sequence[Student]) -> str:
 
 @dataclass
 class ClassReport:
-    """The outcome of a run.
+    """The outcome of a run of `derive class`.
 
     made     the number of students whose documents were made
     kept     the number of students whose documents were already up to date
