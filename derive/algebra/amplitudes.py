@@ -67,7 +67,8 @@ class Determinant(ScalarNode):
 def determinant_of(matrix: MatrixBase) -> Expr:
     """Compute the determinant from the characteristic polynomial, without division by a pivot.
 
-    Symbols replace functions and roots during the computation; otherwise SymPy would cancel factors after each step.
+    Symbols replace functions and non-integer powers during the computation; otherwise SymPy would cancel factors after
+    each step.
     """
     parts = matrix.atoms(Function, Pow)
     named = {part: Dummy() for part in sorted(parts, key=str) if not (part.is_Pow and part.exp.is_Integer)}

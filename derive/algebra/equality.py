@@ -107,7 +107,7 @@ class Evidence:
 
 @dataclass(frozen=True)
 class Verdict:
-    """The outcome of a comparison; `point` has the numbers of the symbols at which the values were found to differ."""
+    """The outcome of a comparison; `point` has the values of symbols at a point where the sides differ."""
 
     grade: Grade
     detail: str = ""

@@ -155,7 +155,7 @@ def tidied_terms(series: Series, x: Symbol, to: Expr) -> Expr:
 
 
 def in_ascending_powers(series: Series, x: Symbol, to: Expr) -> Expr:
-    """The terms in ascending powers; the leading term is in front of a bracket if this is not longer."""
+    """The terms in ascending powers; the leading term is factored out if the result is not longer."""
     small = small_of(x, to)
     terms = [(n, tidied(c)) for n, c in sorted(series.items())]
     plain = Terms(*(c * small**n for n, c in terms))
@@ -193,7 +193,7 @@ def _taylor(f: Expr, up_to: int) -> tuple[dict[int, Expr], int]:
     """The nonzero Taylor coefficients by their powers, and the lowest of these powers. Raises `NoExpansion` if a
     coefficient is infinite or undefined, or if a derivative of an order above `HIGHEST` would be needed.
 
-    The series ends at the power `up_to`, or at its first nonzero coefficient if this comes later.
+    The series ends at the power `up_to`, or at the power of its first nonzero coefficient, if that power is higher.
     """
     found: dict[int, Expr] = {}
     derivative, factorial = f, Integer(1)

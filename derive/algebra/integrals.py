@@ -20,12 +20,12 @@ from sympy.simplify.fu import TR8
 
 Limits = Sequence[tuple[Symbol, Expr, Expr]]
 HALF = Rational(1, 2)
-MOST_PARTS = 12  # the highest power that is integrated by parts
+MOST_PARTS = 12  # the highest n for which x^n f(m x + c) is integrated by parts
 
 
 def definite(value: Expr, limits: Limits) -> Expr | None:
-    """The integral of an explicit expression; `limits` begins with the innermost limits. None if a term is of an
-    unknown kind."""
+    """The integral of an explicit expression; `limits` begins with the innermost limits. None if the methods of this
+    module do not apply to a term."""
     return _definite(value, tuple(tuple(limit) for limit in limits))
 
 
@@ -40,7 +40,7 @@ def _definite(value: Expr, limits: Limits) -> Expr | None:
 
 
 def antiderivative(value: Expr, x: Symbol) -> Expr | None:
-    """An antiderivative of the value, found term by term; None if a term is of an unknown kind."""
+    """An antiderivative of the value, found term by term; None if no antiderivative of a term is found."""
     found = [(outside, _antiderivative_of_factor(inside, x)) for outside, inside in _terms(value, x)]
     return None if any(whole is None for _, whole in found) else Add(*(outside * whole for outside, whole in found))
 

@@ -163,7 +163,7 @@ class _Fractions(Expanded):
 
     def without(self, function: type) -> Callable[[Terms], Terms]:
         """Return a function that replaces the square of `function`, sine or cosine, by 1 minus the square of the other
-        function of the same angle. An odd power leaves one factor `function`."""
+        function of the same angle. From an odd power, one factor `function` remains."""
 
         def turn(terms: Terms) -> Terms:
             for place, other in self._turning(terms):

@@ -100,7 +100,7 @@ def _hides_angles(expr: Expr) -> bool:
 
 
 def _with_common_angles(expr: Expr) -> Expr:
-    """Use sines and cosines of smaller angles in an expression that hides angles (`_hides_angles`)."""
+    """If `_hides_angles` is true for an expression, rewrite the expression with sines and cosines of smaller angles."""
     if not _hides_angles(expr):
         return expr
     expr = expr.replace(lambda e: isinstance(e, tan), lambda e: sin(e.args[0]) / cos(e.args[0]))
@@ -143,5 +143,5 @@ def _as_multiple(term: tuple[Rational, Expr], units: dict[Expr, tuple[Expr, Symb
     angle, dummy = units[rest]
     multiple = Integer(coefficient / angle.as_coeff_Mul(rational=True)[0])
     if abs(multiple) > HIGHEST:
-        raise PolynomialError(f"{multiple} times an angle is too high a multiple to expand")
+        raise PolynomialError(f"the factor {multiple} of an angle is too large to expand")
     return multiple, dummy

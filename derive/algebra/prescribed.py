@@ -54,7 +54,7 @@ class Prescribed(Symbol):
 
     @property
     def order(self) -> int:
-        """How often the function is differentiated: 0 for X, 1 for X_dot."""
+        """The number of derivatives: 0 for X, 1 for X_dot."""
         return next(n for n in (3, 2, 1, 0) if self.name.endswith(RATES[n]))
 
     @property

@@ -16,7 +16,7 @@ SPARE = 25  # digits beyond those requested, so that the last figure is rounded 
 
 
 def rounded(exact: Expr, figures: int) -> Rational:
-    """The nearest decimal with that number of significant figures, as an exact rational."""
+    """The nearest decimal with that number of significant figures, as an exact rational number."""
     value = _decimal(exact, figures + SPARE)
     if value == 0:
         return Integer(0)

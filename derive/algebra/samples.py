@@ -276,7 +276,7 @@ class Values:
     """The values of expressions at one point, at mpmath's current precision; common parts are computed once."""
 
     def __init__(self, point: SamplePoint) -> None:
-        self.cancelled = False  # whether the terms of a sum cancelled to almost all digits, so the sum may be zero
+        self.cancelled = False  # whether the terms of a sum cancelled in almost all digits, so the sum may be zero
         self.known: dict[Expr, Any] = {}
         for letter, value in point.items():
             self.known[letter] = self._taken(value)
@@ -385,7 +385,7 @@ class Values:
             for letter, value in put_in.items():
                 expr = expr.xreplace({letter: value})
             value = expr.evalf(mp.dps)
-        except (TypeError, AttributeError, RecursionError, NotImplementedError) as error:  # SymPy has no value
+        except (TypeError, AttributeError, RecursionError, NotImplementedError) as error:  # SymPy finds no value
             raise NoNumber(expr) from error
         real, imaginary = value.as_real_imag()
         if not (real.is_Number and imaginary.is_Number):
@@ -397,7 +397,7 @@ class Values:
 
 
 def _is_cancelled(total: Any, terms: list[Any]) -> bool:
-    """Whether the terms of a sum cancelled to almost all digits, so the sum may be zero."""
+    """Whether the terms of a sum cancelled in almost all digits, so the sum may be zero."""
     return _bits(total) < max(map(_bits, terms)) - int(mp.prec) + 30
 
 

@@ -50,7 +50,8 @@ class NoSeries(Exception):
 
 
 def taylor(expr: Expr, letters: Mapping[Symbol, Sequence[Expr]], order: int) -> Series:
-    """The coefficients of s^0, ..., s^order; symbols without a series are constants. Raises `NoSeries`."""
+    """The coefficients of s^0, ..., s^order; symbols without a series are constants. Raises `NoSeries` if the
+    coefficients are not found."""
     return _Arithmetic(letters, order).of(expr)
 
 

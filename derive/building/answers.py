@@ -88,8 +88,8 @@ def _values(found: tuple[Quantity, ...] | DeriveError, notation: Notation) -> st
 
 
 def _value(step: Step, notation: Notation) -> str:
-    """Return the value in one line. If it takes several lines, return only its symbol, or an empty text if it
-    has no symbol."""
+    """Return the value in one line. If the value takes several lines, return only the symbol of the step, or an empty
+    text if the step has no symbol."""
     told = plain(named_result(step, notation))
     if "\n" in told:
         return plain(notation.layout(step.symbol)) if step.symbol is not None else ""

@@ -68,7 +68,7 @@ def named_students(students: Sequence[Student]) -> str:
 
 @dataclass
 class ClassReport:
-    """The outcome of a run.
+    """The outcome of a run of `derive class`.
 
     made     the number of students whose documents were made
     kept     the number of students whose documents were already up to date
@@ -318,7 +318,7 @@ def _older_set(root: Path, set_id: str, engine: str | None) -> list[Complaint]:
         or not staleness(Asked(root, set_id, (), engine=engine)).reasons
     ):
         return []
-    message = f"the documents of the whole set in `{shown_path(set_folder(root, set_id))}` are out of date"
+    message = f"outputs of the set in `{shown_path(set_folder(root, set_id))}` are out of date"
     return [Complaint("older", message, help=f"`derive build {set_id}` makes them again", severity="warning")]
 
 
@@ -331,20 +331,20 @@ def _check_codes(students: Sequence[Student], heading: ProblemSet) -> None:
 
 
 def class_is_older(root: Path, set_id: str, engine: Engine) -> list[Complaint]:
-    """Return a warning if documents of a class are older than the set, or if only some of them were made."""
+    """Return a warning if an input of documents of a class has changed, or if only some of the documents were made."""
     record = ClassRecord.read(root, set_id)
     if record is None:
         return []
     shared = _shared(root, record, engine)
     students = [Student(name, code) for code, name in record.students.items()]
     made = {student: found.key for student in students if (found := shared.made(student))}
-    where = f"the documents of the class in `{shown_path(shared.outputs)}`"
+    where = f"documents of the class in `{shown_path(shared.outputs)}`"
     help_line = f"`derive class {set_id}`, with the same roster, makes them again"
     if any(key != shared.key(student) for student, key in made.items()):
-        return [Complaint("older", f"{where} are older than the set", help=help_line, severity="warning")]
+        return [Complaint("older", f"{where} are out of date", help=help_line, severity="warning")]
     if made and len(made) < len(students):
         missing = [student for student in students if student not in made]
-        message = f"{where} are incomplete: those of {named_students(missing)} were not made"
+        message = f"the {where} are incomplete: those of {named_students(missing)} were not made"
         return [Complaint("older", message, help=help_line, severity="warning")]
     return []
 

@@ -1,7 +1,7 @@
 """Jobs on a cluster of Dask, in place of processes on this machine.
 
 The workers of the cluster need the same version of derive, and the folder of the course at the same path. Dask repeats
-the job of a lost worker on another worker. derive does not limit the time and the memory of these jobs.
+the job of a lost worker on another worker. derive does not limit the time or the memory of these jobs.
 """
 
 from __future__ import annotations

@@ -75,7 +75,7 @@ def built_page(root: Path, problem_id: str) -> Page:
         message = f"`{shown_path(file)}` cannot be read as a page that a build wrote"
         raise Misused(Complaint("not-built", message, help=fix)) from None
     if not isinstance(page, dict) or any(key not in page for key in _SAYS):
-        message = f"`{shown_path(file)}` was written by an earlier version of derive, and lacks entries to compare"
+        message = f"`{shown_path(file)}` lacks entries to compare: perhaps an earlier version of derive wrote it"
         raise Misused(Complaint("not-built", message, help=fix))
     return page
 

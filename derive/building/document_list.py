@@ -27,7 +27,7 @@ _EXPORTED = re.compile(rf"[\w-]+-(?:{'|'.join(EXPORT_SUFFIX)})\.(?:{'|'.join({*E
 @dataclass(frozen=True)
 class Paper:
     """An entry of the list. `files` has a pair for each file: its address and the name of its format; `is_older` says
-    whether the document is older than its problems."""
+    whether the document is out of date."""
 
     name: str
     files: tuple[tuple[str, str], ...]
@@ -49,7 +49,7 @@ def there_of(outputs: Path, documents: Documents, made: Documents = ()) -> Docum
 def papers(root: Path, set_id: str, documents: Documents, older: Collection[str] = ()) -> list[Paper]:
     """Return these documents, followed by the page for students, the page of the class and the exports.
 
-    older   the names of the documents and exports that are older than their problems
+    older   the names of the documents and exports that are out of date
     """
     outputs = set_folder(root, set_id)
     words = phrases(templates_of(root), language_of(root, set_id)).labels["web"]
@@ -73,7 +73,7 @@ def listed(root: Path, set_id: str, found: Sequence[Paper]) -> str:
 def list_again(root: Path, set_id: str, record: Callable[[Manifest], None] | None = None) -> None:
     """Update the list of documents on the page of a set, unless a user has edited this page.
 
-    record   a function that records a file that the command wrote; None if it wrote no file
+    record   a function that records a file that the command wrote; None if the command wrote no file
     """
     outputs = set_folder(root, set_id)
     page = outputs / f"{INDEX}.html"
@@ -88,7 +88,7 @@ def list_again(root: Path, set_id: str, record: Callable[[Manifest], None] | Non
 
 
 def older_in(root: Path, manifest: Manifest) -> list[str]:
-    """Return the documents and exports of a set that are older than their problems."""
+    """Return the documents and exports of a set that are out of date."""
     recipe, read = recipe_of(root, of_set=manifest.of_set), cache(lambda path: file_digest(root / path))
     named = [*(file for _, file in manifest.documents), *manifest.exports]
     return [name for name in named if manifest.is_older(name, recipe, read)]
@@ -96,7 +96,7 @@ def older_in(root: Path, manifest: Manifest) -> list[str]:
 
 def update_list(root: Path, set_id: str, manifest: Manifest) -> None:
     """Update the list of documents on the page of a set, unless a user has edited this page. The list marks the
-    documents that are older than their problems."""
+    documents that are out of date."""
     page = manifest.folder / f"{INDEX}.html"
     if not manifest.holds(page.name):
         return

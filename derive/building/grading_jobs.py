@@ -77,7 +77,8 @@ def _failed(error: DeriveError | Bug, part: str, answer: str) -> Result:
         return NotGraded(error.complaints[0])
     if isinstance(error, Bug):
         return NotGraded(Complaint("internal", f"internal error: {str(error)[:200]}", help=_REPORT))
-    return Graded(part, answer, Verdict(Outcome.UNREADABLE, "too large: the worker that compared it was stopped"))
+    stopped = "the worker that compared this answer was stopped, for example by a limit of time or memory"
+    return Graded(part, answer, Verdict(Outcome.UNREADABLE, stopped))
 
 
 def _graded(root: Path, problem_id: str, rows: Sequence[Asked], of_class: ClassRecord | None) -> dict[int, Result]:

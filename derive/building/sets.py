@@ -488,7 +488,7 @@ class _Build:
         return True
 
     def _stamp(self) -> None:
-        """Record for `make` the outputs of this set and the files outside of its folder that its problems read; set the
+        """Record for `make` the outputs of this set and the files outside of its folder that its problems read. Set the
         time of `.built` to the beginning of this build."""
         outputs = [f"build/{self.set_id}/{name}" for name in self.manifest.all_outputs()]
         options = f"engine={chosen_name(self.options.engine)}/detail={self.options.detail or ''}"

@@ -210,7 +210,7 @@ def _check_answers(known: dict[str, Quantity], asked: list[dict[str, Word]]) -> 
             "no-such-answer",
             f"`solve()` returns nothing called `{key}`",
             keys[key].place,
-            help=did_you_mean(key, known) or "the steps are " + ", ".join(f"`{name}`" for name in short or known),
+            help=did_you_mean(key, known) or "among the steps are " + ", ".join(f"`{name}`" for name in short or known),
         )
         for keys in asked
         for key in keys

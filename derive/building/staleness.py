@@ -14,7 +14,7 @@ from pathlib import Path
 from derive.building.cache import PACKAGES, file_digest
 from derive.building.files import shown_path
 from derive.building.manifest import Manifest
-from derive.building.recipe import DETAIL, ENGINE, EVIDENCE, MODULES, ONLY, Recipe, recipe_of
+from derive.building.recipe import DETAIL, ENGINE, EVIDENCE, FORM, LANGUAGE, MODULES, ONLY, Recipe, recipe_of
 from derive.building.set_names import check_asked, set_folder, set_names
 from derive.building.tex import chosen_engine
 from derive.course.names import DOCUMENTS, INDEX, NAME
@@ -65,7 +65,7 @@ def left_older(
 
 def _older(files: Sequence[str], folder: Path, help_line: str) -> Complaint:
     told = [*files[:MOST], *([f"and {len(files) - MOST} more"] if files[MOST:] else [])]
-    message = f"older than the problems, but not made again: {', '.join(told)} in `{shown_path(folder)}`"
+    message = f"out of date, but not made again: {', '.join(told)} in `{shown_path(folder)}`"
     return Complaint("older", message, help=help_line, severity="warning")
 
 
@@ -196,6 +196,8 @@ def _of_recipe(before: Recipe, now: Recipe) -> Iterator[str]:
             yield f"it was made with {_option(name, was)}, but would now be made with {_option(name, is_now)}"
         elif name == MODULES:
             yield "derive itself has changed"
+        elif name in (FORM, LANGUAGE):
+            yield f"{name} has changed"
         elif name in PACKAGES:
             yield f"the package {name} is {is_now or 'gone'}, and was {was or 'not there'}"
         else:

@@ -273,7 +273,7 @@ def _failure(
     mark = _mark(tex, number)
     where = f" in {mark}" if mark else ""
     missing = re.search(r"File `([\w-]+\.(?:sty|cls|def))' not found", message)
-    fix = f"`{engine.name}` lacks {missing[1]}: install it, or choose another `--engine`" if missing else None
+    fix = f"`{engine.name}` lacks {missing[1]}: install this file, or choose another `--engine`" if missing else None
     place = _place(tex, shown_path(kept_tex), number, before) if number else None
     own = _place_in_template(tex, number, place, templates)
     notes = [f"`{shown_path(kept_tex)}` and its `.log` are kept"]

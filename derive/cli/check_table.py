@@ -16,7 +16,7 @@ HEADING = (
     "problem", "steps", "proved", "sampled", "approx.", "defined", "claims", "sampled", "compared", "seconds", "verdict"
 )  # fmt: skip
 LEGEND = """\
-steps     a step has the lowest grade of its lines, its trial numbers, and its strongest other route or check
+steps     a step has the lowest grade among its lines, its test at trial numbers, and its best second route or check
 claims    all compared lines, second routes and checks; the next column counts the claims that are only sampled
 compared  statements of the source that were compared, and remarks on the source"""
 _OF_STEPS = ("steps_proved", "steps_sampled", "steps_approximation", "steps_definition")

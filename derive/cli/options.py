@@ -18,7 +18,7 @@ _COMMANDS = {
     "build": ("typeset sets of problems; unchanged pages are kept", "[SET|ID ...]", "hw9 --detail full"),
     "variants": ("draw variants of problems, and show their answers", "SET|ID", "hw10 --check 1000"),
     "class": ("make a sheet, a key and solutions for each student", "SET", "hw10 --roster students.csv"),
-    "export": ("write a set for Moodle or another learning platform", "SET|ID", "hw10 --format qti"),
+    "export": ("write a set for a learning platform such as Moodle, or for Word", "SET|ID", "hw10 --format qti"),
     "check": ("verify every line, and compare with the reference", "[ID|SET ...]", "hw9/block -v"),
     "audit": ("read a worked document, and find the rows that do not follow", "FILE", "solutions.tex"),
     "grade": (

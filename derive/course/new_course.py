@@ -28,7 +28,7 @@ FILES = {
 def begun_course(folder: Path, title: str, template: Callable[[str], Path]) -> dict[str, str]:
     """Return the texts of the files of a new course, by their paths in its folder.
 
-    Raise `Misused` if the folder is a course already, is within a course, or has one of these files.
+    Raise `Misused` if the folder is a course already, is within a course, or has one of the files in `FILES`.
 
     title     the name of the course
     template  a function that returns the file of a template

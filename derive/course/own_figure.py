@@ -171,9 +171,9 @@ def _unwanted(tree: ElementTree.Element) -> str:
             elif name.lower().startswith("on"):
                 return f"has a script, `{name}`"
             elif _refers(value):
-                return f"refers to another file in `{name}`"
+                return f"may refer to another file in `{name}`"
         if element.tag == f"{{{_SVG}}}style" and _refers(element.text or ""):
-            return "refers to another file in a style"
+            return "may refer to another file in a style"
     return ""
 
 

@@ -232,8 +232,8 @@ def one_of(words: tuple[str, ...]) -> Reader[str]:
 
 
 def mapping_of(values: Reader[T], wanted: str = "") -> Reader[dict[Word, T]]:
-    """Return the reader of a mapping with arbitrary names. It may be left empty, unless `wanted` says what it must
-    be."""
+    """Return the reader of a mapping with arbitrary names. The mapping may be left empty, unless `wanted` describes
+    the required contents."""
 
     def read(node: Tree, name: str, faults: Faults) -> dict[Word, T]:
         if isinstance(node, Mapping):

@@ -105,7 +105,7 @@ class Stock:
     keys      the keys allowed under `given:`
     read      the function that returns the description in the declared symbols and collects errors
     answers   the class that derives the answers of a description
-    shows     the marks of a body, such as its centre of mass, that its drawing can have
+    shows     the marks, such as the centre of mass, that the drawing of a body can have
     """
 
     keys: type[Record]

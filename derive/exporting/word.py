@@ -46,10 +46,10 @@ def word_document(title: str, questions: Sequence[Question], solutions: bool = T
         try:
             ran = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=LONGEST, check=False)
         except (OSError, subprocess.TimeoutExpired) as error:
-            help_line = INSTALL if isinstance(error, OSError) else None
-            raise BuildFailed(Complaint("pandoc", f"Pandoc cannot be run: {error}", help=help_line)) from None
+            failed, help_line = ("cannot be run", INSTALL) if isinstance(error, OSError) else ("was stopped", None)
+            raise BuildFailed(Complaint("pandoc", f"Pandoc {failed}: {error}", help=help_line)) from None
         if ran.returncode or ran.stderr.strip():  # Pandoc warns if it cannot convert a formula or a picture
-            raise BuildFailed(Complaint("pandoc", f"Pandoc cannot convert the set: {ran.stderr.strip()[:500]}"))
+            raise BuildFailed(Complaint("pandoc", f"Pandoc cannot convert the questions: {ran.stderr.strip()[:500]}"))
         return (folder / "set.docx").read_bytes()
 
 

@@ -43,7 +43,8 @@ DOT = 2.6  # radius of a point that is wider than a rod, in points
 HOLLOW = 2.3  # radius of the circle for a point on a body, in points
 NEAR_TIP = 0.72  # distance of a label from the start of its arrow, relative to the length of the arrow
 EYE = 3.4  # radius of the circle that shows an axis or a vector along the line of sight, in points
-POSITIVE = 26.0, 11.0  # distance from a particle to the arrow of a positive direction, and half the arrow's length
+# distance from a particle to the arrow of a positive direction, and half the length of this arrow, in points
+POSITIVE = 26.0, 11.0
 # The arrow of a positive rotation is between these polar angles, in degrees. An arrow on the right side is mirrored.
 AROUND_BODY = 115, 169
 ROUND = 10.0  # least radius of the arrow of a `Turn`, in points

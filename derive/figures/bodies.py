@@ -161,7 +161,7 @@ class Pose:
     """The position and orientation of a body in a drawing in space.
 
     at      a function from a position in body axes to the position in the drawing
-    along   the direction of the z axis of the body in the drawing, a unit vector (3)
+    along   the direction of the z axis of the body in the drawing, as a unit vector
     """
 
     at: Callable[[Position], Position]

@@ -26,7 +26,7 @@ STEPS = 160  # number of straight lines that draw a branch between two changes
 GRID = 2000  # number of intervals of the parameter's range, and of the coordinate's range in the second route
 HALVINGS = 80
 TRIED = (0.11, 0.37, 0.68, 0.93)  # the second route is used at these fractions of an interval of the parameter
-# z counts as real if |Im z| <= REAL (1 + |Re z|). Values of a branch below REAL times its greatest value become zero.
+# z counts as real if |Im z| <= REAL (1 + |Re z|). If |y| is at most REAL times its maximum on a branch, y becomes zero.
 REAL = 1e-6
 CLOSE = 1e-5  # greatest difference of equal values, relative to their range; for angles, in radians
 # The energy at an equilibrium is compared with the energies at the distance 10^-NEAR times the searched range on both
@@ -294,7 +294,9 @@ def _confirm(
             )
             if not agree:
                 said = f"{len(known)} equilibria, but the slope of the potential energy has {len(zeros)} zeros"
-                said = said if len(zeros) != len(known) else "equilibria where the potential energy is not stationary"
+                said = (
+                    said if len(zeros) != len(known) else "an equilibrium where the potential energy is not stationary"
+                )
                 raise _wrong(f"for the value {x:.4g} of the parameter, the diagram has {said}")
             for y, is_stable in known:
                 if _is_minimum(height, x, y, searched[1] - searched[0]) != is_stable:

@@ -431,7 +431,7 @@ class Connections:
     def has_bare_origin(self, plane: Plane) -> bool:
         """Whether a coordinate is measured along a fixed level line from the origin, at which nothing is drawn.
 
-        If an end of a spring, a string or a rod, or a joint, is fixed, the origin is usually an equilibrium position.
+        If a joint, or an end of a spring, a string or a rod, is fixed, the origin is usually an equilibrium position.
         Then the result is False.
         """
         if plane.of is not None or isinstance(plane.ground, Location) or self.start:

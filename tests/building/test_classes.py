@@ -313,7 +313,7 @@ def test_a_build_warns_of_documents_of_a_class_that_are_older_than_the_set(
     file = tmp_path / "problems" / "week1" / "bead.yaml"
     file.write_text(file.read_text().replace("title: A bead", "title: The bead"))
     main(["--root", str(tmp_path), "build", "week1"])
-    assert "warning[older]: the documents of the class" in capfd.readouterr().err
+    assert "warning[older]: documents of the class" in capfd.readouterr().err
     assert main(make) == 0
     main(["--root", str(tmp_path), "build", "week1"])
     assert "older" not in capfd.readouterr().err

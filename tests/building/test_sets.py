@@ -274,7 +274,7 @@ def test_make_is_told_nothing_while_a_document_is_older_than_its_problem(course:
     report = build(course, Options(documents=("key",)))
     (warning,) = report.warnings
     assert warning.message == (
-        "older than the problems, but not made again: `solutions.pdf`, `problems.pdf`, `report.pdf` in `build/hw1`"
+        "out of date, but not made again: `solutions.pdf`, `problems.pdf`, `report.pdf` in `build/hw1`"
     )
     assert warning.help == "`derive build hw1` makes them again"
     assert not (course.outputs / ".built").exists()

@@ -88,7 +88,7 @@ def test_a_failure_leaves_the_earlier_pdf_and_a_success_clears_the_log(target: P
 def test_a_package_that_is_missing_is_named_with_a_mend(target: Path) -> None:
     found = complaint(source("x", r"\usepackage{nosuchpackage}"), target)
     assert found.message == "TeX failed: File `nosuchpackage.sty' not found"
-    assert found.help == "`tinytex` lacks nosuchpackage.sty: install it, or choose another `--engine`"
+    assert found.help == "`tinytex` lacks nosuchpackage.sty: install this file, or choose another `--engine`"
 
 
 def test_a_long_line_is_cut_around_the_error(target: Path) -> None:

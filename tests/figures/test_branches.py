@@ -58,7 +58,7 @@ def test_nothing_changes_in_a_range() -> None:
         ((PITCHFORK.branches[0], replace(PITCHFORK.branches[1], exists=None), PITCHFORK.branches[2]), ""),
         (
             (PITCHFORK.branches[0], replace(PITCHFORK.branches[1], place=X), PITCHFORK.branches[2]),
-            "equilibria where the potential energy is not stationary",
+            "an equilibrium where the potential energy is not stationary",
         ),
     ],
 )

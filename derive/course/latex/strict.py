@@ -232,8 +232,8 @@ class _Check:
         return at + 2
 
     def row_end(self, at: int) -> int:
-        """Remove a length such as `[3pt]`, the space below a row, after the end of the row. Reject other brackets
-        there. Return the position of the next token."""
+        """After the end of a row, remove a length such as `[3pt]`, which is the space below the row. Reject other
+        brackets there. Return the position of the next token."""
         following = self.tokens[at + 1] if at + 1 < len(self.tokens) else None
         if following is None or not following.is_mark("["):
             return at + 1

@@ -201,7 +201,7 @@ class Values(Grids):
             return Term(symbol, dimension, start, end, kind=declared.kind)
         if node.dots + next(n for n in (3, 2, 1, 0) if symbol.name.endswith(RATES[n])) > MOST_DOTS:
             help_line = "declare a letter for this rate"
-            self.at(node, "latex", f"a letter has at most {MOST_DOTS} dots", help_line)
+            self.at(node, "latex", f"the order of this rate is higher than {MOST_DOTS}", help_line)
         symbol, dimension = rate(symbol, node.dots), dimension / dimension_of_kind("time") ** node.dots
         self.dimensions[symbol] = dimension
         return Term(symbol, dimension, start, end)

@@ -397,7 +397,7 @@ class _EntryReader:
             name = written.document or self.document
             folder = f"problems/{self.problem.set_id}"
             message = f"`{folder}` has no document `{name}`" if name else "this reference does not name a document"
-            help_line = "name a file in this folder, in this entry: `document: solutions.md`"
+            help_line = f"name a file of `{folder}` in this entry: `document: solutions.md`"
             self.faults.error("no-document", message, written.values_at["lines"], help=help_line)
 
     def check_quoted(self, written: EntryKeys) -> None:
