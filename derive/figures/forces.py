@@ -73,7 +73,7 @@ NORMALS = ("N", "F_n", "n")  # possible symbols of a normal force that does not 
 
 @dataclass(frozen=True)
 class BodyAlone:
-    """A body or particle with the forces on it, from which its diagram is drawn.
+    """A body, a particle, a pulley or a piece of a rope, with the forces that its diagram shows.
 
     key       the name of the drawing
     leads_to  the keys of the laws of this body; the drawing is placed before these laws
@@ -327,9 +327,9 @@ def _offset(drawn: _Drawn, of: PlacedBody, scene: Connections) -> tuple[float, f
 
 
 def _acting(system: System, of: Any) -> list[PointForce]:
-    """Return the forces of connections on a body. If there is such a force, and the body has exactly one
-    contact that the coordinates keep, and this contact is with a fixed plane, add the normal force of this plane. No
-    equation contains this normal force."""
+    """Return the forces of connections on a body, and the normal force of a fixed plane if there are other forces and
+    the coordinates alone keep the body on this plane, but on no other surface. No equation contains this normal force.
+    """
     named = [force for each in connections_of(system, Connection) for force in each.on(of)]
     named += _drawn_pulls(system, of)
     return [*named, *_unnamed_normals(system, of)] if named else []

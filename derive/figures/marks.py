@@ -172,7 +172,8 @@ class Drawing:
     left_out      conditions of the system that the drawing does not show
     undrawn       the given forces that the drawing does not show, each with its kind: "force", "torque" or "drag"
     leads_to      the keys of steps that the drawing precedes, as a free-body diagram precedes Newton's laws
-    forces_on     the mass of the body whose free-body diagram this is; None in any other drawing
+    forces_on     the mass of the body whose free-body diagram this is; None for a massless pulley and in any other
+                  drawing
     mode          the normal mode that the drawing shows; None in any other drawing
     seen_from     the azimuth and the elevation of the view in space, in degrees; None if the camera chooses the view
     body_size     the size of the body in a force diagram, in points, which determines the scale; None if the usual

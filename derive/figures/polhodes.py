@@ -1,4 +1,4 @@
-"""The polhodes of a freely rotating body: the curves of constant kinetic energy on a sphere.
+"""The polhodes of a freely rotating body, drawn for its angular momentum: curves of constant energy on a sphere.
 
 In the body, the tip of the angular momentum stays on the sphere |L| = constant and on an ellipsoid of constant energy,
 L_x^2/I_x + L_y^2/I_y + L_z^2/I_z = 2 T. The sphere has the radius 1 here. Around the axis p of the least or of the

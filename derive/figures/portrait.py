@@ -78,7 +78,7 @@ def portrait_of(
         if not own:
             ends = f"{np.min(heights):.4g} to {np.max(heights):.4g}"
             message = f"the phase portrait has no curve with the value {value:.4g}"
-            raise Rejected(Complaint("drawing", message, help=f"in these ranges, its values are from {ends}"))
+            raise Rejected(Complaint("drawing", message, help=f"the values in these ranges are from {ends}"))
         found += own
     return Portrait(*box[2:], values, tuple(found), tuple(_centres(expr, plane, grid, heights)))
 

@@ -227,7 +227,8 @@ class _Scene:
         return _Scene(self.system, self.named).marks
 
     def _between_supports(self, marks: Iterable[Mark]) -> Iterable[Mark]:
-        """Yield dimension lines for distances between supports at the same height, on the side away from the masses."""
+        """Yield dimension lines for distances between supports at the same height. A line is above the supports if all
+        masses are lower and one of them can move vertically; otherwise it is below."""
         if self.rows != 2:
             return
         number = self.connections.number
