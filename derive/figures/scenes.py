@@ -226,7 +226,7 @@ def vectors_in(
     """The outline of a body, with vectors in their true directions, and the axis of rotation along the first vector.
 
     body      the body
-    vectors   vectors with 3 components along the axes of the body; each arrow is a little shorter than the arrow before it
+    vectors   vectors with 3 components along the axes of the body; each arrow is a little shorter than the one before
     angle     the angle between the first two vectors, a quantity or a name; by default no arc is drawn
     at        the point at which the vectors start; by default the centre of mass of the body
     about     the name of a point of the body; if it is given, the vectors and the axes of the body start at this point

@@ -212,7 +212,8 @@ class _Scene:
         found = [*self._all(), *(launch_marks(self.system, self.start) if self.start else ())]
         if not any(isinstance(mark, AxisOfRotation) for mark in found):
             found += self._axis_of_table()
-        # The drawing of an impact omits angles that are zero at the impact, and all distances that are coordinates.
+        # The drawing of an impact omits angles and distances that are zero at the impact, distances with a given rate,
+        # and marks of origins.
         if self.impact is not None:
             found = [
                 mark for mark in found if not (isinstance(mark, OriginMark) or is_of_the_moment(mark, self.impact))

@@ -207,7 +207,8 @@ def _many_digits(exact: Expr) -> Rational:
 def _told(exact: Expr, figures: int, unit: str) -> str:
     shown = rounded(exact, figures)
     number = f"{float(shown):.{figures}g}"
-    return f"it is {number} {unit}".rstrip() if unit != "the SI" else f"it is {number} in SI units"
+    shown = f"{number} {unit}".rstrip() if unit != "the SI" else f"{number} in SI units"
+    return f"the right value is {shown}"
 
 
 __all__ = ["components_of", "figures_of", "unit_in", "verdict_on_number", "with_units"]

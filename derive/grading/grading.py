@@ -432,7 +432,9 @@ class _Grading:
             distinct = list(dict.fromkeys(wanted))
             values = _repeated(values, distinct, wanted)
         if len(values) != len(wanted):
-            return Verdict(Outcome.MISSING, f"{len(wanted)} values are asked for, but {len(values)} are given"), used
+            return Verdict(
+                Outcome.MISSING, f"the part asks for {len(wanted)} values, but the answer gives {len(values)}"
+            ), used
         read = replace(used[0].last[0], value=Matrix(values))
         return verdict_on_value(read, target, self.key), used
 
@@ -478,7 +480,9 @@ class _Grading:
                 break
         found = best_of(verdicts)
         if found.is_right and (side := self.unequal_side(statement)) is not None:
-            told = f"the sides of the equation are not equal: {latex_of(side.node, self.key.names)[:160]}"
+            told = (
+                f"one side of the equation is not equal to the last side: {latex_of(side.node, self.key.names)[:160]}"
+            )
             return replace(found, outcome=Outcome.DIFFERENT, because=told)
         if found.because == DIFFERS and len(self.part.targets) == 1:
             return found.adding(self.nearest(statement.last[0], target))
@@ -607,8 +611,8 @@ class _Grading:
 
     @staticmethod
     def angle_in(statement: _Statement, target: Target) -> Any:
-        """The name of a typed angle. A number without a name is the angle in `cos(theta) = 2/3` if its unit is that of
-        an angle."""
+        """The name of a typed angle. A number without a name is the angle in `cos(theta) = 2/3` if it has a unit of
+        angle."""
         arguments = target.value.left.args
         if statement.is_single and arguments:
             unit = next((unit for _, unit in with_units(statement.texts[-1])), None)

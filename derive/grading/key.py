@@ -140,7 +140,7 @@ class Key:
 
     @property
     def told(self) -> list[tuple[str, str]]:
-        """Return the labels of the parts, and the names of the answers that each asks for."""
+        """Return the labels of the parts, and the names of the answers that each part asks for."""
         return [(part.label, ", ".join(target.key for target in part.targets)) for part in self.parts]
 
     @cached_property

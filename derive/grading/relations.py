@@ -39,7 +39,7 @@ def verdict_on_relation(left: Read, mark: str, right: Read, target: Target, key:
         return Verdict(Outcome.DIFFERENT, "this relation is not graded")
     typed = Relation(aligned(left.value, goal), mark, aligned(right.value, goal))
     if typed.residual == 0 or are_surely_equal(typed.left, typed.right):
-        return Verdict(Outcome.DIFFERENT, "both sides are equal, so this says nothing")
+        return Verdict(Outcome.DIFFERENT, "both sides of this relation are equal")
     if _are_equivalent(typed, goal) or _are_equivalent_with_cosines(typed, goal):
         return Verdict(Outcome.EQUAL, "")
     full = Relation(comparison.expanded(typed.left), mark, comparison.expanded(typed.right))
