@@ -176,7 +176,7 @@ def _not_one(of: Quantity, x: Symbol, verb: str, count: int, elsewhere: bool) ->
     help_line: str = Spelled(f"{only_one}, `within=(..., ...)`", f"{only_one}, `within: [0, pi/2]`")
     if not count:
         curvature = "negative" if verb == "maximum" else "positive"
-        message = f"`{verb}`: `{of.key}` has no place with zero slope and {curvature} curvature"
+        message = f"`{verb}`: `{of.key}` has no allowed place with zero slope and {curvature} curvature"
         help_line = f"the {verb} may be at an end of the interval: `put_in` gives the value there"
     if not count and elsewhere:
         message = f"`{verb}`: `{of.key}` is not stationary for any allowed {x.name}"
