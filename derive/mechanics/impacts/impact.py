@@ -247,7 +247,7 @@ class Impact:
         if moving := coordinates_in(ImmutableDenseMatrix([ZERO, *arms.values()])):
             name = next(iter(moving)).name
             message = f"the point of the body on which the impulse acts depends on {name}"
-            raise Rejected(Complaint("changes", message, help=f"give the value of `{name}` at that instant under `at`"))
+            raise Rejected(Complaint("changes", message, help=f"give the value of `{name}` at the impact under `at`"))
         return tuple(c.xreplace(arms) for c in point.place)
 
     @property
@@ -388,7 +388,7 @@ class Impact:
         across = [way[i] * along[j] - way[j] * along[i] for i in range(len(way)) for j in range(i)] if along else way
         if not all(is_zero(c) for c in across):
             message = "the two places of this collision do not meet"
-            raise Rejected(Complaint("wrong-argument", message, help="give the coordinates at that instant under `at`"))
+            raise Rejected(Complaint("wrong-argument", message, help="give the coordinates at the impact under `at`"))
 
     def _kept(self, c: Constraint) -> Meeting:
         if not is_zero(self.earlier(c.velocity(self.moving))):
