@@ -59,9 +59,9 @@ ON_A_LINE = Rational(3, 5)  # least factor for all arrows if each drawing shows 
 OFF = Rational(1, 30)  # distance between a rod and the arrow of a force along it, relative to the length of the rod
 APART = 5.0  # the distance between the arrows of two forces on the same line, in points
 ALONG = 3.6  # distance between a surface and the arrow of a force along it, on the side of the body, in points
-# For a round body whose weight and normal force are on one line: its drawn size in points; and the greatest and the
-# least length of its arrows, in units of FORCE points. With these lengths the weight ends above the contact, and the
-# friction is visible.
+# For a round body whose weight and normal force are on one line, STANDING is its drawn size in points. SHORT and
+# SHORTEST are the greatest and the least length of its arrows, in units of FORCE points. With these lengths the weight
+# ends above the contact, and the friction is visible.
 STANDING, SHORT, SHORTEST = 47.0, Rational(12, 25), Rational(7, 20)
 ROPE = 110.0  # the drawn length of a whole rope, in points; each piece of the rope is drawn alone
 FOOT = 30.0  # half the length of the piece of a surface under a body, in points

@@ -289,9 +289,9 @@ class _Displaced:
     def _along(self, displacement: MatrixBase, at: Location) -> Expr | None:
         """Return a component of a displacement, up to a positive factor.
 
-        If the displacement is parallel to an axis or the ratio y/x is a number, this is the component along an axis.
-        Otherwise it is the component along the path of a coordinate. Return None if the displacement is not along such
-        a path.
+        If the displacement is parallel to an axis or the ratio y/x is a number, the result is the component along an
+        axis. Otherwise the result is the component along the path of a coordinate, or None if the displacement is not
+        along such a path.
         """
         x, y = displacement
         if x == 0 or y == 0 or tidied(y / x).is_number:

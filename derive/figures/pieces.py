@@ -56,7 +56,7 @@ class Tag:
     towards   the direction from the spot to the label
     gap       the distance between the spot and the label, in points
     way       for the label of a line, a vector along the line. The label may be shifted by at most 0.6 of this vector,
-              in both directions, and it may be on the other side of the line
+              in either direction, and it may be on the other side of the line
     on        whether the label is on the spot; then it may be shifted by `towards` or in the opposite direction, if
               the spot is occupied
     round     for the symbol of an angle: the vertex and the arc; the symbol is between the lines or just

@@ -29,7 +29,7 @@ from derive.figures.pieces import InNumbers, Paper, Patch, Piece, Stroke
 from derive.figures.space import NOUGHT, Vector, cross, dot, plus, rim, unit
 from derive.figures.surfaces import parts_where
 
-# In degrees: distances of three curves from the axis that they surround, measured towards the intermediate axis.
+# Distances of three curves from the axis that they surround, in degrees, measured towards the intermediate axis.
 DISTANCES = (22, 44, 64)
 STEPS = 144  # number of steps of a curve
 FACING = 0.3  # least cosine of the angle between the line of sight and the normal at an arrowhead

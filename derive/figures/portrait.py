@@ -56,8 +56,8 @@ def portrait_of(
 
     plane    the coordinate and the momentum
     box      the ends of the ranges of the coordinate and the momentum: left, right, below, above
-    values   the values, each with `True` if its curves are thick, and `False` otherwise. The curves of the value at an
-             infinite coordinate, which separate bound motions from free ones, are always thick
+    values   the values, each with `True` if its curves are thick, and `False` otherwise. The curves of the value that
+             the function has at infinity separate bound motions from free ones; they are always thick
     """  # fmt: skip
     across, up = np.linspace(*box[:2], STEPS + 1), np.linspace(*box[2:], STEPS + 1)
     grid = np.meshgrid(across, up)

@@ -73,8 +73,8 @@ def sketch(
     more      marks that are drawn in addition to the marks of the description
     values    numbers or proportions for symbols in the drawing
     named     positions of further parts, such as a pivot
-    weights   whether the weight of each particle and body is drawn, instead of one arrow for gravity; a number is the
-              length of these arrows relative to the size of the drawing
+    weights   whether an arrow shows the weight of each particle and body, in place of one arrow for gravity. A number
+              is the length of these arrows, relative to the size of the drawing
     start     the initial state of a motion
     impact    the state at an impact; if it is given, the impact is drawn
     """
@@ -576,7 +576,7 @@ class _Scene:
         """Return the direction and the magnitude of the arrow of a given force; None if the force is not drawn.
 
         A force whose magnitude contains a coordinate is left out, because the sign of the label could be wrong in the
-        drawn state. So is a force with several components whose magnitude contains a root.
+        drawn state. A force with several components is left out if its magnitude contains a root.
         """
         if len(each.at) != self.rows or self._is_friction(each):
             return None

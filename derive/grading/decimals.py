@@ -95,10 +95,10 @@ def verdict_on_number(
 ) -> Verdict:
     """Judge a number.
 
-    is_decimal   whether it is a single decimal number, which may be rounded; any other number is compared exactly
-    figures      the number of its significant figures
-    places       the number of its digits after the point; the unit of its last digit is 10^-places (places = -2 for
-                 1.5e3)
+    is_decimal   whether the value is a single decimal number, which may be rounded; any other value is compared exactly
+    figures      the number of significant figures of the value
+    places       the number of digits of the value after the point; the unit of the last digit is 10^-places (places =
+                 -2 for 1.5e3)
     """
     dimension = target.dimension or NUMBER
     if unit is not None and unit.dimension != dimension:

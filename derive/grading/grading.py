@@ -356,7 +356,7 @@ class _Grading:
         self, targets: list[Target], statements: list[_Statement]
     ) -> dict[str, tuple[Verdict, list[_Statement]]] | None:
         """Judge equations of motion together: other equations are right if they give the same accelerations. Return
-        None if they give other accelerations, if each is right on its own, or if they cannot be judged together.
+        None if they give other accelerations, if each equation is right alone, or if they cannot be judged together.
         """
         if not 1 < len(targets) == len(statements) or not all(target.is_relation for target in targets):
             return None
@@ -650,7 +650,7 @@ class _Grading:
             told = "the inequality has the wrong direction" if is_turned else "it is another condition"
             return replace(found, outcome=Outcome.SIGN, because=told)
         if mark != goal:
-            told = "whether the limiting case is included is not judged"
+            told = "the limiting case itself is not judged"
             return replace(found, outcome=Outcome.CONVENTION, because=told)
         return found
 
@@ -667,7 +667,8 @@ class _Grading:
         return replace(verdict, reading=self.named(statement, shown, left))
 
     def named(self, statement: _Statement, shown: str, left: Read | None = None) -> str:
-        """Return the reading of a whole statement; `shown` is the reading of its last side, and `left` of its first."""
+        """Return the reading of a whole statement; `shown` is the reading of its last side, and `left`
+        is the reading of its first side."""
         if statement.is_single or not statement.first:
             return shown
         middle = statement.read.sides[1:-1] if statement.read is not None else ()

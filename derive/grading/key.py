@@ -157,7 +157,7 @@ def label_in(labels: Sequence[str], name: str) -> str | None:
 
 
 def _split(name: str) -> tuple[str, str]:
-    """Split `2(1)` or `b.1` into the names of a part and of an answer in it."""
+    """Split `2(1)` or `b.1` into the names of a part and of one of its answers."""
     plain = name.strip().lower().removeprefix("part").strip()
     found = re.fullmatch(r"\(?([a-z]|\d{1,3})[).:]?(?:\s*[(.]?\s*(\w+)\s*\)?)?", plain, re.ASCII)
     if found is None:

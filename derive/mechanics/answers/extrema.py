@@ -216,7 +216,7 @@ def _conditions(real: Relation | None, room: Sequence[Relation]) -> dict[str, Re
 
 def _inside(place: Expr, real: Relation | None, within: Within | None, x: Symbol) -> list[Relation] | None:
     """Return the conditions for the place to lie between the ends of the interval. The list is empty if the place
-    always lies between them; return None if it never does, or does not for the given numbers."""
+    always lies between them. Return None if the place never lies between them, or not for the given numbers."""
     below, above = ([within[0]], [within[1]]) if within else _bounds(x)
     if real is not None and below in ([], [0]) and not above:  # every real place is allowed
         return []

@@ -123,7 +123,7 @@ def collision(
         raise Rejected(Complaint("wrong-argument", message, help="give `along`"))
     if (part < 0) == True or (part > 1) == True:  # noqa: E712  the relation may be undecided
         raise Rejected(
-            Complaint("wrong-argument", f"a coefficient of restitution must be between 0 and 1, but this is {part}")
+            Complaint("wrong-argument", f"a coefficient of restitution must be between 0 and 1, but {part} is not")
         )
     size_of_normal = tidied(sqrt(Add(*(c**2 for c in normal)))) if normal else ONE
     unit = tuple(tidied(c / size_of_normal) for c in normal)
@@ -222,8 +222,8 @@ class Impact:
             )
 
     def _check_material_points(self, acts: Sequence[Impulse | Collision]) -> None:
-        """If no body is stated for an impulse, or for one of the two places that collide, this place must be at rest,
-        or move with a body or a particle."""
+        """A place of an impulse or a collision for which no body is stated must be at rest, or move with a body or a
+        particle."""
         asked: list[tuple[Any, Vector]] = []
         for act in acts:
             if isinstance(act, Impulse):
