@@ -327,9 +327,9 @@ def _offset(drawn: _Drawn, of: PlacedBody, scene: Connections) -> tuple[float, f
 
 
 def _acting(system: System, of: Any) -> list[PointForce]:
-    """Return the forces of connections on a body, and the normal force of a fixed plane if there are other forces and
-    the coordinates alone keep the body on this plane, but on no other surface. No equation contains this normal force.
-    """
+    """Return the forces of connections on a body. If there are such forces, add the normal force of a fixed plane on
+    which the coordinates alone keep the body. No equation contains this normal force. It is not added if the
+    coordinates also keep the body on another surface."""
     named = [force for each in connections_of(system, Connection) for force in each.on(of)]
     named += _drawn_pulls(system, of)
     return [*named, *_unnamed_normals(system, of)] if named else []

@@ -2,7 +2,7 @@
 
 The orientation in space is a set of axes. In a plane the orientation is an angle about the normal, positive
 counterclockwise. One body axis is perpendicular to the plane and points towards the reader. At zero angle, the two body
-axes that follow this axis in the cyclic order x, y, z are along the axes of the plane.
+axes after this axis in the cyclic order x, y, z are along the axes of the plane.
 """
 
 from __future__ import annotations

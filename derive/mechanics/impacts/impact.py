@@ -222,7 +222,7 @@ class Impact:
             )
 
     def _check_material_points(self, acts: Sequence[Impulse | Collision]) -> None:
-        """A place of an impulse or a collision for which no body is stated must be at rest, or move with a body or a
+        """A place without a stated body, of an impulse or a collision, must be at rest or move with a body or a
         particle."""
         asked: list[tuple[Any, Vector]] = []
         for act in acts:
