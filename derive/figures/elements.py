@@ -224,7 +224,7 @@ def way(
     formula, keys = vector_of(place)
     symbol = letter.symbol if isinstance(letter, Coordinate) else letter
     if not isinstance(symbol, Symbol) or symbol not in formula.free_symbols:
-        message = f"`letter` of `way` must be a symbol in its `place`, but {symbol} is not"
+        message = f"`letter` of `way` must be a symbol in `place`, but {symbol} is not"
         raise Rejected(Complaint("wrong-argument", message))
     lower, upper = (as_expr(end) for end in between)
     pen = "wire" if solid else "trace"

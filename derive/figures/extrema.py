@@ -16,13 +16,13 @@ from sympy import Expr, Symbol, diff, lambdify
 
 from derive.errors import Complaint, Rejected, Unverified
 
-STEPS = 1009  # number of steps of the grid; it is odd, so the centre of the range is inside a step, not at its end
+STEPS = 1009  # number of steps of the grid; it is odd, so the centre of the range is not a grid point
 POLE = 1e4  # a value above POLE times the greatest value of the grid is a pole, not an extremum
 MINIMUM, MAXIMUM = "minimum", "maximum"
 # In `zeros` and `meetings`, a value below this fraction of the greatest value counts as zero, because an end of the
 # range may be rounded to three figures.
 NEAR_ZERO = 1e-3
-NOISE = 1e-12  # a value at an extremum counts as zero below this fraction of the greatest value: it is a rounding error
+NOISE = 1e-12  # an extremum below this fraction of the greatest value is a rounding error, and counts as zero
 
 
 @dataclass(frozen=True)
@@ -74,7 +74,7 @@ def extrema(expr: Expr, variable: Symbol, lower: float, upper: float) -> tuple[E
             at = _narrowed(slope, xs[i], xs[i + 1])
             at = 0.0 if abs(at) < 1e-6 * (upper - lower) and slope(0.0) == 0 else at
             if _is_pole(f, at, xs):
-                message = f"a curve of the plot is infinite near {at:.4g}"
+                message = f"a curve of the plot is infinite or not real near {at:.4g}"
                 raise Rejected(Complaint("drawing", message, help=f"choose a range that does not contain {at:.4g}"))
             kind = MINIMUM if slopes[i] < 0 else MAXIMUM
             _confirm(f, at, (upper - lower) / STEPS, kind)
@@ -101,7 +101,8 @@ def zeros(expr: Expr, variable: Symbol, lower: float, upper: float) -> tuple[flo
 
 
 def meetings(one: Expr, other: Expr, variable: Symbol, lower: float, upper: float) -> tuple[float, ...]:
-    """Return the places in the range at which two curves meet. A common start with the value zero does not count."""
+    """Return the places in the range at which two curves cross. A common point at an end of the range also counts,
+    except a common start with the value zero."""
     found = zeros(one - other, variable, lower, upper)
     f, g = (lambdify([variable], each, "math") for each in (one, other))
     start, size = float(f(lower)), max(abs(float(each(upper))) for each in (f, g))
@@ -123,7 +124,7 @@ def _narrowed(slope: Callable[[float], Any], low: float, high: float) -> float:
 
 
 def _is_pole(f: Callable[[float], Any], at: float, xs: Sequence[float]) -> bool:
-    """Return whether the curve has no finite value at this place, or a value far above all values of the grid."""
+    """Return whether the curve has no finite real value at this place, or a value far above all values of the grid."""
     try:
         value = abs(float(f(at)))
     except (ZeroDivisionError, ValueError, OverflowError, TypeError):  # infinite or not real

@@ -59,9 +59,9 @@ ON_A_LINE = Rational(3, 5)  # least factor for all arrows if each drawing shows 
 OFF = Rational(1, 30)  # distance between a rod and the arrow of a force along it, relative to the length of the rod
 APART = 5.0  # the distance between the arrows of two forces on the same line, in points
 ALONG = 3.6  # distance between a surface and the arrow of a force along it, on the side of the body, in points
-# For a round body whose weight and normal force are on one line: its drawn size in points; and the greatest and the
-# least length of its arrows, in units of FORCE points. With these lengths the weight ends above the contact, and the
-# friction is visible.
+# For a round body whose weight and normal force are on one line, STANDING is its drawn size in points. SHORT and
+# SHORTEST are the greatest and the least length of its arrows, in units of FORCE points. With these lengths the weight
+# ends above the contact, and the friction is visible.
 STANDING, SHORT, SHORTEST = 47.0, Rational(12, 25), Rational(7, 20)
 ROPE = 110.0  # the drawn length of a whole rope, in points; each piece of the rope is drawn alone
 FOOT = 30.0  # half the length of the piece of a surface under a body, in points
@@ -73,7 +73,7 @@ NORMALS = ("N", "F_n", "n")  # possible symbols of a normal force that does not 
 
 @dataclass(frozen=True)
 class BodyAlone:
-    """A body or particle with the forces on it, from which its diagram is drawn.
+    """A body, a particle, a pulley or a piece of a rope, with the forces that its diagram shows.
 
     key       the name of the drawing
     leads_to  the keys of the laws of this body; the drawing is placed before these laws
@@ -327,9 +327,9 @@ def _offset(drawn: _Drawn, of: PlacedBody, scene: Connections) -> tuple[float, f
 
 
 def _acting(system: System, of: Any) -> list[PointForce]:
-    """Return the forces of connections on a body. If there is such a force, and the body has exactly one
-    contact that the coordinates keep, and this contact is with a fixed plane, add the normal force of this plane. No
-    equation contains this normal force."""
+    """Return the forces of connections on a body. If there are such forces, add the normal force of a fixed plane on
+    which the coordinates alone keep the body. No equation contains this normal force. It is not added if the
+    coordinates also keep the body on another surface."""
     named = [force for each in connections_of(system, Connection) for force in each.on(of)]
     named += _drawn_pulls(system, of)
     return [*named, *_unnamed_normals(system, of)] if named else []

@@ -116,12 +116,13 @@ class ShownMode:
     frequency   the symbol of the frequency or of the growth rate of the mode
     sort        "oscillating", "growing" or "free"
     degenerate  whether other modes have the same frequency
-    lengths     what the lengths of the arrows show: "to_scale"; "of_letters" if the ratio of the displacements depends
-                on letters without numbers; "without_small" if a displacement is too small for an arrow;
-                or "alone" for a single mass
+    lengths     the meaning of the lengths of the arrows: "to_scale" if they are to scale; "without_small" if they are,
+                but a displacement is too small for an arrow; "of_letters" if the ratio of the displacements depends on
+                letters without numbers; "alone" for a single mass
     letters     the letters on which the ratio depends
-    moves       for each mass, in order: the mass; the directions of its displacement, such as ("right", "up"), or () if
-                it is not displaced; and the sense of its rotation, an element of SENSES, or "" without a rotation
+    moves       the motion of each mass, in order: the mass, the directions of its displacement, and the sense of its
+                rotation. The directions are words such as ("right", "up"), or () without a displacement. The sense is
+                an element of SENSES, or "" without a rotation
     order       the order of the masses: "across" from left to right, "down" from top to bottom; empty for a single mass
     siblings    the keys of the steps of all modes that are found together; the drawings of these modes are placed after
                 the last of these steps
@@ -172,7 +173,8 @@ class Drawing:
     left_out      conditions of the system that the drawing does not show
     undrawn       the given forces that the drawing does not show, each with its kind: "force", "torque" or "drag"
     leads_to      the keys of steps that the drawing precedes, as a free-body diagram precedes Newton's laws
-    forces_on     the mass of the body whose free-body diagram this is; None in any other drawing
+    forces_on     the mass of the body whose free-body diagram this is; None for a massless pulley and in any other
+                  drawing
     mode          the normal mode that the drawing shows; None in any other drawing
     seen_from     the azimuth and the elevation of the view in space, in degrees; None if the camera chooses the view
     body_size     the size of the body in a force diagram, in points, which determines the scale; None if the usual

@@ -43,7 +43,7 @@ __all__ = ["draw_after", "draw_modes"]
 ANGLE = Rational(2, 5)  # approximate greatest displacement of an angle, in radians
 MOVED = Rational(1, 6)  # approximate greatest displacement of a length, relative to the least distance in the system
 # Lengths in points, before the drawing is reduced.
-# The usual length of the shortest arrow, and the length of a shorter arrow that is still visible.
+# The usual length of the shortest arrow, and the least visible length of an arrow.
 SHORTEST, VISIBLE = 14.0, 8.0
 # The usual length of the longest arrow, and its greatest length, used if another arrow would be too short.
 LONGEST = 42.0, 56.0
@@ -53,7 +53,7 @@ OPEN = 1.9  # the angle of this arrow, in radians
 
 FREE = 0.8  # the greatest length of an arrow next to its mass, relative to the least distance between two masses
 ALONG = 0.45  # a line is along an arrow if the sine of the angle between them is smaller than this number
-SLIGHT = 1e-9  # a displacement below this size, relative to the greatest, is zero
+SLIGHT = 1e-9  # a displacement below this size, relative to the greatest, counts as zero
 ALMOST = 0.26  # a component of a direction below this size is not described
 FREE_MOTION, TO_SCALE, WITHOUT_SMALL = "free", "to_scale", "without_small"
 SORTS = {1: "oscillating", None: "oscillating", -1: "growing", 0: FREE_MOTION}  # sign of omega^2 -> sort of the mode
@@ -289,9 +289,9 @@ class _Displaced:
     def _along(self, displacement: MatrixBase, at: Location) -> Expr | None:
         """Return a component of a displacement, up to a positive factor.
 
-        If the displacement is parallel to an axis or the ratio y/x is a number, this is the component along an axis.
-        Otherwise it is the component along the path of a coordinate. Return None if the displacement is not along such
-        a path.
+        If the displacement is parallel to an axis or the ratio y/x is a number, the result is the component along an
+        axis. Otherwise the result is the component along the path of a coordinate, or None if the displacement is not
+        along such a path.
         """
         x, y = displacement
         if x == 0 or y == 0 or tidied(y / x).is_number:

@@ -132,8 +132,8 @@ class SpringMark(_Stretched):
 class DashpotMark(_Stretched):
     """A dashpot: a piston in an open cylinder.
 
-    beside   whether the dashpot is drawn next to a spring between the same points: above it, or beside it if the spring
-             is vertical
+    beside   whether the dashpot is drawn next to a spring between the same points: above the spring, or beside a
+             vertical spring
     """
 
     beside: bool = False

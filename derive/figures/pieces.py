@@ -56,10 +56,11 @@ class Tag:
     towards   the direction from the spot to the label
     gap       the distance between the spot and the label, in points
     way       for the label of a line, a vector along the line. The label may be shifted by at most 0.6 of this vector,
-              in both directions, and it may be on the other side of the line
+              in either direction, and it may be on the other side of the line
     on        whether the label is on the spot; then it may be shifted by `towards` or in the opposite direction, if
               the spot is occupied
-    round     for the letter of an angle: the vertex and the arc; it is between the lines or just outside the arc
+    round     for the symbol of an angle: the vertex and the arc; the symbol is between the lines or just
+              outside the arc
     outside   for a label on a block: if the block has no room, the label is outside the block at this distance from the
               spot, in points
     """

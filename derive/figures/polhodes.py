@@ -1,4 +1,4 @@
-"""The polhodes of a freely rotating body: the curves of constant kinetic energy on a sphere.
+"""The polhodes of a freely rotating body, drawn for its angular momentum: curves of constant energy on a sphere.
 
 In the body, the tip of the angular momentum stays on the sphere |L| = constant and on an ellipsoid of constant energy,
 L_x^2/I_x + L_y^2/I_y + L_z^2/I_z = 2 T. The sphere has the radius 1 here. Around the axis p of the least or of the
@@ -29,7 +29,7 @@ from derive.figures.pieces import InNumbers, Paper, Patch, Piece, Stroke
 from derive.figures.space import NOUGHT, Vector, cross, dot, plus, rim, unit
 from derive.figures.surfaces import parts_where
 
-# In degrees: distances of three curves from the axis that they surround, measured towards the intermediate axis.
+# Distances of three curves from the axis that they surround, in degrees, measured towards the intermediate axis.
 DISTANCES = (22, 44, 64)
 STEPS = 144  # number of steps of a curve
 FACING = 0.3  # least cosine of the angle between the line of sight and the normal at an arrowhead

@@ -56,8 +56,8 @@ def portrait_of(
 
     plane    the coordinate and the momentum
     box      the ends of the ranges of the coordinate and the momentum: left, right, below, above
-    values   the values, each with `True` if its curves are thick, and `False` otherwise. The curves of the value at an
-             infinite coordinate, which separate bound motions from free ones, are always thick
+    values   the values, each with `True` if its curves are thick, and `False` otherwise. The curves of the value that
+             the function has at infinity separate bound motions from free ones; they are always thick
     """  # fmt: skip
     across, up = np.linspace(*box[:2], STEPS + 1), np.linspace(*box[2:], STEPS + 1)
     grid = np.meshgrid(across, up)
@@ -78,7 +78,7 @@ def portrait_of(
         if not own:
             ends = f"{np.min(heights):.4g} to {np.max(heights):.4g}"
             message = f"the phase portrait has no curve with the value {value:.4g}"
-            raise Rejected(Complaint("drawing", message, help=f"in these ranges, its values are from {ends}"))
+            raise Rejected(Complaint("drawing", message, help=f"the values in these ranges are from {ends}"))
         found += own
     return Portrait(*box[2:], values, tuple(found), tuple(_centres(expr, plane, grid, heights)))
 

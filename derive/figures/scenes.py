@@ -148,7 +148,7 @@ def arrow(
 ) -> Mark:
     """A vector in its true direction; its length is arbitrary, because vectors of different kinds have no common scale.
 
-    vector   vector (2 or 3) with components along the axes of the drawing; not drawn if it vanishes
+    vector   a vector with 2 or 3 components along the axes of the drawing; not drawn if it vanishes
     at       the point at which the arrow starts
     size     the length of the arrow relative to the size of the body
     label    the name of the vector, by default the symbol of the quantity
@@ -166,7 +166,7 @@ def arrow(
 def arc(a: Any, b: Any, label: Any = None, at: Any = ORIGIN, radius: Any = None) -> Mark:
     """The arc from one direction to another; it is not drawn if the directions are parallel or opposite.
 
-    a, b     vectors (3) in the two directions
+    a, b     vectors with 3 components in the two directions
     label    the name of the angle, or a quantity
     at       the point where the two directions start
     radius   a length; by default a readable size
@@ -179,7 +179,7 @@ def arc(a: Any, b: Any, label: Any = None, at: Any = ORIGIN, radius: Any = None)
 def axis_of_rotation(along: Any, through: Any = ORIGIN, rate: Any = None) -> Mark:
     """The axis of a rotation, extended beyond the body; with a rate, also a rotation arrow.
 
-    along     vector (3) in the direction of the axis
+    along     a vector with 3 components in the direction of the axis
     through   a point on the axis
     rate      rate of rotation, 1/s, positive if the rotation is right-handed about `along`
     """
@@ -191,7 +191,7 @@ def axis_of_rotation(along: Any, through: Any = ORIGIN, rate: Any = None) -> Mar
 def turn(along: Any, at: Any, label: Any = None, size: Any = SMALL) -> Mark:
     """A right-handed rotation arrow about a direction, for an angle or its rate.
 
-    along   vector (3) in the direction of the axis
+    along   a vector with 3 components in the direction of the axis
     at      the centre of the arrow
     size    the radius of the arrow relative to the size of the body
     """
@@ -226,7 +226,7 @@ def vectors_in(
     """The outline of a body, with vectors in their true directions, and the axis of rotation along the first vector.
 
     body      the body
-    vectors   vectors (3) along the axes of the body; each arrow is a little shorter than the arrow before it
+    vectors   vectors with 3 components along the axes of the body; each arrow is a little shorter than the one before
     angle     the angle between the first two vectors, a quantity or a name; by default no arc is drawn
     at        the point at which the vectors start; by default the centre of mass of the body
     about     the name of a point of the body; if it is given, the vectors and the axes of the body start at this point

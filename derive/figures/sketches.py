@@ -73,8 +73,8 @@ def sketch(
     more      marks that are drawn in addition to the marks of the description
     values    numbers or proportions for symbols in the drawing
     named     positions of further parts, such as a pivot
-    weights   whether the weight of each particle and body is drawn, instead of one arrow for gravity; a number is the
-              length of these arrows relative to the size of the drawing
+    weights   whether an arrow shows the weight of each particle and body, in place of one arrow for gravity. A number
+              is the length of these arrows, relative to the size of the drawing
     start     the initial state of a motion
     impact    the state at an impact; if it is given, the impact is drawn
     """
@@ -212,7 +212,8 @@ class _Scene:
         found = [*self._all(), *(launch_marks(self.system, self.start) if self.start else ())]
         if not any(isinstance(mark, AxisOfRotation) for mark in found):
             found += self._axis_of_table()
-        # The drawing of an impact omits angles that are zero at the impact, and all distances that are coordinates.
+        # The drawing of an impact omits angles and distances that are zero at the impact, distances with a given rate,
+        # and marks of origins.
         if self.impact is not None:
             found = [
                 mark for mark in found if not (isinstance(mark, OriginMark) or is_of_the_moment(mark, self.impact))
@@ -227,7 +228,8 @@ class _Scene:
         return _Scene(self.system, self.named).marks
 
     def _between_supports(self, marks: Iterable[Mark]) -> Iterable[Mark]:
-        """Yield dimension lines for distances between supports at the same height, on the side away from the masses."""
+        """Yield dimension lines for distances between supports at the same height. A line is above the supports if all
+        masses are lower and one of them can move vertically; otherwise it is below."""
         if self.rows != 2:
             return
         number = self.connections.number
@@ -574,7 +576,7 @@ class _Scene:
         """Return the direction and the magnitude of the arrow of a given force; None if the force is not drawn.
 
         A force whose magnitude contains a coordinate is left out, because the sign of the label could be wrong in the
-        drawn state. So is a force with several components whose magnitude contains a root.
+        drawn state. A force with several components is left out if its magnitude contains a root.
         """
         if len(each.at) != self.rows or self._is_friction(each):
             return None

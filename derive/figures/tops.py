@@ -40,8 +40,8 @@ CENTRE = "C"
 def turns_about_axes(system: System, placed: Any, end: Location) -> Iterable[Mark]:
     """Yield rotation arrows for the precession about the vertical and for the spin about the axis of a body.
 
-    If there is a spin, also yield axes of the body. Yield nothing unless at least two rotations vary and the first
-    rotation is about the vertical.
+    If there is a spin, also yield the axis of the body and, if the line of nodes is a principal axis, the transverse
+    axes. Yield nothing unless at least two rotations vary and the first rotation is about the vertical.
 
     end   the end of the axis of the body
     """

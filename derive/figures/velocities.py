@@ -79,7 +79,7 @@ def launch_marks(system: System, moment: Moment) -> Iterable[Mark]:
         angle = next((f.args[0] for f in along.atoms(cos) if is_zero(along - size * f)), None)
         if angle is not None and angle.is_Symbol:
             way = column_of(start) * 0 + ImmutableDenseMatrix([velocity.components[0] / size, ZERO])
-            has_axis = not any(start.components)  # the first axis starts at the origin
+            has_axis = not any(start.components)  # an axis already starts at the origin
             yield AngleBetween(column_of(start), way, column_of(velocity) / size, not has_axis, label=angle)
     for placed in system.bodies:
         yield from _guided(system, moment, placed)

@@ -1,9 +1,9 @@
-"""Grades the answers that students typed, and says how each was read, whether it is right, and what is wrong with it.
+"""Grades the answers that students typed, and says how each answer was read, whether it is right, and what is wrong.
 
     names          the symbols of a problem, and which symbol a typed letter means
     typed_text     the text of an answer, tidied: ASCII and Unicode as LaTeX, split into statements
     reading        the statements as expressions in the symbols of the problem
-    reading_latex  the statements that were read, as LaTeX
+    reading_latex  the reading of an answer, as LaTeX
     key            the answers that a problem asks for, with their dimensions, numbers and points
     outcomes       the verdicts, and the share of the points that each earns
     comparing      the verdict on a formula

@@ -88,7 +88,7 @@ class _Comparison:
 
     def of_scalar(self, value: Expr, right: Expr) -> Verdict:
         if self.names_only(value, right):
-            return Verdict(Outcome.DIFFERENT, f"`{value}` only names a quantity and does not say what it is")
+            return Verdict(Outcome.DIFFERENT, f"`{value}` only names a quantity, but does not give its value")
         for test in (
             self.identity,
             self.definitions,

@@ -95,10 +95,10 @@ def verdict_on_number(
 ) -> Verdict:
     """Judge a number.
 
-    is_decimal   whether it is a single decimal number, which may be rounded; any other number is compared exactly
-    figures      the number of its significant figures
-    places       the number of its digits after the point; the unit of its last digit is 10^-places (places = -2 for
-                 1.5e3)
+    is_decimal   whether the value is a single decimal number, which may be rounded; any other value is compared exactly
+    figures      the number of significant figures of the value
+    places       the number of digits of the value after the point; the unit of the last digit is 10^-places (places =
+                 -2 for 1.5e3)
     """
     dimension = target.dimension or NUMBER
     if unit is not None and unit.dimension != dimension:
@@ -207,7 +207,8 @@ def _many_digits(exact: Expr) -> Rational:
 def _told(exact: Expr, figures: int, unit: str) -> str:
     shown = rounded(exact, figures)
     number = f"{float(shown):.{figures}g}"
-    return f"it is {number} {unit}".rstrip() if unit != "the SI" else f"it is {number} in SI units"
+    shown = f"{number} {unit}".rstrip() if unit != "the SI" else f"{number} in SI units"
+    return f"the right value is {shown}"
 
 
 __all__ = ["components_of", "figures_of", "unit_in", "verdict_on_number", "with_units"]

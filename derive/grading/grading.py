@@ -356,7 +356,7 @@ class _Grading:
         self, targets: list[Target], statements: list[_Statement]
     ) -> dict[str, tuple[Verdict, list[_Statement]]] | None:
         """Judge equations of motion together: other equations are right if they give the same accelerations. Return
-        None if they give other accelerations, if each is right on its own, or if they cannot be judged together.
+        None if they give other accelerations, if each equation is right alone, or if they cannot be judged together.
         """
         if not 1 < len(targets) == len(statements) or not all(target.is_relation for target in targets):
             return None
@@ -432,7 +432,9 @@ class _Grading:
             distinct = list(dict.fromkeys(wanted))
             values = _repeated(values, distinct, wanted)
         if len(values) != len(wanted):
-            return Verdict(Outcome.MISSING, f"{len(wanted)} values are asked for, but {len(values)} are given"), used
+            return Verdict(
+                Outcome.MISSING, f"the part asks for {len(wanted)} values, but the answer gives {len(values)}"
+            ), used
         read = replace(used[0].last[0], value=Matrix(values))
         return verdict_on_value(read, target, self.key), used
 
@@ -478,7 +480,9 @@ class _Grading:
                 break
         found = best_of(verdicts)
         if found.is_right and (side := self.unequal_side(statement)) is not None:
-            told = f"the sides of the equation are not equal: {latex_of(side.node, self.key.names)[:160]}"
+            told = (
+                f"one side of the equation is not equal to the last side: {latex_of(side.node, self.key.names)[:160]}"
+            )
             return replace(found, outcome=Outcome.DIFFERENT, because=told)
         if found.because == DIFFERS and len(self.part.targets) == 1:
             return found.adding(self.nearest(statement.last[0], target))
@@ -607,8 +611,8 @@ class _Grading:
 
     @staticmethod
     def angle_in(statement: _Statement, target: Target) -> Any:
-        """The name of a typed angle. A number without a name is the angle in `cos(theta) = 2/3` if its unit is that of
-        an angle."""
+        """The name of a typed angle. A number without a name is the angle in `cos(theta) = 2/3` if it has a unit of
+        angle."""
         arguments = target.value.left.args
         if statement.is_single and arguments:
             unit = next((unit for _, unit in with_units(statement.texts[-1])), None)
@@ -646,7 +650,7 @@ class _Grading:
             told = "the inequality has the wrong direction" if is_turned else "it is another condition"
             return replace(found, outcome=Outcome.SIGN, because=told)
         if mark != goal:
-            told = "whether the limiting case is included is not judged"
+            told = "the limiting case itself is not judged"
             return replace(found, outcome=Outcome.CONVENTION, because=told)
         return found
 
@@ -663,7 +667,8 @@ class _Grading:
         return replace(verdict, reading=self.named(statement, shown, left))
 
     def named(self, statement: _Statement, shown: str, left: Read | None = None) -> str:
-        """Return the reading of a whole statement; `shown` is the reading of its last side, and `left` of its first."""
+        """Return the reading of a whole statement; `shown` is the reading of its last side, and `left`
+        is the reading of its first side."""
         if statement.is_single or not statement.first:
             return shown
         middle = statement.read.sides[1:-1] if statement.read is not None else ()

@@ -140,7 +140,7 @@ class Key:
 
     @property
     def told(self) -> list[tuple[str, str]]:
-        """Return the labels of the parts, and the names of the answers that each asks for."""
+        """Return the labels of the parts, and the names of the answers that each part asks for."""
         return [(part.label, ", ".join(target.key for target in part.targets)) for part in self.parts]
 
     @cached_property
@@ -157,7 +157,7 @@ def label_in(labels: Sequence[str], name: str) -> str | None:
 
 
 def _split(name: str) -> tuple[str, str]:
-    """Split `2(1)` or `b.1` into the names of a part and of an answer in it."""
+    """Split `2(1)` or `b.1` into the names of a part and of one of its answers."""
     plain = name.strip().lower().removeprefix("part").strip()
     found = re.fullmatch(r"\(?([a-z]|\d{1,3})[).:]?(?:\s*[(.]?\s*(\w+)\s*\)?)?", plain, re.ASCII)
     if found is None:

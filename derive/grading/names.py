@@ -1,7 +1,7 @@
 """The symbols of a problem by their letters, and the symbol that a typed letter means.
 
 A symbol is found by its letter, its subscript and its number of dots; `_` and `,` in a subscript are ignored. A letter
-that the problem does not have may be another way to type one of its letters: `w` for omega.
+that the problem does not have may be another way to type a letter of the problem: `w` for omega.
 """
 
 from __future__ import annotations

@@ -224,8 +224,8 @@ def _with_products(node: Any, names: Names) -> Any:
 
 
 class _Near:
-    """Ends arguments and denominators without brackets early: `sin a/b` is (sin a)/b, `sin a (b + c)` is a product, and
-    `a/b (c + d)` is a/b times a bracket."""
+    """Ends an argument or a denominator without brackets as soon as possible: `sin a/b` is (sin a)/b,
+    `sin a (b + c)` is a product, and `a/b (c + d)` is a/b times a bracket."""
 
     def __init__(self, side: TypedSide):
         self.strokes = [token.span.start for token in side.tokens if token.is_mark("/")]

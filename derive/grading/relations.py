@@ -39,7 +39,7 @@ def verdict_on_relation(left: Read, mark: str, right: Read, target: Target, key:
         return Verdict(Outcome.DIFFERENT, "this relation is not graded")
     typed = Relation(aligned(left.value, goal), mark, aligned(right.value, goal))
     if typed.residual == 0 or are_surely_equal(typed.left, typed.right):
-        return Verdict(Outcome.DIFFERENT, "both sides are equal, so this says nothing")
+        return Verdict(Outcome.DIFFERENT, "both sides of this relation are equal")
     if _are_equivalent(typed, goal) or _are_equivalent_with_cosines(typed, goal):
         return Verdict(Outcome.EQUAL, "")
     full = Relation(comparison.expanded(typed.left), mark, comparison.expanded(typed.right))
@@ -153,7 +153,7 @@ def angle_of(target: Target, name: Any) -> Target | None:
 
 def _wrong_inequality(typed: Relation, goal: Relation, key: Key) -> Verdict:
     for operator, because, outcome in (
-        (STRICT.get(typed.operator), "whether the limiting case is included is not judged", Outcome.CONVENTION),
+        (STRICT.get(typed.operator), "the limiting case itself is not judged", Outcome.CONVENTION),
         (TURNED.get(typed.operator), "the inequality has the wrong direction", Outcome.SIGN),
         (STRICT.get(TURNED.get(typed.operator, ""), ""), "the inequality has the wrong direction", Outcome.SIGN),
         (
@@ -232,9 +232,11 @@ def _inhomogeneous(comparison: _Comparison, typed: Relation) -> Verdict | None:
 
 
 def _scalings(given: Expr, wanted: Expr) -> list[Expr]:
-    """Return at most four multiples of an equation, the one with the most terms of the right equation first; if several
-    have equally many, the unchanged equation comes first. Each multiple has at least one such term, and its factor
-    contains no rate and no coordinate: M = 0 is not an equation of motion in which a term is missing.
+    """Return at most four multiples of an equation. The multiple with the most terms of the right equation comes first;
+    among equals, the unchanged equation comes first.
+
+    Each multiple has at least one such term. Its factor contains no rate and no coordinate, because M = 0 must not
+    count as an equation of motion in which a term is missing.
     """
     letters = {each for each in wanted.free_symbols if isinstance(each, Symbol)}
     moving = {each for each in letters if each.name.endswith(RATES[1:]) or {rate(each), rate(each, 2)} & letters}
@@ -278,7 +280,7 @@ def verdict_on_equation_for(left: Read, right: Read, target: Target, key: Key) -
     signs = (1, -1) if PLUS_MINUS in put_in.free_symbols else (1,)
     if all(are_equal(put_in.xreplace({PLUS_MINUS: Integer(s)}), Integer(0)) for s in signs):
         doubled = are_equal(rest.xreplace({symbol: -full}), Integer(0)) and len(signs) == 1
-        note = "its sign is left open" if doubled and not symbol.is_positive else ""
+        note = f"the sign of {shown(symbol, key)} is left open" if doubled and not symbol.is_positive else ""
         return Verdict(Outcome.EQUAL, f"as an equation for {shown(symbol, key)}" + (f"; {note}" if note else ""))
     if inexact := (*left.decimals, *right.decimals):
         within = sum(Rational(1, 2) / Integer(10) ** digits / abs(each) for each, digits in inexact if each)

@@ -1,6 +1,7 @@
 """Many answers at once, as CSV: a row for each answer, and the same rows with their verdicts.
 
-A spreadsheet runs a cell that begins with a sign such as `=` as a formula, so an apostrophe is written before it.
+A spreadsheet runs a cell that begins with a sign such as `=` as a formula, so an apostrophe is written before such a
+cell.
 """
 
 from __future__ import annotations

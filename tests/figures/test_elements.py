@@ -111,7 +111,7 @@ def test_a_mark_rests_on_the_steps_behind_its_places() -> None:
     [
         (lambda: rope(ORIGIN), "a rope needs two places or more"),
         (lambda: wedge(ORIGIN, TOP), "a wedge needs three corners or more"),
-        (lambda: way(point(l, 0), a), "`letter` of `way` must be a symbol in its `place`, but a is not"),
+        (lambda: way(point(l, 0), a), "`letter` of `way` must be a symbol in `place`, but a is not"),
         (lambda: rod(ORIGIN, point(0, 0, 1)), "some places of a drawing have two components, and some have three"),
         (lambda: particle(l), "a drawing needs a vector or a place here, but the value is of type Symbol"),
         (lambda: angle_mark(ORIGIN, "below", TOP, "theta"), 'a drawing has no side "below"'),

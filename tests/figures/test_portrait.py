@@ -47,7 +47,7 @@ def test_the_energy_at_which_a_body_escapes_is_thick_and_an_open_curve_has_two_a
 def test_a_value_without_a_curve_is_rejected() -> None:
     with pytest.raises(Rejected) as refused:
         portrait_of(p**2 + q**2, PLANE, BOX, ((9.0, False),))
-    assert refused.value.complaints[0].help == "in these ranges, its values are from 0 to 8"
+    assert refused.value.complaints[0].help == "the values in these ranges are from 0 to 8"
 
 
 def test_a_function_must_be_real_and_finite() -> None:

@@ -291,7 +291,7 @@ def held_rod(**more: Any) -> Any:
         (lambda: Rod(l, m).placed(coordinate("theta"), (1, 2)), "must come from `point` or `place`"),
         (
             lambda: Rod(l, m).placed(coordinate("theta"), point(0, 0, 0)),
-            "if it is an angle, two components",
+            "if `turned` is an angle, two",
         ),
         (lambda: Rod(l, m).held("up", at="end"), "must be a set of axes or an angle"),
         (lambda: Rod(l, m).held(coordinate("theta"), at="corner"), "has no point"),

@@ -240,7 +240,7 @@ def test_constraints_that_repeat_or_contradict_one_another_are_refused() -> None
     with recorded():
         lengths("x", "y")
         found = falling(constraint(x + y, l, force="A"), constraint(x + y, 2 * l, force="B"))
-        with pytest.raises(Rejected, match="A, B contradict one another"):
+        with pytest.raises(Rejected, match="A, B contradict each other"):
             multipliers(*found)
 
 

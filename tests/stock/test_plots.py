@@ -419,7 +419,7 @@ OVER = "    over: {theta: [-180 deg, 180 deg], p_theta: [-9 kg*m^2/s, 9 kg*m^2/s
         ([("-9 kg*m^2/s", "-9 kg*m/s")], 17, "`range` must be an angular momentum", ""),
         ([(", g: 9.8 m/s^2", "")], 14, "the plot `portrait` needs a number for `g`", ""),
         ([("15 J", "200 J")], 14, "the phase portrait has no curve with the value 200",
-         "in these ranges, its values are from -9.8 to 50.3"),
+         "the values in these ranges are from -9.8 to 50.3"),
     ],
 )  # fmt: skip
 def test_a_mistake_in_a_phase_portrait_is_reported(

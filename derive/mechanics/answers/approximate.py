@@ -57,8 +57,8 @@ def equation_in_limit(
     to         0 if the letter is small, SymPy's `oo` or `-oo` if it is large, else the value that it is near
     order      the highest power of the small quantity that is kept; by default only the leading terms
 
-    If a function of a small letter and the time, such as cos(Omega t), is expanded, the sentence of the step says that
-    the result is valid only for short times.
+    If a function of a small letter and the time is expanded, such as cos(Omega t), the result is valid only for short
+    times. The sentence of the step says so.
     Check: numerically, the terms that are left out, divided by the highest power that is kept, go to zero with the
     small quantity.
     Outcomes: small, large, near (only the leading terms); first_order, to_order; exact (nothing is left out).

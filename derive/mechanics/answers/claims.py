@@ -560,8 +560,8 @@ def _between_the_ends_just_where_told(facts: Judged) -> bool:
 
 
 def goes_where_it_is_said(facts: Judged, outcome: str) -> bool:
-    """Whether the sentence names the right limit of a letter, or of a ratio such as h/R. It must go to this limit when
-    the symbol of the expansion, here h, goes to the limit of the step."""
+    """Whether the sentence names the right limit of a letter, or of a ratio such as h/R. The letter or ratio must
+    go to this limit when the symbol of the expansion, here h, goes to the limit of the step."""
     goes, approach, to = (facts.inputs[role] for role in ("letter", "approach", "to"))
     if not isinstance(approach, Approach) or approach.args[0] != goes:
         return False

@@ -84,13 +84,13 @@ def where(
     Check: quantity minus bound is zero if the unknown equals the right side of the solved relation. If the sign of this
     difference is known for greater values of the unknown, the original and the solved relation agree above, at and
     below the right side. If the two relations differ by a factor of unknown sign, they are also compared at random
-    points: at each point both relations are true, or both are false. A relation that holds for all values of the
+    points. At each point both relations are true, or both are false. A relation that holds for all values of the
     letters is tested at random points only.
     A divisor of both sides of an equation must not vanish: the page states this condition if it is not known to hold.
     The sign of a divisor of an inequality must be known from the letters, their ranges or their numbers.
     Outcomes: solved, squared (solved for the square of the letter only); for all values of the letters: always, never,
     equal (the two sides are equal, so the requested <, > or != never holds).
-    Errors: the relation cannot be solved for that letter; an unknown comparison sign.
+    Errors: the relation cannot be solved for the letter; an unknown comparison sign.
     Source: none needed: algebra of inequalities.
     """
     if mark not in TURNED:

@@ -176,7 +176,7 @@ def _not_one(of: Quantity, x: Symbol, verb: str, count: int, elsewhere: bool) ->
     help_line: str = Spelled(f"{only_one}, `within=(..., ...)`", f"{only_one}, `within: [0, pi/2]`")
     if not count:
         curvature = "negative" if verb == "maximum" else "positive"
-        message = f"`{verb}`: `{of.key}` has no place with zero slope and {curvature} curvature"
+        message = f"`{verb}`: `{of.key}` has no allowed place with zero slope and {curvature} curvature"
         help_line = f"the {verb} may be at an end of the interval: `put_in` gives the value there"
     if not count and elsewhere:
         message = f"`{verb}`: `{of.key}` is not stationary for any allowed {x.name}"
@@ -216,7 +216,7 @@ def _conditions(real: Relation | None, room: Sequence[Relation]) -> dict[str, Re
 
 def _inside(place: Expr, real: Relation | None, within: Within | None, x: Symbol) -> list[Relation] | None:
     """Return the conditions for the place to lie between the ends of the interval. The list is empty if the place
-    always lies between them; return None if it never does, or does not for the given numbers."""
+    always lies between them. Return None if the place never lies between them, or not for the given numbers."""
     below, above = ([within[0]], [within[1]]) if within else _bounds(x)
     if real is not None and below in ([], [0]) and not above:  # every real place is allowed
         return []

@@ -114,7 +114,9 @@ def limiting_case(
     name = _name(of) if solved is None else solved
     goes, x = _what_goes(letter)
     if not isinstance(value, Expr | MatrixBase):
-        raise Rejected(Complaint("wrong-argument", f"`limiting_case`: `{of.key}` is not a number"))
+        raise Rejected(
+            Complaint("wrong-argument", f"`limiting_case`: `{of.key}` is not a scalar, a vector or a tensor")
+        )
     aim = explicit(to.value if isinstance(to, Quantity) else to)
     _check_letter(of, value, x, is_end=aim in (oo, -oo))
     far = [(x, aim)] if aim in (oo, -oo) else []

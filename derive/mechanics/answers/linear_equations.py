@@ -70,7 +70,7 @@ def solved_for(
         names = ", ".join(str(u) for u in wanted)
         message = f"`solved_for`: {_named(given, 'do', 'does')} not determine {names}"
         several = "one of the equations follows from the others, or they contradict each other"
-        help_line = several if len(given) > 1 else "its coefficient in this equation is zero"
+        help_line = several if len(given) > 1 else "the coefficient of the unknown is zero in this equation"
         raise Rejected(Complaint("singular", message, help=help_line))
     values = eliminated(matrix, right)
     below = [tidied(value).as_numer_denom()[1] for value in values]  # the denominators must not vanish, either

@@ -448,7 +448,9 @@ def _chosen(found: Sequence[Quantity], which: str) -> Quantity:
         raise Rejected(Complaint("no-root", f"there is no root that could be `{which}`", argument="root"))
     if which.isdigit():
         if not 1 <= int(which) <= len(found):
-            raise _no_choice(which, f"there {'is' if len(found) == 1 else 'are'} {len(found)}", found)
+            raise _no_choice(
+                which, "there is only 1 root" if len(found) == 1 else f"there are {len(found)} roots", found
+            )
         return found[int(which) - 1]
     if which not in CHOICES:
         help_line = did_you_mean(which, CHOICES) or f"write {', '.join(f'`{way}`' for way in CHOICES)}, or a number"

@@ -82,8 +82,8 @@ def put_in(
     """Value or equation in which other results, or values of letters, are substituted: f(x) with x = g is f(g).
 
     of       a value or an equation
-    others   results, each of which replaces its letter; equations for a letter or a rate, or for a power, sine, cosine
-             or tangent of a letter; mappings of letters or coordinates to values
+    others   results, each of which replaces its letter, and mappings of letters or coordinates to values. A result may
+             be an equation for a letter, for a rate, or for a power, sine, cosine or tangent of a letter
     values   values of letters, by their names: `theta=0`; for a coordinate or a rate, the value at one instant
     again    an earlier result that this substitution must reproduce
     fixed_by the constraints that together fix the substituted values of coordinates; the sentence gives this reason
@@ -214,8 +214,8 @@ def _sorted_out(others: Sequence[Rests]) -> tuple[list[Quantity], dict[Any, Any]
 
 
 def _replacements(quantity: Quantity, of: Quantity) -> list[Replacement]:
-    """Return the replacements for a result. Its value replaces its symbol. If the result gives a coordinate or a rate
-    as a function of coordinates, rates or the time, the time derivatives of this coordinate or rate are also replaced.
+    """Return the replacements for a result. The value of the result replaces its symbol. If the result gives a
+    coordinate or a rate as a function of coordinates, rates or the time, its time derivatives are also replaced.
     A conserved momentum also replaces the rate of its coordinate."""
     kept = quantity.fact(KeptMomentum)
     if kept is not None:
@@ -439,8 +439,8 @@ def _name(of: Quantity, symbol: str | None) -> Any:
 
 
 def _means(name: Any, result: Any) -> dict[Any, Any]:
-    """Return the value of the symbol that the name of the result contains, such as theta_dot in theta_dot^2. For
-    the name |q_dot|, this is the symbol q_dot.
+    """Return the value of the symbol that the name of the result contains, such as theta_dot in theta_dot^2. In
+    the name |q_dot|, this symbol is q_dot.
     """
     if isinstance(name, Abs):
         return {name.args[0]: result}

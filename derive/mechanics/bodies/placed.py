@@ -2,7 +2,7 @@
 
 The orientation in space is a set of axes. In a plane the orientation is an angle about the normal, positive
 counterclockwise. One body axis is perpendicular to the plane and points towards the reader. At zero angle, the two body
-axes after it in the cyclic order x, y, z are along the axes of the plane.
+axes after this axis in the cyclic order x, y, z are along the axes of the plane.
 """
 
 from __future__ import annotations
@@ -204,7 +204,7 @@ def _placed(body: Any, turned: Any, point: Point, at: Any, across: str | None) -
         raise Rejected(Complaint("wrong-argument", "the place of a body must come from `point` or `place`"))
     count = 3 if isinstance(turned, Axes) else 2
     if len(at.components) != count:
-        message = "if `turned` is a set of axes, the place needs three components; if it is an angle, two components"
+        message = "if `turned` is a set of axes, the place needs three components; if `turned` is an angle, two"
         raise Rejected(Complaint("wrong-argument", message))
     if isinstance(turned, Axes):
         if getattr(body, "is_plane", False):

@@ -122,8 +122,8 @@ class Region:
 
 
 def coordinates(names: Iterable[str], taken: Collection[Symbol]) -> list[Symbol]:
-    """Symbols for coordinates, for example r, or s if r is taken. As far as the names in `OTHERS` allow, they differ
-    from each other, from the symbols in `taken` and from the letters of the problem."""
+    """Symbols for coordinates, for example r, or s if r is taken. If `OTHERS` has enough names, the symbols
+    differ from each other, from the symbols in `taken` and from the letters of the problem."""
     letters = {letter.name for letter in (*taken, *named_coordinates())} | given_letters()
     found: list[str] = []
     wanted = list(names)

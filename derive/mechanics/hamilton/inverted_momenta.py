@@ -1,4 +1,4 @@
-"""Invert momenta p that are not linear in the rates v; L contains v in one quadratic form, otherwise only linearly.
+"""Invert momenta p that are not linear in the rates v, if L contains v only in linear terms and in one quadratic form.
 
 Then p_i - b_i = g(s) (A v)_i with s = v . A v, where b is the value of p at v = 0. So v has the direction of
 w = A^-1 (p - b), and v = u w. The factor u follows from g(u^2 S) u = 1 with S = w . A w. For a relativistic particle

@@ -64,8 +64,8 @@ def rates_by_momenta(
     Keys: rate_x for the coordinate x, if `key` is "rate"; for constant momenta p_x and p_y, rate_x_by_p_x_p_y.
     Check: the rates substituted in the momenta give the symbols of the momenta.
     Outcomes: alone (one rate), together (several).
-    Errors: the momenta do not determine the rates; too many rates are coupled; the momenta are not linear in the rates
-    (this is allowed if L contains the rates in one sum of squares, and otherwise only linearly).
+    Errors: the momenta do not determine the rates; too many rates are coupled; the momenta are not linear in the rates,
+    except if L contains the rates only in linear terms and in one sum of squares.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 8.1.
     """
     own = [p.needed(OfCoordinate).coordinate for p in given]
@@ -100,8 +100,8 @@ def rates_by_momenta(
 
 def _solved(momenta_of: Mapping[Symbol, Expr], rates: Sequence[Symbol]) -> dict[Symbol, Expr]:
     """Solve for the rates. If the momenta are linear in the rates, solve the equations in blocks of coupled rates.
-    Otherwise solve all equations together; then L must contain the rates in one sum of squares, and otherwise only
-    linearly."""
+    Otherwise solve all equations together; then L must contain the rates only in linear terms and in one sum of
+    squares."""
     matrix = Matrix([[derivative(explicit(p), v) for v in rates] for p in momenta_of.values()])
     at_rest = dict.fromkeys(rates, ZERO)
     wanted = Matrix([letter - bound(explicit(p), at_rest) for letter, p in momenta_of.items()])
@@ -113,7 +113,7 @@ def _solved(momenta_of: Mapping[Symbol, Expr], rates: Sequence[Symbol]) -> dict[
             Complaint(
                 "wrong-argument",
                 "rates follow from momenta only if the momenta are linear in the rates, or if the Lagrangian contains "
-                "the rates in one sum of squares, and otherwise only linearly",
+                "the rates only in linear terms and in one sum of squares",
             )
         )
     found: dict[Symbol, Expr] = {}

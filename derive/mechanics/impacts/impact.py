@@ -123,7 +123,7 @@ def collision(
         raise Rejected(Complaint("wrong-argument", message, help="give `along`"))
     if (part < 0) == True or (part > 1) == True:  # noqa: E712  the relation may be undecided
         raise Rejected(
-            Complaint("wrong-argument", f"a coefficient of restitution must be between 0 and 1, but this is {part}")
+            Complaint("wrong-argument", f"a coefficient of restitution must be between 0 and 1, but {part} is not")
         )
     size_of_normal = tidied(sqrt(Add(*(c**2 for c in normal)))) if normal else ONE
     unit = tuple(tidied(c / size_of_normal) for c in normal)
@@ -222,8 +222,8 @@ class Impact:
             )
 
     def _check_material_points(self, acts: Sequence[Impulse | Collision]) -> None:
-        """If no body is stated for an impulse, or for one of the two places that collide, this place must be at rest,
-        or move with a body or a particle."""
+        """A place without a stated body, of an impulse or a collision, must be at rest or move with a body or a
+        particle."""
         asked: list[tuple[Any, Vector]] = []
         for act in acts:
             if isinstance(act, Impulse):
@@ -247,7 +247,7 @@ class Impact:
         if moving := coordinates_in(ImmutableDenseMatrix([ZERO, *arms.values()])):
             name = next(iter(moving)).name
             message = f"the point of the body on which the impulse acts depends on {name}"
-            raise Rejected(Complaint("changes", message, help=f"give the value of `{name}` at that instant under `at`"))
+            raise Rejected(Complaint("changes", message, help=f"give the value of `{name}` at the impact under `at`"))
         return tuple(c.xreplace(arms) for c in point.place)
 
     @property
@@ -388,7 +388,7 @@ class Impact:
         across = [way[i] * along[j] - way[j] * along[i] for i in range(len(way)) for j in range(i)] if along else way
         if not all(is_zero(c) for c in across):
             message = "the two places of this collision do not meet"
-            raise Rejected(Complaint("wrong-argument", message, help="give the coordinates at that instant under `at`"))
+            raise Rejected(Complaint("wrong-argument", message, help="give the coordinates at the impact under `at`"))
 
     def _kept(self, c: Constraint) -> Meeting:
         if not is_zero(self.earlier(c.velocity(self.moving))):

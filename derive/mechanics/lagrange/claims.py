@@ -236,7 +236,8 @@ def has_rates(condition: Expr) -> bool:
 def is_stretched(facts: Judged) -> bool:
     """Whether the symbol of the result is a multiplier that differs from the constraint force.
 
-    It is the force if |df/dr| is equal to the input `gradient`, for the condition f and the position r of the particle.
+    The symbol is the force if |df/dr| is equal to the input `gradient`, for the condition f and the position r of
+    the particle.
     """
     place, condition = (facts.inputs.get(role) for role in ("place", "condition"))
     if not place or condition is None:

@@ -874,7 +874,9 @@ def _undetermined(problem: _Problem, matrix: ImmutableDenseMatrix) -> Rejected:
         names = ", ".join(each.force.name for each in problem.constraints)
         message = f"the equations do not determine the constraint forces {names}"
         if _contradict(problem.constraints):
-            message = f"the constraints enforced by {names} contradict one another, so the forces are not determined"
+            message = (
+                f"two of the constraints enforced by {names} contradict each other, so the forces are not determined"
+            )
         return Rejected(
             Complaint("constraints", message, help="remove constraints that follow from the others or contradict them")
         )

@@ -231,8 +231,8 @@ def _without_common_factor(left: Expr, moving: Sequence[Symbol]) -> Expr:
 def _in_whole_numbers(terms: Sequence[Expr]) -> list[Expr]:
     """Make all numeric factors integers: 2 l theta_ddot + 3 g sin(theta), not l theta_ddot/3 + g sin(theta)/2.
 
-    In the moment of inertia I + M a^2/4, only some summands have a denominator. If a term has such a factor and a
-    coefficient is a fraction, return the terms unchanged.
+    In a sum such as I + M a^2/4, only some terms have a denominator. If a factor is such a sum, and a coefficient is a
+    fraction, return the terms unchanged.
     """
     apart: list[tuple[Expr, list[Expr]]] = []
     for term in terms:

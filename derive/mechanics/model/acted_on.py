@@ -19,10 +19,14 @@ from derive.mechanics.model.forces import GivenForce
 from derive.steps.step import is_zero
 
 WHERE_IT_ACTS: Mapping[str, str] = {
-    "force": "name the body on which it acts, `of: ball`, or write `of: massless` for a part without mass",
-    "drag": "name the body on which it acts, `of: ball`, or write `of: massless` for a part without mass",
-    "spring": "attach it to a particle or a point of a body, or write `massless: true` for a joint without mass",
-    "central force": "attach it to a particle or a point of a body, or write `massless: true` for a joint without mass",
+    "force": "name the body on which the force acts, `of: ball`, or write `of: massless` for a part without mass",
+    "drag": "name the body on which the drag acts, `of: ball`, or write `of: massless` for a part without mass",
+    "spring": (
+        "attach the spring to a particle or a point of a body, or write `massless: true` for a joint without mass"
+    ),
+    "central force": (
+        "attach the force to a particle or a point of a body, or write `massless: true` for a joint without mass"
+    ),
 }
 
 

@@ -89,9 +89,9 @@ class Constraint(Part):
     def sense(self, side: int) -> str:
         """Return the direction of the force on the first body, if the symbol of the force has the sign `side`.
 
-        The result is "up", "down", "right" or "left". If the vertical component is not zero and has a known sign, it
-        decides; otherwise the horizontal component decides. The result is empty for a motion in space, or if
-        the direction is unknown.
+        The result is "up", "down", "right" or "left". If the sign of the vertical component is known and not zero,
+        this sign decides; otherwise the sign of the horizontal component decides. The result is empty for a motion in
+        space, or if the direction is unknown.
         """
         signs = [sign_known(side * c) for each in self.acting[:1] for c in each.direction]
         if len(signs) != 2 or not (signs[1] or signs[0]):

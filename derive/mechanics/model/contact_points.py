@@ -62,9 +62,9 @@ def _foot(placed: PlacedBody, curve: Curve) -> tuple[Location, Expr]:
 def _feet(placed: PlacedBody, curve: Curve) -> Iterator[Location]:
     """Yield places of the curve that a round body may touch.
 
-    First come the places whose horizontal distance from the origin of the curve is a coordinate of the body. Then come
-    the places of the centre of the body with one coordinate, or one symbol of the radius, replaced by zero; only those
-    on the curve are yielded.
+    First come the places whose horizontal distance from the origin of the curve is a coordinate of the body. For each
+    other place, one coordinate or one symbol of the radius is replaced by zero in the place of the centre of the body.
+    Only the places on the curve are yielded.
     """
     moving = coordinates_in(column_of(placed.hub))
     yield from (curve.point(q) for q in moving)

@@ -238,7 +238,7 @@ def _check_moves_with_its_material(surface: Surface) -> None:
     help_line = (
         f"{what}`along: [cos(theta), sin(theta)]`; the place `through` must move with them"
         if isinstance(surface, Plane)
-        else "its centre must move with the axes, or with the body that carries it, like a point of this body"
+        else "the centre of the surface must move like a point of the axes, or of the body that carries the surface"
     )
     raise Rejected(Complaint("which-body", f"the surface does not move with {who}", help=help_line))
 
@@ -485,7 +485,7 @@ def _coefficient(touch: Contact, coefficient: Any, letter: str) -> Expr:
     mu = as_expr(coefficient)
     require_constant("contact", "coefficient of friction", mu)
     if touch.is_kept:
-        message = f"the coordinates keep the body on the surface, so its normal force `{letter}` does not appear"
+        message = f"the coordinates keep the body on the surface, so the normal force `{letter}` does not appear"
         help_line = f"give the body a coordinate for its distance from the surface, and write `normal: {letter}`"
         raise Rejected(Complaint("not-an-unknown", message, help=help_line))
     return mu

@@ -67,8 +67,8 @@ def test_the_other_root_is_chosen(choice: str, tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("choice", "said"),
     [
-        ("3", "`root: 3` does not determine one root: there are 2"),
-        ("0", "`root: 0` does not determine one root: there are 2"),
+        ("3", "`root: 3` does not determine one root: there are 2 roots"),
+        ("0", "`root: 0` does not determine one root: there are 2 roots"),
         ("latest", "`latest` does not say which root is meant"),
     ],
 )
