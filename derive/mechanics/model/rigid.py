@@ -26,7 +26,7 @@ from derive.steps.subject import NOTHING, Subject
 
 __all__ = ["angular_velocity"]
 
-Inertia: TypeAlias = Quantity | Expr  # a step, or the symbol of a moment about the axis perpendicular to the plane
+Inertia: TypeAlias = Quantity | Expr  # a step; or the symbol of a moment of inertia about the normal to the plane
 MANY_TERMS = 20
 _SQUARES = (lambda value: value, TR5, TR6)  # unchanged; sin^2 becomes 1 - cos^2; cos^2 becomes 1 - sin^2
 
@@ -173,7 +173,7 @@ def _at_centre(placed: PlacedBody) -> bool:
 
 
 def inertia_of(placed: PlacedBody) -> Inertia:
-    """The inertia tensor of a body in space; for a body in a plane, the moment about the axis normal to the plane.
+    """The inertia tensor of a body in space; for a body in a plane, the moment of inertia about the normal to it.
 
     Errors: the given moments are about the wrong point.
     """

@@ -337,12 +337,12 @@ def _the_one_that_flies(departure: Departure) -> Flyer:
     found, reasons = [], []
     for part in dict.fromkeys(parts):
         flyer = _flyer(departure, part)
-        why = "it moves in space" if flyer is None else _why_it_is_not_free(departure, flyer)
+        why = "the motion is in space" if flyer is None else _why_it_is_not_free(departure, flyer)
         reasons += [why] if why else []
         found += [flyer] if flyer is not None and not why else []
     if len(found) == 1:
         return found[0]
-    why = "both bodies are free afterwards" if found else next(iter(reasons), "the constraint is given as a formula")
+    why = "several particles or bodies are free afterwards" if found else next(iter(reasons), "the constraint is given as a formula")
     message = f"`flight` finds the motion of a particle or a body under its weight, but {why}"
     raise Rejected(Complaint("no-flight", message))
 
@@ -449,7 +449,7 @@ def free_flight(lost: Quantity, at: Any = None, key: str = "flight") -> tuple[Qu
 
 @contextmanager
 def where(conditions: Sequence[Relation]) -> Iterator[None]:
-    """Use, within the `with` block, the conditions under which contact is lost; the step `lost` states them."""
+    """Assume the conditions under which contact is lost, within the `with` block; the step `lost` states them."""
     order = known_order()
     for each in conditions:
         difference = tidied(each.residual if each.operator == ">" else -each.residual)
@@ -727,7 +727,7 @@ def _time_back(known: InFlight) -> Expr | None:
     orbit = _orbit_of(known)
     parts = [*reversed(_beyond(known.path, orbit).expand().as_poly(TIME).all_coeffs())]
     if len(parts) != 5 or not all(is_zero(c) for c in parts[:3]):
-        message = "the flight does not begin on the circle, along the circle, and without a force from the circle"
+        message = "the flight must begin on the circle, along the circle, and without a force from the circle"
         raise Unverified(Complaint("unverified", message))
     outwards, last = (tidied(c) for c in parts[3:])
     sign = sign_known(outwards)
@@ -742,7 +742,7 @@ def _time_back(known: InFlight) -> Expr | None:
 
 def _orbit_of(known: InFlight) -> Orbit:
     if known.orbit is None:
-        message = "`lands`: the particle was not on a circle, so it is not known whether it comes back"
+        message = "`lands`: the particle was not on a circle, so it is not known whether the particle comes back"
         raise Rejected(Complaint("not-decided", message))
     return known.orbit
 
@@ -779,7 +779,7 @@ def _time_to(known: InFlight, target: Plane) -> Expr | None:
     side, towards, bend = sign_known(h), sign_known(v), sign_known(a)
     if side not in (0, 1):
         how = "departs" if side == -1 else "may depart"
-        message = f"`lands`: the particle {how} below the plane, at the distance {h} from it"
+        message = f"`lands`: the particle {how} below the plane: its distance from the plane is {h}"
         help_line = "the free side is on the left of `along`; state with `assume:` which side the particle is on"
         raise Rejected(Complaint("not-decided", message, help=help_line))
     if side == 0 and (towards in (0, -1) or bend in (0, 1)):
@@ -1018,8 +1018,7 @@ def passes_through(flight: Sequence[Quantity], through: Sequence[Any], key: str 
     through   the place: its horizontal component and its height, m
 
     Positive factors of the condition are omitted. The place must be ahead of the particle.
-    Check: the condition states that the particle has the height of the place where it has the horizontal position of
-    the place.
+    Check: the condition is equivalent to y(t) = Y at the time t with x(t) = X, where (X, Y) is the place.
     Errors: the particle always passes through the place, or never does; the horizontal velocity is zero or not
     constant; it is not known whether the place is ahead of the particle or, for a flight inside a circle, inside this
     circle.

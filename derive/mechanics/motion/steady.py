@@ -70,8 +70,8 @@ def steady_motion(
     turning = [q for q in every if not L.has(q.symbol)]
     still = [q for q in every if L.has(q.symbol)]
     if not turning or not still:
-        missing = "coordinate that is not cyclic" if turning else "cyclic coordinate, so no rate is constant"
-        raise Rejected(Complaint("wrong-argument", f"`steady_motion`: `{of.key}` has no {missing}"))
+        which = "only cyclic coordinates" if turning else "no cyclic coordinate, so no rate is constant"
+        raise Rejected(Complaint("wrong-argument", f"`steady_motion`: `{of.key}` has {which}"))
     given_rates, values = _given("rate", rates, turning, still), _given("value", at, turning, still)
     given_rates |= {k.coordinate: bound(k.turning, values) for k in (known.kept if known is not None else ())}
     steady_rates = {q.symbol: given_rates.get(q.symbol, q.rate) for q in turning}

@@ -207,14 +207,14 @@ def _check_free(of: Quantity, sought: Sequence[Symbol]) -> None:
 
 
 def _check_turns(potential: Quantity, forces: Mapping[Symbol, Expr]) -> None:
-    """Reject an angle that is positive without an upper limit, if its force repeats after each turn: then there are
+    """Reject an angle whose range has no limit on one side, if the force repeats after each turn. Such an angle has
     infinitely many equilibria, and the list for one turn would omit the others, such as 2 pi for a pendulum."""
     for q, force in forces.items():
         known = range_of(q)
         is_limited = known.least.is_finite and known.greatest.is_finite if known is not None else not q.is_positive
         if potential.coordinates.get(q) == "angle" and not is_limited and is_zero(force.subs(q, q + 2 * pi) - force):
             message = f"`equilibria`: the range of the angle {q.name} has no limit on one side, so equilibria repeat"
-            help_line = f"give {q.name} a range of one turn or less, or none, which means from -pi to pi"
+            help_line = f"give {q.name} a range of one turn or less; an angle without a range is from -pi to pi"
             raise Rejected(Complaint("wrong-argument", message, help=help_line))
 
 
