@@ -342,7 +342,8 @@ def _the_one_that_flies(departure: Departure) -> Flyer:
         found += [flyer] if flyer is not None and not why else []
     if len(found) == 1:
         return found[0]
-    why = "several particles or bodies are free afterwards" if found else next(iter(reasons), "the constraint is given as a formula")
+    unknown = next(iter(reasons), "the constraint is given as a formula")
+    why = "several particles or bodies are free afterwards" if found else unknown
     message = f"`flight` finds the motion of a particle or a body under its weight, but {why}"
     raise Rejected(Complaint("no-flight", message))
 
