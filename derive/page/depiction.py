@@ -622,8 +622,8 @@ def _curves(problem: Problem, plot: m.Plot, placement: Placement | None, words: 
 
 
 def _heights(curve: Curve, curves: Curves) -> Iterator[dict[str, Any]]:
-    """For each range in which the curve is below the line of an energy, yield this energy and the ends of the range,
-    by the names in a phrase."""
+    """For each range in which the curve is below the line of an energy, yield this energy and the ends of the range.
+    The keys are the names that the phrase uses."""
     for energy, ranges in curve.heights:
         for start, end in ranges:
             ends = [with_unit(x * curves.variable.per_unit, curves.variable.unit) for x in (start, end)]

@@ -147,8 +147,8 @@ class _Writer:
         self.pointed_to: tuple[Step, ...] = ()
         self.told_before = ""  # the key of a step that shares the sentence of the step before
         self.framed: set[str] = set()  # steps whose result is framed as an answer
-        # Whether the current part frames a result even if an earlier part has framed it. It does if it has `box:` or
-        # only one framed answer.
+        # Whether the current part frames a result even if an earlier part has framed this result. A part does so if it
+        # has `box:` or only one framed answer.
         self.frames_again = False
         self.unplaced: set[str] = set()  # steps that the page has not yet described
         self.symbols = {step.key: step.symbol for step in derivation.steps}
