@@ -474,8 +474,8 @@ def _part_of(key: str, problem: Problem, derivation: Derivation) -> int | None:
 def _given_away(
     problem: Problem, drawing: m.Recorded, placement: Placement | None, derivation: Derivation
 ) -> Complaint | None:
-    """Return an error if the `at` of a drawing names an unknown step, or if the drawing shows a step that is derived
-    later or on which no answer depends. Otherwise return None."""
+    """Return an error if the `at` of a drawing names an unknown step. Also return an error if the drawing shows a step
+    that is derived later, or on which no answer depends. Otherwise return None."""
     index, earliest = _index(problem, drawing, derivation), _earliest(drawing, derivation)
     place = (placement.at_place or placement.place) if placement else problem.place_of("solve")
     at = placement.at if placement is not None else None

@@ -281,8 +281,8 @@ class _Writer:
         )
 
     def _assumed(self) -> tuple[Inline, ...]:
-        """Return a sentence, to follow the statement, with the assumptions about symbols that are stated neither in the
-        statement, nor in a question, nor in the words of a step."""
+        """Return a sentence, to follow the statement, with the assumptions about symbols. Assumptions that the
+        statement, a question or the words of a step already contain are left out."""
         assumed = [each for each in not_implied(self.derivation.assumed) if each not in self.derivation.in_words]
         assumed = [each for each in assumed if not any(says_the_same(each, other) for other in self.formulas.stated)]
         if not assumed:

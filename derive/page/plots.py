@@ -191,7 +191,8 @@ def curves_of(problem: Problem, plot: Plot, placement: Placement | None) -> Curv
     # A number for a symbol that does not occur in any curve would be shown although it has no effect.
     cases = [tuple(number for number in case if number.symbol in letters) for _, case in pairs]
     changed = dict.fromkeys(number.symbol for case in cases[1:] for number in case if number not in cases[0])
-    # The caption states the numbers that all curves share. A single curve without a caption has them above the panel.
+    # The caption states the numbers that all curves share. The numbers of a single curve without a caption are above
+    # the panel.
     is_told = len(cases) > 1 or bool(placement and placement.caption)
     numbers = [_numbers(problem, plot, placement, (*cases[0], *case), letters) for case in cases]
     used = {letter for letter in numbers[0] if not plot.per or _matters(letter, pairs, numbers, written)}

@@ -204,7 +204,5 @@ def _check_moments(placed: PlacedBody) -> None:
         for found in established():
             at = getattr(found.subject.point, "name", None)
             if found.symbol in body.moments and at in ("centre", "centre_of_mass"):
-                message = (
-                    f"`{found.key}` is about the centre of mass, but {body.name} uses it as a moment about its pivot"
-                )
+                message = f"`{found.key}` is about the centre of mass, but {body.name} needs moments about its pivot"
                 raise Rejected(Complaint("wrong-point", message, help="derive the moments about the pivot"))

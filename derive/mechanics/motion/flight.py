@@ -310,7 +310,7 @@ class Departure:
 
 def _departure(lost: Quantity, letter: Any) -> Departure:
     if lost.step.rule != leaving.LEAVES_CONTACT.name:
-        message = f"`flight` needs the place where contact is lost, but `{lost.key}` is not one"
+        message = f"`flight` needs the place where contact is lost, but `{lost.key}` is not such a place"
         raise Rejected(Complaint("wrong-argument", message, help="name a result of `leaves`"))
     if lost.step.outcome not in ("lost", "lost_later"):
         message = f"`{lost.key}` states that contact is never lost, so no flight follows"
@@ -326,8 +326,8 @@ def _departure(lost: Quantity, letter: Any) -> Departure:
 
 def _checked_letter(letter: Any, q: Symbol) -> Symbol:
     if not isinstance(letter, Symbol) or changes(letter, [q]) is not None:
-        message = f"`at` in `flight` must be a symbol for the value of {q} at the departure, but it is {letter}"
-        raise Rejected(Complaint("wrong-argument", message, help=f"declare a symbol for it, such as `{q}_1`"))
+        message = f"`at` in `flight` must be a symbol for the value of {q} at the departure, not {letter}"
+        raise Rejected(Complaint("wrong-argument", message, help=f"declare a symbol for this value, such as `{q}_1`"))
     return letter
 
 
@@ -698,7 +698,7 @@ def _ends(first: Quantity, second: Quantity, on: Surface | None, key: str) -> tu
     if back is not None and sign_known(back - time) != 1:
         message = (
             f"`lands`: the particle meets its circle again at the time {back}, "
-            "and it is not known to reach the plane earlier"
+            "and is not known to reach the plane earlier"
         )
         help_line = "leave `on` out, or state with `assume:` which comes first, the circle or the plane"
         raise Rejected(Complaint("not-decided", message, help=help_line))
@@ -759,7 +759,7 @@ def _distance(place: Sequence[Expr], target: Plane) -> Expr:
 def _gap(place: Sequence[Expr], known: InFlight, target: Plane) -> Expr:
     """The distance of a particle or a round body from a plane, if the centre is at this place."""
     if known.radius is None:
-        message = "`lands`: the body is not round about its centre of mass, so where it touches the plane is unknown"
+        message = "`lands`: the body is not round about its centre of mass, so its contact with the plane is unknown"
         raise Rejected(Complaint("not-decided", message, help="ask for the flight of its centre of mass only"))
     return _distance(place, target) - known.radius
 

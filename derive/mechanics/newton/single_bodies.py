@@ -2,7 +2,7 @@
 
 Suppose that the coordinates allow one body to move along a direction while all other bodies stay at rest. Then Newton's
 second law for this body along this direction contains only forces that the description names. If all values
-of the coordinates satisfy a constraint, the force that maintains it does no work in such a displacement, so this force
+of the coordinates satisfy a constraint, the force of this constraint does no work in such a displacement. So this force
 has no component along the direction. An example is the tension of a string whose length does not depend on the
 coordinates.
 

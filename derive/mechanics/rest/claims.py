@@ -455,8 +455,8 @@ def order_of(*orders: int, more: bool = False) -> Predicate:
 def shaped(shape: str, at_bound: bool) -> Predicate:
     """Judge by differentiation whether the first nonzero derivative, from the second on, yields this shape.
 
-    The step must have a special case as input if and only if `at_bound` is true. If it is true, the second derivative
-    must vanish.
+    The step must have a special case as input if and only if `at_bound` is true. If `at_bound` is true, the second
+    derivative must also vanish.
     """
 
     def is_so(facts: Judged) -> bool:

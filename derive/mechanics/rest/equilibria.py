@@ -97,7 +97,8 @@ def potential_at_rest(of: Quantity, symbol: str = "V", key: str = "potential_at_
     """
     require_kind("potential_at_rest", "of", of, "energy")
     if depends_on_time(of.value):
-        raise Rejected(Complaint("changes", f"`{of.key}` contains the time explicitly, so it has no equilibrium"))
+        message = f"an equilibrium needs an energy without the time, but `{of.key}` contains the time explicitly"
+        raise Rejected(Complaint("changes", message))
     moving, pushes = list(of.coordinates), _given_pushes(of)
     if not explicit(of.value).free_symbols & {rate(q) for q in moving} and not pushes:
         return of
@@ -172,7 +173,8 @@ def equilibria(of: Quantity, *coordinates: Coordinate) -> tuple[Quantity, ...]:
     """
     require_kind("equilibria", "of", of, "energy")
     if depends_on_time(of.value):
-        raise Rejected(Complaint("changes", f"`{of.key}` contains the time explicitly, so it has no equilibrium"))
+        message = f"an equilibrium needs an energy without the time, but `{of.key}` contains the time explicitly"
+        raise Rejected(Complaint("changes", message))
     potential = potential_at_rest(of)
     sought = [q.symbol for q in coordinates] or [q for q in potential.coordinates if potential.value.has(q)]
     _check_free(of, [q.symbol for q in coordinates] or list(of.coordinates))
