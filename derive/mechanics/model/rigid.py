@@ -53,11 +53,11 @@ def angular_velocity(
     """Angular velocity of rotating axes, omega = sum of alpha_i_dot n_i over the rotations of the axes, in 1/s.
 
     axes    the rotating axes; each rotation is about one of the axes as they are after the previous rotations
-    along   the axes of the components: `space`, or the axes after some of the rotations; by default the axes themselves
+    along   the axes of the components: `space`, or the axes after some of the rotations; by default `axes`
     body    the body that rotates with the axes, if it has a name
 
     Second route: the antisymmetric matrix R_dot R^T, where the rotation matrix R is differentiated as a function of t.
-    Outcomes: body (components along the axes themselves), following (along the axes after some of the rotations), space
+    Outcomes: body (components along `axes`), following (along the axes after some of the rotations), space
     (along fixed axes).
     Errors: the axes do not rotate; `along` is not one of the intermediate axes.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 4.9.

@@ -62,10 +62,8 @@ def steady_motion(
     require_kind("steady_motion", "of", of, "energy")
     L = explicit(of.value)
     if depends_on_time(L) or of.fact(ActedOn) is not None:
-        why = (
-            "contains the time explicitly" if depends_on_time(L) else "has additional forces without a potential energy"
-        )
-        raise Rejected(Complaint("changes", f"`steady_motion`: `{of.key}` {why}"))
+        time, other = "contains the time explicitly", "does not contain all forces: some have no potential energy"
+        raise Rejected(Complaint("changes", f"`steady_motion`: `{of.key}` {time if depends_on_time(L) else other}"))
     every = coordinates_of(of)
     turning = [q for q in every if not L.has(q.symbol)]
     still = [q for q in every if L.has(q.symbol)]

@@ -203,7 +203,7 @@ def allows(system: System, wanted: Mapping[Any, Vector], there: Callable[[Any], 
     """Whether the coordinates allow a displacement of the whole system.
 
     wanted   a particle or body -> the displacement of its centre, and its rotation; all others rest
-    there    a function that substitutes the coordinates at which the displacement begins
+    there    a function that substitutes the values of the coordinates where the displacement begins
     """
     matrix, column = _displacements(system, wanted, there)
     return generic_rank(matrix) == generic_rank(matrix.row_join(column))
@@ -289,7 +289,7 @@ def moves_like(
     """Whether a place moves in the same way as the material point of the body at this place.
 
     slopes   coordinate -> the displacement of the place, per unit of the change of the coordinate
-    there    a function that substitutes the coordinates at one instant
+    there    a function that substitutes the values of the coordinates at one instant
     """
     return all(
         is_zero(there(a - b)) for q, slope in slopes.items() for a, b in zip(slope, body.carried(place, q), strict=True)

@@ -233,8 +233,8 @@ def runs_away(facts: Judged) -> bool:
 
 
 def kinetic_energy_is_positive(facts: Judged) -> bool:
-    """Whether the kinetic energy at equilibrium is never negative, for a few sets of trial numbers. If it can be
-    negative, a minimum of U need not be stable.
+    """Whether the kinetic energy at equilibrium is not negative for any of a few sets of trial numbers. If the kinetic
+    energy can be negative, a minimum of U need not be stable.
 
     If the mass points and forces are unknown, the result is true.
     """
