@@ -109,7 +109,8 @@ def several(facts: Judged) -> bool:
 
 
 def under_its_condition(facts: Judged) -> bool:
-    """Whether the equilibrium exists if and only if the condition holds."""
+    """Whether the equilibrium exists if and only if the condition holds. The condition must be true for some trial
+    numbers and false for others."""
     if "exists" not in facts.inputs:
         return False
     exists, letters = facts.inputs["exists"], _letters(facts)
