@@ -55,15 +55,15 @@ FLATTEST = 1 / 6  # least size of a readable curve, divided by the size of all c
 class Curve:
     """One curve: a quantity in its SI unit as a function of one symbol, and the numbers that are substituted.
 
-    label    the name of the quantity
-    across   the quantity on the horizontal axis of a path; a path has no extrema
-    path     points of a path in the order of the motion
-    portrait the curves of a phase portrait
-    outlines surfaces in the plane of a path
-    diagram  the branches of a bifurcation diagram
-    places   the values of the variable for which the solution has a symbol, with these symbols
-    then     the value that the curve keeps after its range
-    heights  energies at which a line is drawn, each with the ranges in which the curve is below this line
+    label     the name of the quantity
+    across    the quantity on the horizontal axis of a path; a path has no extrema
+    path      points of a path in the order of the motion
+    portrait  the curves of a phase portrait
+    outlines  surfaces in the plane of a path
+    diagram   the branches of a bifurcation diagram
+    places    the values of the variable for which the solution has a symbol, with these symbols
+    then      the value that the curve keeps after its range
+    heights   energies at which a line is drawn, each with the ranges in which the curve is below this line
     """
 
     expr: Expr

@@ -155,7 +155,7 @@ def second_rate(value: Expr, moving: Sequence[Symbol]) -> Expr:
 
 
 def bodies_alone(system: System) -> list[Alone]:
-    """The particles and bodies of a system; bodies move in a plane, and particles also in space."""
+    """The particles and bodies of a system; bodies move in a plane; particles may also move in space."""
     if any(not body.is_plane for body in system.bodies):
         message = "the laws of one body are written for motions in a plane, but a body moves in space"
         raise Rejected(Complaint("method", message, help="use `method: lagrange`"))
