@@ -351,13 +351,15 @@ class System:
             for q in coordinates_in(ImmutableDenseMatrix(part.acts_by)):
                 if q not in self.coordinates:
                     name = q.name
-                    message = f"a force or constraint depends on {name}, but no place or rotation depends on {name}"
+                    message = (
+                        f"a force, energy or constraint depends on {name}, but no place or rotation depends on {name}"
+                    )
                     raise Rejected(Complaint("wrong-argument", message))
 
     @property
     def places(self) -> list[Location]:
-        """The places of particles and charges, the centres of mass of bodies, and the places between which springs,
-        central forces, strings and massless rods act."""
+        """The places of particles and charges, the centres of mass of bodies, the ends of springs, central forces,
+        strings and massless rods, and the holes and pulleys of strings."""
         return [place for part in self.parts for place in part.places]
 
     @property
