@@ -157,8 +157,9 @@ def equilibria(of: Quantity, *coordinates: Coordinate) -> tuple[Quantity, ...]:
     of            a potential energy, an effective potential energy or a Lagrangian, J
     coordinates   the unknowns; by default all coordinates that the energy depends on
 
-    Angles are between -pi and pi. A coordinate that is declared positive stays positive, and a coordinate with a range
-    stays in this range. If the forces vanish for every value of a coordinate, this coordinate has no stated value.
+    An angle without a range is between -pi and pi. A coordinate that is declared positive stays positive, and a
+    coordinate with a range stays in this range. If the forces vanish for every value of a coordinate, this coordinate
+    has no stated value.
     Keys: condition_x for the equilibrium condition of the coordinate x; for the equilibria, rest_1, rest_2, ..., or
     `rest` if there is only one.
     Second route: the virtual work of forces and inertia gives dU/dq, and vanishes at the equilibrium. Check for one
