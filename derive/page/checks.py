@@ -56,7 +56,8 @@ _NOT_ALIKE: Mapping[str, Any] = {
 
 @dataclass(frozen=True)
 class Checks:
-    """The numbers of checked steps and lines, the table of the steps, and the errata and remarks about the source."""
+    """The numbers of steps, lines, second routes, checks and simulated motions, the table of the steps, and the results
+    of the comparison with the source."""
 
     steps: Mapping[Grade, int]
     lines: Mapping[Grade, int]

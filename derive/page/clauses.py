@@ -47,8 +47,8 @@ class Clauses:
             self.waiting.append(step)
 
     def define_at_use(self, step: Step) -> None:
-        """Store a step that the page does not show: a clause will define its symbol where the page first uses it. The
-        clause leaves out a long result: `where J is the inertia tensor`."""
+        """Store a step that the page does not show. A clause will define the symbol of the step where the page first
+        uses this symbol. The clause leaves out a long result: `where J is the inertia tensor`."""
         self.waiting.append(step)
         self.by_name |= set() if is_short(step) else {step.key}
 
@@ -64,13 +64,13 @@ class Clauses:
         self.told.add(step.key)
 
     def begun(self) -> tuple[Inline, ...]:
-        """Return the stored text that belongs before the next sentence, and clear it."""
+        """Return the stored text that belongs before the next sentence, and delete this text from the store."""
         said, self.set_up = self.set_up, []
         return (*said, Text(" ")) if said else ()
 
     def behind(self, lines: Any) -> tuple[Inline, ...]:
-        """Return a clause that continues the sentence of these lines and defines the waiting symbols that occur in
-        them, unless the lines themselves define them."""
+        """Return a clause that continues the sentence of these lines. The clause defines the waiting symbols in the
+        lines, except symbols that the lines themselves define."""
         return self._sentence("where", self._due(lines))
 
     def around(self, sentence: tuple[Inline, ...], lines: Any) -> tuple[Inline, ...]:

@@ -86,8 +86,8 @@ def _agreed(step: Step, derivation: Derivation, words: Phrases, numbers: Mapping
 
 
 def _in_the_line(step: Step, nodes: Nodes) -> Nodes | None:
-    """Return the sentence of a step with its result in the text; None for a vector or tensor, which is too tall, unless
-    the sentence already states that it is 0."""
+    """Return the sentence of a step with its result in the text. Return None for a vector or tensor, which is too tall
+    for the text, unless the sentence already states that the result is 0."""
     last = step.chain[-1]
     if step.display.names_formula and step.outcome == ZERO:  # the sentence already states the result 0
         said, _ = around_chain(nodes)

@@ -474,8 +474,8 @@ def _part_of(key: str, problem: Problem, derivation: Derivation) -> int | None:
 def _given_away(
     problem: Problem, drawing: m.Recorded, placement: Placement | None, derivation: Derivation
 ) -> Complaint | None:
-    """Return an error if the `at` of a drawing names an unknown step, or if the drawing shows a step that is derived
-    later or on which no answer depends. Otherwise return None."""
+    """Return an error if the `at` of a drawing names an unknown step. Also return an error if the drawing shows a step
+    that is derived later, or on which no answer depends. Otherwise return None."""
     index, earliest = _index(problem, drawing, derivation), _earliest(drawing, derivation)
     place = (placement.at_place or placement.place) if placement else problem.place_of("solve")
     at = placement.at if placement is not None else None
@@ -622,8 +622,8 @@ def _curves(problem: Problem, plot: m.Plot, placement: Placement | None, words: 
 
 
 def _heights(curve: Curve, curves: Curves) -> Iterator[dict[str, Any]]:
-    """For each range in which the curve is below the line of an energy, yield this energy and the ends of the range,
-    by the names in a phrase."""
+    """For each range in which the curve is below the line of an energy, yield this energy and the ends of the range.
+    The keys are the names that the phrase uses."""
     for energy, ranges in curve.heights:
         for start, end in ranges:
             ends = [with_unit(x * curves.variable.per_unit, curves.variable.unit) for x in (start, end)]

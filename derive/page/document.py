@@ -147,8 +147,8 @@ class _Writer:
         self.pointed_to: tuple[Step, ...] = ()
         self.told_before = ""  # the key of a step that shares the sentence of the step before
         self.framed: set[str] = set()  # steps whose result is framed as an answer
-        # Whether the current part frames a result even if an earlier part has framed it. It does if it has `box:` or
-        # only one framed answer.
+        # Whether the current part frames a result even if an earlier part has framed this result. A part does so if it
+        # has `box:` or only one framed answer.
         self.frames_again = False
         self.unplaced: set[str] = set()  # steps that the page has not yet described
         self.symbols = {step.key: step.symbol for step in derivation.steps}
@@ -281,8 +281,8 @@ class _Writer:
         )
 
     def _assumed(self) -> tuple[Inline, ...]:
-        """Return a sentence, to follow the statement, with the assumptions about symbols that are stated neither in the
-        statement, nor in a question, nor in the words of a step."""
+        """Return a sentence, to follow the statement, with the assumptions about symbols. Assumptions that the
+        statement, a question or the words of a step already contain are left out."""
         assumed = [each for each in not_implied(self.derivation.assumed) if each not in self.derivation.in_words]
         assumed = [each for each in assumed if not any(says_the_same(each, other) for other in self.formulas.stated)]
         if not assumed:

@@ -108,8 +108,8 @@ def _with_forces(blocks: list[Block], figures: Sequence[Illustration], words: Ph
 def _with_mention(
     blocks: list[Block], at: int, figures: Sequence[Illustration], words: Phrases, equation: int = -1
 ) -> list[Block]:
-    """Put the figures in parentheses at the end of a paragraph. If the paragraph ends within a clause, put them next to
-    an equation of the display after it, unless this equation already has a reason.
+    """Put the figures in parentheses at the end of a paragraph. If the paragraph ends within a clause, put the figures
+    next to an equation of the display after the paragraph, unless this equation already has a reason.
 
     equation    the position of this equation in the display: the last one, or the first one for figures above it
     """

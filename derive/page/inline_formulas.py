@@ -18,7 +18,7 @@ from derive.steps.step import Step
 
 def in_words(document: Document, derivation: Derivation, worded: Collection[str]) -> dict[str, bool]:
     """Return the keys of the quoted steps that need no display. The value of a key is true if the sentence must name
-    the symbol of the step, because the page uses the symbol elsewhere or because the author wrote the sentence.
+    the symbol of the step. This is so if the page uses the symbol elsewhere, or if the author wrote the sentence.
 
     worded  the keys of the steps that the problem rewords
     """

@@ -17,7 +17,7 @@ from derive.steps.step import Step
 def letters_of(symbol: Any) -> set[Any]:
     """Return the symbols that a step with this symbol introduces.
 
-    A vector introduces its components, and a list introduces its symbols.
+    A vector introduces its components, a list introduces its symbols, and the square of a symbol introduces the symbol.
     """
     if isinstance(symbol, MatrixSymbol):
         return {symbol, *(component_names(symbol.name) if symbol.shape == (3, 1) else ())}

@@ -55,15 +55,15 @@ FLATTEST = 1 / 6  # least size of a readable curve, divided by the size of all c
 class Curve:
     """One curve: a quantity in its SI unit as a function of one symbol, and the numbers that are substituted.
 
-    label    the name of the quantity
-    across   the quantity on the horizontal axis of a path; a path has no extrema
-    path     points of a path in the order of the motion
-    portrait the curves of a phase portrait
-    outlines surfaces in the plane of a path
-    diagram  the branches of a bifurcation diagram
-    places   the values of the variable for which the solution has a symbol, with these symbols
-    then     the value that the curve keeps after its range
-    heights  energies at which a line is drawn, each with the ranges in which the curve is below this line
+    label     the name of the quantity
+    across    the quantity on the horizontal axis of a path; a path has no extrema
+    path      points of a path in the order of the motion
+    portrait  the curves of a phase portrait
+    outlines  surfaces in the plane of a path
+    diagram   the branches of a bifurcation diagram
+    places    the values of the variable for which the solution has a symbol, with these symbols
+    then      the value that the curve keeps after its range
+    heights   energies at which a line is drawn, each with the ranges in which the curve is below this line
     """
 
     expr: Expr
@@ -191,7 +191,8 @@ def curves_of(problem: Problem, plot: Plot, placement: Placement | None) -> Curv
     # A number for a symbol that does not occur in any curve would be shown although it has no effect.
     cases = [tuple(number for number in case if number.symbol in letters) for _, case in pairs]
     changed = dict.fromkeys(number.symbol for case in cases[1:] for number in case if number not in cases[0])
-    # The caption states the numbers that all curves share. A single curve without a caption has them above the panel.
+    # The caption states the numbers that all curves share. The numbers of a single curve without a caption are above
+    # the panel.
     is_told = len(cases) > 1 or bool(placement and placement.caption)
     numbers = [_numbers(problem, plot, placement, (*cases[0], *case), letters) for case in cases]
     used = {letter for letter in numbers[0] if not plot.per or _matters(letter, pairs, numbers, written)}

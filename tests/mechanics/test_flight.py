@@ -367,7 +367,7 @@ def claimed(quantity: Quantity, steps: dict[str, Quantity]) -> Claim:
         ("through: [0, 0]}", "through: [0]}", "needs the two components of a place"),
         ("'angle in (pi/2, pi)'", "'angle in (0, pi/2)'", "outside the range of theta_1"),
         ("at: theta_1}", "at: theta}", "must be a symbol for the value of theta"),
-        ("{flight: slack, at", "{flight: speed, at", "`speed` is not one"),
+        ("{flight: slack, at", "{flight: speed, at", "`speed` is not such a place"),
         ("{lands: flight}", "{lands: slack}", "need both components of a flight"),
         ("{lands: flight}", "{lands: flight, at: l}", "`at` has no effect on `lands`"),
         ("through: [0, 0]}", "through: [2*l, 0]}", "the place is not known to be inside the circle"),

@@ -136,7 +136,7 @@ def test_a_cylinder_that_the_coordinates_make_roll_needs_no_condition(tmp_path: 
         (SWINGS, "  gravity: g", "  wires: [cart, cart]\n  gravity: g", "`cart` is on a wire twice"),
         (HANGS, "[-R, -x]", "[-R/2, -x]", "no horizontal or vertical piece of string that is tangent"),
         (HANGS, ", tension: T}", "}", "allow the length of the string to change"),
-        (HANGS, "length: l, tension: T", "tension: T", "with a force also needs its length"),
+        (HANGS, "length: l, tension: T", "tension: T", "with a symbol for its force also needs a `length`"),
         (HANGS, "at: [R, -y]", "at: [-R, -y]", "the string leaves a pulley at (-R, 0)"),
         (HANGS, "over: [pulley]", "over: [[0, 0]]", "no string runs over the pulley"),
         (HANGS, "{pulley: {at", "{left: {at", "`left` is the name of a pulley and of a body"),

@@ -170,7 +170,7 @@ def test_axes_turn_about_axes_that_have_turned() -> None:
         (lambda: Particle(m, (1, 2)), "a place that `point` or `place` gives"),
         (lambda: Particle("m", point(0, 0)), "an expression for its mass"),
         (lambda: System(), "needs a particle"),
-        (lambda: System(Particle(m, point(l, alpha))), "no place in this `System` depends on a coordinate"),
+        (lambda: System(Particle(m, point(l, alpha))), "no place or rotation in this `System` depends on a coordinate"),
         (lambda: System(Particle(m, point(0, t)), Particle(m, point(0, 0, t))), "two components, and some have three"),
         (lambda: System(Particle(m, point(l, 0)), spring(k, 0 * Z, l * Z)), "two components, and some have three"),
         (lambda: System(Particle(m, point(0, 0)), weight(g), weight(g)), "can have only one weight"),

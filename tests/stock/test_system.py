@@ -61,7 +61,7 @@ def test_a_part_asks_for_several_steps_by_one_name(tmp_path: Path) -> None:
         (("[l*sin(theta), -l*cos(theta)]", "[l]"), "6: `point` needs two components or three, not 1"),
         (("particles:", "particle:"), "7: `given` has no key `particle`"),
         (("answer: equations_of_motion", "answer: motion_phi"), "12: `motion_phi` is not the name of an answer"),
-        (("[l*sin(theta), -l*cos(theta)]", "[l, 0]"), "5: no place in this `System` depends on a coordinate"),
+        (("[l*sin(theta), -l*cos(theta)]", "[l, 0]"), "5: no place or rotation in this `System` depends on"),
         (("answer: equations_of_motion", "answer: conserved_theta"), "12: `conserved`: `lagrangian` contains"),
     ],
 )

@@ -72,7 +72,7 @@ def described(
     coordinates: Mapping[Symbol, str],
     lagrangian: Expr | None = None,
 ) -> plain.Description:
-    """Return the description that the witness uses: particles, bodies and forces, or a given Lagrangian and forces.
+    """Return the description that the witness uses: the parts or a given Lagrangian, the forces, and the conditions.
 
     bodies      those parts of the system that are bodies
     expressed   for each condition that expresses a coordinate by others: the coordinate and its formula

@@ -215,7 +215,7 @@ class Charge(Part):
 def _vector(verb: str, role: str, given: Any, count: int) -> Vector:
     values = given.components if isinstance(given, Location) else given
     if not isinstance(values, tuple | list) or len(values) != count:
-        needed = f"{count} components, as many as its place" if count > 1 else "one component"
+        needed = f"{count} components, as many as the place" if count > 1 else "one component"
         message = f"`{verb}`: `{role}` must have {needed}"
         raise Rejected(Complaint("wrong-argument", message))
     try:
@@ -288,7 +288,7 @@ def potential(energy: Any) -> StoredEnergy:
 def charge(amount: Any, at: Location, E: Any = None, B: Any = None) -> Charge:
     """A charge (in C) at a place in a uniform electric field E (in V/m) and a uniform magnetic field B (in T).
 
-    E   the components of the electric field, as many as the place has
+    E   the components of the electric field, one for each component of the place
     B   three components; for a place in a plane, only the component perpendicular to the plane, towards the reader
     """
     place = _place("charge", at)

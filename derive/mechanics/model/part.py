@@ -51,8 +51,8 @@ class Part:
 
     @property
     def loose_ends(self) -> Sequence[tuple[str, Vector]]:
-        """The forces of the part for which the script does not state the object on which they act: for each, its name,
-        such as "spring", and its place."""
+        """The forces for which the script does not state the object on which they act. Each item consists of the name
+        of a force, such as "spring", and its place."""
         return ()
 
     def weighed(self, gravity: Expr) -> Sequence[Any]:

@@ -26,7 +26,7 @@ from derive.steps.subject import NOTHING, Subject
 
 __all__ = ["angular_velocity"]
 
-Inertia: TypeAlias = Quantity | Expr  # a step, or the symbol of a moment about the axis perpendicular to the plane
+Inertia: TypeAlias = Quantity | Expr  # a step; or the symbol of a moment of inertia about the normal to the plane
 MANY_TERMS = 20
 _SQUARES = (lambda value: value, TR5, TR6)  # unchanged; sin^2 becomes 1 - cos^2; cos^2 becomes 1 - sin^2
 
@@ -53,11 +53,11 @@ def angular_velocity(
     """Angular velocity of rotating axes, omega = sum of alpha_i_dot n_i over the rotations of the axes, in 1/s.
 
     axes    the rotating axes; each rotation is about one of the axes as they are after the previous rotations
-    along   the axes of the components: `space`, or the axes after some of the rotations; by default the axes themselves
+    along   the axes of the components: `space`, or the axes after some of the rotations; by default `axes`
     body    the body that rotates with the axes, if it has a name
 
     Second route: the antisymmetric matrix R_dot R^T, where the rotation matrix R is differentiated as a function of t.
-    Outcomes: body (components along the axes themselves), following (along the axes after some of the rotations), space
+    Outcomes: body (components along `axes`), following (along the axes after some of the rotations), space
     (along fixed axes).
     Errors: the axes do not rotate; `along` is not one of the intermediate axes.
     Source: Goldstein, Poole, Safko, *Classical Mechanics*, section 4.9.
@@ -173,7 +173,7 @@ def _at_centre(placed: PlacedBody) -> bool:
 
 
 def inertia_of(placed: PlacedBody) -> Inertia:
-    """The inertia tensor of a body in space; for a body in a plane, the moment about the axis normal to the plane.
+    """The inertia tensor of a body in space; for a body in a plane, the moment of inertia about the normal to it.
 
     Errors: the given moments are about the wrong point.
     """
@@ -204,7 +204,5 @@ def _check_moments(placed: PlacedBody) -> None:
         for found in established():
             at = getattr(found.subject.point, "name", None)
             if found.symbol in body.moments and at in ("centre", "centre_of_mass"):
-                message = (
-                    f"`{found.key}` is about the centre of mass, but {body.name} uses it as a moment about its pivot"
-                )
+                message = f"`{found.key}` is about the centre of mass, but {body.name} needs moments about its pivot"
                 raise Rejected(Complaint("wrong-point", message, help="derive the moments about the pivot"))

@@ -255,8 +255,7 @@ def string(
 
 
 BESIDE_THE_ROPE = (
-    "gravity acts on each piece of the rope, so the particle may be anywhere at a constant height, but must move with "
-    "the speed of the rope: `at: [x, 0]` if one end is at `[0, x - l]`"
+    "give the particle any constant height and the speed of the rope: `at: [x, 0]` if one end is at `[0, x - l]`"
 )
 
 
@@ -270,7 +269,7 @@ def _check_rope(line: Any, particle: Any, tension: str) -> None:
         raise Rejected(Complaint("not-an-unknown", message, help="leave out `tension`"))
     still = not any(coordinates_in(at) or depends_on_time(at) for at in map(column_of, line.places[1:-1]))
     if not still or any(_rotates(b - a) for a, b in pairwise(line.places)):
-        message = "the pieces of a rope with mass must move along themselves, but their places or directions change"
+        message = "the pieces of a rope with mass must move along themselves, but a bend moves or a piece rotates"
         help_line = "keep the bends of the rope at rest; describe a rotating rope as several rods"
         raise Rejected(Complaint("wrong-argument", message, help=help_line))
     first, last, own = (velocity_at(each, line.places[0]) for each in (line.places[0], line.places[-1], particle))
@@ -345,12 +344,12 @@ def _of_length(verb: str, ends: Sequence[Any], length: Any, letter: str) -> tupl
         _require_kept(verb, kept, whole)
         return (Line((), through, is_rod, lengths=tuple(lengths or ())),)
     if whole is None:
-        message = f"`{verb}` with a force also needs its length"
+        message = f"a `{verb}` with a symbol for its force also needs a `length`"
         raise Rejected(Complaint("missing-key", message, help="give its `length`"))
     if kept is not None:
         message = f"the coordinates determine the length {kept}, so the force `{letter}` does not appear"
         key, what = ("force", "rod") if is_rod else ("tension", "string")
-        help_line = f"leave out `{key}`, or give the end a coordinate along the {what}, so that the length can change"
+        help_line = f"leave out `{key}`, or give one end a coordinate along the {what}, so that the length can change"
         raise Rejected(Complaint("not-an-unknown", message, help=help_line))
     require_bodies(verb, [pair for piece in pieces for pair in zip((piece.start, piece.end), piece.of, strict=True)])
     force = scalar(letter)

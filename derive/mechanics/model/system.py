@@ -320,7 +320,7 @@ class System:
             message = "some places of this `System` have two components, and some have three"
             raise Rejected(Complaint("wrong-argument", message, help="give all places in a plane, or all in space"))
         if not self.coordinates:
-            message = "no place in this `System` depends on a coordinate"
+            message = "no place or rotation in this `System` depends on a coordinate"
             raise Rejected(
                 Complaint(
                     "wrong-argument",
@@ -350,13 +350,16 @@ class System:
         for part in self.parts:
             for q in coordinates_in(ImmutableDenseMatrix(part.acts_by)):
                 if q not in self.coordinates:
-                    message = f"a force or constraint of this `System` depends on {q.name}, but no place depends on it"
+                    name = q.name
+                    message = (
+                        f"a force, energy or constraint depends on {name}, but no place or rotation depends on {name}"
+                    )
                     raise Rejected(Complaint("wrong-argument", message))
 
     @property
     def places(self) -> list[Location]:
-        """The places of particles and charges, the centres of mass of bodies, and the places between which springs,
-        central forces, strings and massless rods act."""
+        """The places of particles and charges, the centres of mass of bodies, the ends of springs, central forces,
+        strings and massless rods, and the holes and pulleys of strings."""
         return [place for part in self.parts for place in part.places]
 
     @property

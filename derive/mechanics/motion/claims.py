@@ -226,7 +226,8 @@ def _gets_there_as_told(facts: Judged) -> bool:
 
 
 def turned_back(facts: Judged) -> bool:
-    """Whether, numerically, the motion turns back before or at the place where the force vanishes."""
+    """Whether, numerically, the force is positive at the start, and the motion turns back at the place where the force
+    vanishes if the result has the operator >=, or before this place otherwise."""
     just_there = facts.result.operator == ">="
     unknown, squared, force = (facts.inputs[role] for role in ("unknown", "squared", "force"))
     ends = [_letter_at(unknown, end) for end in (facts.inputs["start"], facts.inputs["place"].right)]
@@ -277,8 +278,8 @@ def _constraint_of(force: Quantity) -> Constraint | None:
 
 
 def slips_in_the_stated_sense(facts: Judged, outcome: str) -> bool:
-    """Whether, numerically, the friction on the body is opposite to the direction of slip, if the sentence states
-    one."""
+    """Whether, numerically, the friction on the body is opposite to the direction of slip, if the sentence states a
+    direction. The direction must be "up" or "down" if and only if the friction has a vertical component."""
     if "sense" not in facts.words:
         return True
     constraint = _constraint_of(facts.quantities["friction"])
@@ -363,7 +364,8 @@ def _letters_of_motion(facts: Judged) -> set[Any]:
 
 
 def slips_first(facts: Judged) -> bool:
-    """Whether, numerically, mu_s N - |F| is positive before the place and zero at the place.
+    """Whether, numerically, mu_s N - |F| is positive before the place and zero at the place. At the place F must have
+    the stated sign. The stated condition for reaching the place must be correct.
 
     If the sentence states a condition for sticking at the start, mu_s N - |F| must not be positive at the start for
     numbers that violate this condition. Numbers for which the motion turns back before the place are skipped.

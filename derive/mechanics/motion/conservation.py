@@ -1,7 +1,8 @@
 """The rate of change of a quantity by the equations of motion, and whether the quantity is conserved.
-As in a textbook, each equation is multiplied by a factor, and the products are added. The sum turns out to be the rate
-of change of the quantity Q. The factors follow from the highest rates in the equations, usually accelerations. The rate
-dQ/dt is linear in the highest rates, and the sum of the products must have the same coefficients.
+As in a textbook, each equation is multiplied by a factor, and the products are added. If the quantity Q is conserved,
+the sum is the rate of change of Q, up to a constant number. The factors follow from the highest rates in the equations,
+usually accelerations. The rate dQ/dt is linear in the highest rates, and the sum of the products must have the same
+coefficients, up to the same number.
 """
 
 from __future__ import annotations

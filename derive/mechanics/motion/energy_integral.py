@@ -47,8 +47,8 @@ __all__ = ["period_by_energy", "rate_by_energy", "speed_from_energy"]
 ZERO, TWO = Integer(0), Integer(2)
 CONSERVED = Spelled(
     "give an energy that is conserved in this motion; if other coordinates also change, give `motion`",
-    "give an energy that is conserved in this motion; if other coordinates also change, give the equation of motion "
-    "under `results`: an acceleration, or a `put_in` that contains one coordinate only",
+    "give an energy that is conserved in this motion; if other coordinates also change, add the equation of motion to "
+    "`results`: an acceleration, or a `put_in` with only one coordinate",
 )
 FIGURES = 30
 NOISE = 1e-9  # smaller differences are accepted, because terms cancel near the turning points

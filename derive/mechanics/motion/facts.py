@@ -62,7 +62,8 @@ class Arrival:
     place      the value of `unknown` at the place; it may be infinite
     reached    the condition under which the motion reaches the place; None if the motion always reaches it
     is_found   whether the place was derived from this motion
-    sense      the sign of the rate at the start, if the result contains the rate with this sign; otherwise 0
+    sense      the sign of the rate at the start, if the result contains the rate with this sign; 0 if the result has no
+               such rate, or if the motion starts from rest
     turned     whether the motion turns back before it comes to the place
     lasts      what must last until the motion comes to the place: "contact" for the contact with a surface, "taut" for
                the tension of a string, "" if there is no such constraint

@@ -30,7 +30,7 @@ PARTS, BEYOND = [Rational(n, 16) for n in range(1, 16)], Rational(101, 100)  # f
 
 @dataclass(frozen=True)
 class Motion:
-    """The forces of a contact along a motion of one coordinate, from its start."""
+    """The forces of a contact along a motion of one coordinate, from the start of this motion."""
 
     contact: Friction
     unknown: Expr

@@ -310,7 +310,7 @@ class Departure:
 
 def _departure(lost: Quantity, letter: Any) -> Departure:
     if lost.step.rule != leaving.LEAVES_CONTACT.name:
-        message = f"`flight` needs the place where contact is lost, but `{lost.key}` is not one"
+        message = f"`flight` needs the place where contact is lost, but `{lost.key}` is not such a place"
         raise Rejected(Complaint("wrong-argument", message, help="name a result of `leaves`"))
     if lost.step.outcome not in ("lost", "lost_later"):
         message = f"`{lost.key}` states that contact is never lost, so no flight follows"
@@ -326,8 +326,8 @@ def _departure(lost: Quantity, letter: Any) -> Departure:
 
 def _checked_letter(letter: Any, q: Symbol) -> Symbol:
     if not isinstance(letter, Symbol) or changes(letter, [q]) is not None:
-        message = f"`at` in `flight` must be a symbol for the value of {q} at the departure, but it is {letter}"
-        raise Rejected(Complaint("wrong-argument", message, help=f"declare a symbol for it, such as `{q}_1`"))
+        message = f"`at` in `flight` must be a symbol for the value of {q} at the departure, not {letter}"
+        raise Rejected(Complaint("wrong-argument", message, help=f"declare a symbol for this value, such as `{q}_1`"))
     return letter
 
 
@@ -337,12 +337,13 @@ def _the_one_that_flies(departure: Departure) -> Flyer:
     found, reasons = [], []
     for part in dict.fromkeys(parts):
         flyer = _flyer(departure, part)
-        why = "it moves in space" if flyer is None else _why_it_is_not_free(departure, flyer)
+        why = "the motion is in space" if flyer is None else _why_it_is_not_free(departure, flyer)
         reasons += [why] if why else []
         found += [flyer] if flyer is not None and not why else []
     if len(found) == 1:
         return found[0]
-    why = "both bodies are free afterwards" if found else next(iter(reasons), "the constraint is given as a formula")
+    unknown = next(iter(reasons), "the constraint is given as a formula")
+    why = "several particles or bodies are free afterwards" if found else unknown
     message = f"`flight` finds the motion of a particle or a body under its weight, but {why}"
     raise Rejected(Complaint("no-flight", message))
 
@@ -449,7 +450,7 @@ def free_flight(lost: Quantity, at: Any = None, key: str = "flight") -> tuple[Qu
 
 @contextmanager
 def where(conditions: Sequence[Relation]) -> Iterator[None]:
-    """Use, within the `with` block, the conditions under which contact is lost; the step `lost` states them."""
+    """Assume the conditions under which contact is lost, within the `with` block; the step `lost` states them."""
     order = known_order()
     for each in conditions:
         difference = tidied(each.residual if each.operator == ">" else -each.residual)
@@ -697,7 +698,7 @@ def _ends(first: Quantity, second: Quantity, on: Surface | None, key: str) -> tu
     if back is not None and sign_known(back - time) != 1:
         message = (
             f"`lands`: the particle meets its circle again at the time {back}, "
-            "and it is not known to reach the plane earlier"
+            "and is not known to reach the plane earlier"
         )
         help_line = "leave `on` out, or state with `assume:` which comes first, the circle or the plane"
         raise Rejected(Complaint("not-decided", message, help=help_line))
@@ -727,7 +728,7 @@ def _time_back(known: InFlight) -> Expr | None:
     orbit = _orbit_of(known)
     parts = [*reversed(_beyond(known.path, orbit).expand().as_poly(TIME).all_coeffs())]
     if len(parts) != 5 or not all(is_zero(c) for c in parts[:3]):
-        message = "the flight does not begin on the circle, along the circle, and without a force from the circle"
+        message = "the flight must begin on the circle, along the circle, and without a force from the circle"
         raise Unverified(Complaint("unverified", message))
     outwards, last = (tidied(c) for c in parts[3:])
     sign = sign_known(outwards)
@@ -742,7 +743,7 @@ def _time_back(known: InFlight) -> Expr | None:
 
 def _orbit_of(known: InFlight) -> Orbit:
     if known.orbit is None:
-        message = "`lands`: the particle was not on a circle, so it is not known whether it comes back"
+        message = "`lands`: the particle was not on a circle, so it is not known whether the particle comes back"
         raise Rejected(Complaint("not-decided", message))
     return known.orbit
 
@@ -758,7 +759,7 @@ def _distance(place: Sequence[Expr], target: Plane) -> Expr:
 def _gap(place: Sequence[Expr], known: InFlight, target: Plane) -> Expr:
     """The distance of a particle or a round body from a plane, if the centre is at this place."""
     if known.radius is None:
-        message = "`lands`: the body is not round about its centre of mass, so where it touches the plane is unknown"
+        message = "`lands`: the body is not round about its centre of mass, so its contact with the plane is unknown"
         raise Rejected(Complaint("not-decided", message, help="ask for the flight of its centre of mass only"))
     return _distance(place, target) - known.radius
 
@@ -779,7 +780,7 @@ def _time_to(known: InFlight, target: Plane) -> Expr | None:
     side, towards, bend = sign_known(h), sign_known(v), sign_known(a)
     if side not in (0, 1):
         how = "departs" if side == -1 else "may depart"
-        message = f"`lands`: the particle {how} below the plane, at the distance {h} from it"
+        message = f"`lands`: the particle {how} below the plane: its distance from the plane is {h}"
         help_line = "the free side is on the left of `along`; state with `assume:` which side the particle is on"
         raise Rejected(Complaint("not-decided", message, help=help_line))
     if side == 0 and (towards in (0, -1) or bend in (0, 1)):
@@ -1018,8 +1019,7 @@ def passes_through(flight: Sequence[Quantity], through: Sequence[Any], key: str 
     through   the place: its horizontal component and its height, m
 
     Positive factors of the condition are omitted. The place must be ahead of the particle.
-    Check: the condition states that the particle has the height of the place where it has the horizontal position of
-    the place.
+    Check: the condition is equivalent to y(t) = Y at the time t with x(t) = X, where (X, Y) is the place.
     Errors: the particle always passes through the place, or never does; the horizontal velocity is zero or not
     constant; it is not known whether the place is ahead of the particle or, for a flight inside a circle, inside this
     circle.

@@ -171,7 +171,7 @@ def _place_of_loss(force: Quantity, pushing: Expr, unknown: Expr) -> Relation:
     except NotLinear:
         result = None
     if result is None or result.left != unknown:
-        message = f"`{force.key}` is not linear in {unknown}, so the place where it vanishes has no closed form here"
+        message = f"`{force.key}` is not linear in {unknown}, so the place where the force vanishes has no closed form"
         help_line = (
             "ask for this force, and plot it under `drawings` to show where it vanishes; `flight` needs a closed form"
         )
@@ -201,7 +201,7 @@ def _friction_beside(force: Quantity) -> Constraint | None:
             message = (
                 f"`leaves_contact`: static friction is at most {most}, so the body slips before the force vanishes"
             )
-            help_line = "ask where it slips with `slips`, or describe a contact that prevents slipping, `{rolling: F}`"
+            help_line = "find the first slip with `slips`, or give a contact that prevents slipping, `{rolling: F}`"
             raise Rejected(Complaint("contradiction", message, help=help_line))
         return each
     return None

@@ -62,16 +62,14 @@ def steady_motion(
     require_kind("steady_motion", "of", of, "energy")
     L = explicit(of.value)
     if depends_on_time(L) or of.fact(ActedOn) is not None:
-        why = (
-            "contains the time explicitly" if depends_on_time(L) else "has additional forces without a potential energy"
-        )
-        raise Rejected(Complaint("changes", f"`steady_motion`: `{of.key}` {why}"))
+        time, other = "contains the time explicitly", "does not contain all forces: some have no potential energy"
+        raise Rejected(Complaint("changes", f"`steady_motion`: `{of.key}` {time if depends_on_time(L) else other}"))
     every = coordinates_of(of)
     turning = [q for q in every if not L.has(q.symbol)]
     still = [q for q in every if L.has(q.symbol)]
     if not turning or not still:
-        missing = "coordinate that is not cyclic" if turning else "cyclic coordinate, so no rate is constant"
-        raise Rejected(Complaint("wrong-argument", f"`steady_motion`: `{of.key}` has no {missing}"))
+        which = "only cyclic coordinates" if turning else "no cyclic coordinate, so no rate is constant"
+        raise Rejected(Complaint("wrong-argument", f"`steady_motion`: `{of.key}` has {which}"))
     given_rates, values = _given("rate", rates, turning, still), _given("value", at, turning, still)
     given_rates |= {k.coordinate: bound(k.turning, values) for k in (known.kept if known is not None else ())}
     steady_rates = {q.symbol: given_rates.get(q.symbol, q.rate) for q in turning}

@@ -54,7 +54,7 @@ def condition_to_reach(
     there = tidied(_put(explicit(speed.value), unknown, place) if there is None else there)
     if sign_known(there) == -1:
         message = f"`{of.key}`: the motion does not reach {unknown} = {place}, since {rate(q)}**2 would be negative"
-        raise Rejected(Complaint("not-reached", message, help=f"it would be {there}"))
+        raise Rejected(Complaint("not-reached", message, help=f"{rate(q)}**2 would be {there} at this place"))
     if is_zero(there):
         _require_turning_point(of, explicit(speed.value), unknown, place)
     if not _is_free_by_algebra(speed, unknown, place) and _is_barred(speed, unknown, place, there):

@@ -42,8 +42,8 @@ def lagrangian_behind(system: System) -> Quantity:
 
 
 def facts_of_motion(system: System, q: Coordinate, changes: Mapping[Symbol, Expr]) -> list[Fact]:
-    """The facts that later steps need about an equation of motion: its coordinate, its system with the Lagrangian and
-    the constraints, and the displacement that belongs to the equation."""
+    """The facts that later steps need about an equation of motion. These are its coordinate, the displacement that
+    belongs to the equation, and the Lagrangian, mass points, forces, constraints and description of its system."""
     of = lagrangian_behind(system)
     kept = of.fact(Constrained)
     found: list[Fact] = [OfCoordinate(q), ForcedMotion(of), of.needed(Matter), system.described]

@@ -77,7 +77,7 @@ def _is_fixed(place: Vector, moving: Any) -> bool:
 
 def mass_times_acceleration(facts: Judged, outcome: str) -> bool:
     """Whether the left side is the mass times the component of the acceleration along the displacement of the
-    coordinate. For a body at rest, both must be zero."""
+    coordinate. For a body at rest, the left side and this product must be zero."""
     way, moving = _way(facts), list(facts.inputs["moving"])
     along = facts.inputs["weight"] * _dot(way, _acceleration(facts))
     left = explicit(facts.result).left

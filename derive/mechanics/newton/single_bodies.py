@@ -2,7 +2,7 @@
 
 Suppose that the coordinates allow one body to move along a direction while all other bodies stay at rest. Then Newton's
 second law for this body along this direction contains only forces that the description names. If all values
-of the coordinates satisfy a constraint, the force that maintains it does no work in such a displacement, so this force
+of the coordinates satisfy a constraint, the force of this constraint does no work in such a displacement. So this force
 has no component along the direction. An example is the tension of a string whose length does not depend on the
 coordinates.
 
@@ -155,7 +155,7 @@ def second_rate(value: Expr, moving: Sequence[Symbol]) -> Expr:
 
 
 def bodies_alone(system: System) -> list[Alone]:
-    """The particles and bodies of a system; bodies move in a plane, and particles also in space."""
+    """The particles and bodies of a system; bodies move in a plane; particles may also move in space."""
     if any(not body.is_plane for body in system.bodies):
         message = "the laws of one body are written for motions in a plane, but a body moves in space"
         raise Rejected(Complaint("method", message, help="use `method: lagrange`"))
@@ -203,7 +203,7 @@ def allows(system: System, wanted: Mapping[Any, Vector], there: Callable[[Any], 
     """Whether the coordinates allow a displacement of the whole system.
 
     wanted   a particle or body -> the displacement of its centre, and its rotation; all others rest
-    there    a function that substitutes the coordinates at which the displacement begins
+    there    a function that substitutes the values of the coordinates where the displacement begins
     """
     matrix, column = _displacements(system, wanted, there)
     return generic_rank(matrix) == generic_rank(matrix.row_join(column))
@@ -289,7 +289,7 @@ def moves_like(
     """Whether a place moves in the same way as the material point of the body at this place.
 
     slopes   coordinate -> the displacement of the place, per unit of the change of the coordinate
-    there    a function that substitutes the coordinates at one instant
+    there    a function that substitutes the values of the coordinates at one instant
     """
     return all(
         is_zero(there(a - b)) for q, slope in slopes.items() for a, b in zip(slope, body.carried(place, q), strict=True)

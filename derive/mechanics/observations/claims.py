@@ -423,8 +423,8 @@ def grows_without_bound_there(facts: Judged) -> bool:
 
 def branches_off(facts: Judged) -> bool:
     """Whether, at the stated value of the symbol, an equilibrium becomes unstable and two others appear. Just below
-    this value it is stable, and the two others do not exist; just above, it is unstable, and the two others are stable.
-    """
+    this value only the first equilibrium exists, and it is stable. Just above, the first is unstable, and the two
+    others are stable."""
     curvature, beside = (explicit(facts.quantities[role].value) for role in ("of", "beside"))
     cosine, border = facts.inputs["cosine"], facts.result
     here, branch, other = (explicit(facts.quantities[role].value) for role in ("here", "branch", "other"))

@@ -42,7 +42,7 @@ class Observation:
 
     name    the name by which an author chooses this kind
     found   a function that yields the steps of this kind about the answers of a part
-    at_end  whether the default choice takes the observation of the last part that has one, not of the first
+    at_end  whether the default choice, among several parts with such an observation, is the last part, not the first
     """
 
     name: str

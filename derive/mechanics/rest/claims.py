@@ -109,7 +109,8 @@ def several(facts: Judged) -> bool:
 
 
 def under_its_condition(facts: Judged) -> bool:
-    """Whether the equilibrium exists if and only if the condition holds."""
+    """Whether the equilibrium exists if and only if the condition holds. The condition must be true for some trial
+    numbers and false for others."""
     if "exists" not in facts.inputs:
         return False
     exists, letters = facts.inputs["exists"], _letters(facts)
@@ -233,8 +234,8 @@ def runs_away(facts: Judged) -> bool:
 
 
 def kinetic_energy_is_positive(facts: Judged) -> bool:
-    """Whether the kinetic energy at equilibrium is never negative, for a few sets of trial numbers. If it can be
-    negative, a minimum of U need not be stable.
+    """Whether the kinetic energy at equilibrium is not negative for any of a few sets of trial numbers. If the kinetic
+    energy can be negative, a minimum of U need not be stable.
 
     If the mass points and forces are unknown, the result is true.
     """
@@ -455,8 +456,8 @@ def order_of(*orders: int, more: bool = False) -> Predicate:
 def shaped(shape: str, at_bound: bool) -> Predicate:
     """Judge by differentiation whether the first nonzero derivative, from the second on, yields this shape.
 
-    The step must have a special case as input if and only if `at_bound` is true. If it is true, the second derivative
-    must vanish.
+    The step must have a special case as input if and only if `at_bound` is true. If `at_bound` is true, the second
+    derivative must also vanish.
     """
 
     def is_so(facts: Judged) -> bool:

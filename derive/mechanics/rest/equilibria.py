@@ -97,7 +97,8 @@ def potential_at_rest(of: Quantity, symbol: str = "V", key: str = "potential_at_
     """
     require_kind("potential_at_rest", "of", of, "energy")
     if depends_on_time(of.value):
-        raise Rejected(Complaint("changes", f"`{of.key}` contains the time explicitly, so it has no equilibrium"))
+        message = f"an equilibrium needs an energy without the time, but `{of.key}` contains the time explicitly"
+        raise Rejected(Complaint("changes", message))
     moving, pushes = list(of.coordinates), _given_pushes(of)
     if not explicit(of.value).free_symbols & {rate(q) for q in moving} and not pushes:
         return of
@@ -156,8 +157,9 @@ def equilibria(of: Quantity, *coordinates: Coordinate) -> tuple[Quantity, ...]:
     of            a potential energy, an effective potential energy or a Lagrangian, J
     coordinates   the unknowns; by default all coordinates that the energy depends on
 
-    Angles are between -pi and pi. A coordinate that is declared positive stays positive, and a coordinate with a range
-    stays in this range. If the forces vanish for every value of a coordinate, this coordinate has no stated value.
+    An angle without a range is between -pi and pi. A coordinate that is declared positive stays positive, and a
+    coordinate with a range stays in this range. If the forces vanish for every value of a coordinate, this coordinate
+    has no stated value.
     Keys: condition_x for the equilibrium condition of the coordinate x; for the equilibria, rest_1, rest_2, ..., or
     `rest` if there is only one.
     Second route: the virtual work of forces and inertia gives dU/dq, and vanishes at the equilibrium. Check for one
@@ -172,7 +174,8 @@ def equilibria(of: Quantity, *coordinates: Coordinate) -> tuple[Quantity, ...]:
     """
     require_kind("equilibria", "of", of, "energy")
     if depends_on_time(of.value):
-        raise Rejected(Complaint("changes", f"`{of.key}` contains the time explicitly, so it has no equilibrium"))
+        message = f"an equilibrium needs an energy without the time, but `{of.key}` contains the time explicitly"
+        raise Rejected(Complaint("changes", message))
     potential = potential_at_rest(of)
     sought = [q.symbol for q in coordinates] or [q for q in potential.coordinates if potential.value.has(q)]
     _check_free(of, [q.symbol for q in coordinates] or list(of.coordinates))
@@ -207,14 +210,14 @@ def _check_free(of: Quantity, sought: Sequence[Symbol]) -> None:
 
 
 def _check_turns(potential: Quantity, forces: Mapping[Symbol, Expr]) -> None:
-    """Reject an angle that is positive without an upper limit, if its force repeats after each turn: then there are
+    """Reject an angle whose range has no limit on one side, if the force repeats after each turn. Such an angle has
     infinitely many equilibria, and the list for one turn would omit the others, such as 2 pi for a pendulum."""
     for q, force in forces.items():
         known = range_of(q)
         is_limited = known.least.is_finite and known.greatest.is_finite if known is not None else not q.is_positive
         if potential.coordinates.get(q) == "angle" and not is_limited and is_zero(force.subs(q, q + 2 * pi) - force):
             message = f"`equilibria`: the range of the angle {q.name} has no limit on one side, so equilibria repeat"
-            help_line = f"give {q.name} a range of one turn or less, or none, which means from -pi to pi"
+            help_line = f"give {q.name} a range of one turn or less; an angle without a range is from -pi to pi"
             raise Rejected(Complaint("wrong-argument", message, help=help_line))
 
 

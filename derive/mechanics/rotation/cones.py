@@ -1,9 +1,9 @@
 """A free symmetric body at one instant: its symmetry axis, the cones of its angular velocity, and its precession.
 
-The angular velocity is w = L/I - Omega_b e. Here I is the moment about every axis perpendicular to the symmetry axis,
-and e is the unit vector along the symmetry axis. In the body, w rotates about e on the body cone, at the rate Omega_b.
-In space, w rotates about the constant angular momentum L on the space cone, and e also rotates about L, at the rate
-|L|/I.
+The angular velocity is w = L/I - Omega_b e. Here I is the moment of inertia about every axis perpendicular to the
+symmetry axis, and e is the unit vector along the symmetry axis. In the body, w rotates about e on the body cone, at the
+rate Omega_b. In space, w rotates about the constant angular momentum L on the space cone, and e also rotates about L,
+at the rate |L|/I.
 """
 
 from __future__ import annotations

@@ -29,7 +29,7 @@ def check_given_moment(verb: str, mass: Any, inertia: Quantity) -> None:
         message = f"`{verb}`: `{inertia.key}` is the moment of the mass {called(about.mass)}, not of {called(mass)}"
         raise Rejected(Complaint("different-subjects", message))
     if getattr(body, "filling", "") == "length" and is_zero(inertia.value):
-        message = f"`{inertia.key}` is about the axis along {called(body)}, which lies in the plane of motion"
+        message = f"`{inertia.key}` is about the axis along {called(body)}, but this axis is in the plane of motion"
         raise Rejected(Complaint("wrong-axis", message, help='give the moment with axis="x"'))
     across = getattr(body, "flat_across", None)
     if across is not None and about.axis not in (None, across):

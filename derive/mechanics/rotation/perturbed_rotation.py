@@ -159,7 +159,7 @@ PERTURBATION_RATE_SQUARED = Rule(
 def perturbation_rate_squared(
     linear: Sequence[Quantity], symbol: str = "Omega", key: str = "perturbation_rate_squared"
 ) -> Quantity:
-    """Squared angular frequency of a perturbed rotation, about z Omega^2 = (I_z - I_x)(I_z - I_y) omega^2/(I_x I_y).
+    """Squared angular frequency of a perturbed rotation; about z: Omega^2 = (I_z - I_x)(I_z - I_y) omega^2/(I_x I_y).
 
     linear   the two linear equations from `linearised_rotation`
 

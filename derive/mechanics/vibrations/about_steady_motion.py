@@ -266,8 +266,8 @@ def _letter_of_value(given: Expr, value: Expr, lagrangian: Quantity, of: Quantit
 def _determinant_about(about: About, found: Expr) -> Expr:
     """Return the determinant of d'Alembert's equations to first order, for displacements e^(s t) with s^2 = -omega^2.
 
-    For a cyclic coordinate the unknown is its rate, so its column has one factor of s fewer. Common powers
-    of s are divided out.
+    For a cyclic coordinate the unknown is its rate, so the column of this coordinate has one factor of s fewer. Common
+    powers of s are divided out.
     """
     matter = about.matter.whole if isinstance(about.matter, ReducedMatter) else about.matter
     moving = [about.q, *about.rates]

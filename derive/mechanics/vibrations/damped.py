@@ -34,8 +34,8 @@ class DampedModes(Equations[Damped]):
 
     def found(self) -> tuple[Quantity, ...]:
         """Return the steps for each factor of the determinant. A zero exponent gives one step. Any other factor gives
-        the decay rate, and the frequency if the factor is quadratic and its roots differ. For several coordinates it
-        also gives the shape, if the shape is the same for all exponents of the factor."""
+        the decay rate, and the frequency if the factor is quadratic and its roots differ. For several coordinates such
+        a factor also gives the shape, if the shape is the same for all exponents of the factor."""
         roots, characteristic = self.system.roots, _characteristic(self)
         found: list[Quantity] = []
         number = self.before

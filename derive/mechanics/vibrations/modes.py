@@ -70,8 +70,8 @@ def normal_modes(linear: Sequence[Quantity], symbol: str | None = None, key: str
     which are linear in the rates and do no work, each mode is a motion in time, not a shape. With drag the
     keys are decay_1, decay_2, ... for the decay rates, and frequency_1, frequency_2, ... for the quadratic factors of
     the determinant. If the determinant of the whole system has only one factor, the keys are `decay` and `frequency`.
-    Second route: the trial a cos(omega t) is substituted into the equations, which gives the characteristic equation;
-    for each frequency with a formula, Rayleigh's quotient of stiffness and mass for one of its shapes is omega^2.
+    Second route: the trial a cos(omega t) is substituted into the equations, which gives the characteristic equation.
+    For each frequency with a formula, Rayleigh's quotient of stiffness and mass for one of its shapes is omega^2.
     Check: the motion satisfies the linear equations, the shapes are orthogonal with respect to M, and the sum of all
     omega^2 is the trace of M^-1 K.
     Outcomes: oscillating, growing (omega^2 < 0; kappa is the rate), free (omega = 0), conditional (the sign of omega^2
