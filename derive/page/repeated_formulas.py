@@ -56,7 +56,8 @@ def results(step: Step, lines: Lines) -> int:
 
 
 def told_by_number(step: Step, nodes: tuple[Inline, ...], level: Level) -> tuple[Inline, ...]:
-    """Return the sentence of a repeated result, which refers to the earlier equation and needs no lines after it."""
+    """Return the sentence that refers to the earlier equation of a repeated result and needs no lines; () if there is
+    none."""
     before, _ = around_chain(nodes)
     if step.outcome not in AGAIN or level is Level.FULL or not before:
         return ()

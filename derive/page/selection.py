@@ -98,7 +98,7 @@ class Selection:
         return self._manners.get(key, OWN)
 
     def is_behind_quoted(self, key: str) -> bool:
-        """Return whether only quoted results depend on a step, so that the page needs no words for it.
+        """Return whether the page leaves out a step on which only quoted results depend.
 
         A quoted result is stated without its derivation.
         """

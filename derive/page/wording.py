@@ -231,7 +231,8 @@ class Phrases:
         return (Text(self.labels["by_definition"]),) if step.grade is Grade.DEFINITION and not step.inputs else ()
 
     def worth(self, points: Any, extra: bool = False) -> str:
-        """Return `1 point` or `2.5 points`, "" if there are no points, or the label of an extra question."""
+        """Return the points in words, such as `2.5 points`; "" if there are none. An extra question has a label
+        instead."""
         if extra:
             return str(self.labels["extra"])
         if points is None:

@@ -24,7 +24,7 @@ from derive.figures.space import Stance, Vector, angle_of, cross, dot, plus, siz
 
 ANGLE = pi / 5
 APART = 0.25  # an arrowhead closer than this to a corner makes a view less suitable; relative to the size of the bodies
-OPEN = 0.5  # a view of a flat body is preferred if the cosine between its normal and the line of sight is above this
+OPEN = 0.5  # least cosine, if possible, of the angle between the line of sight and the normal of a flat body
 THIN = 0.1  # greatest thickness of a flat body, relative to its size
 SHARES = (0.8, 0.6, 1.0, 0.7)  # values of coordinates without a number, except angles, in units of a typical length
 
@@ -175,8 +175,8 @@ def _open_view(drawing: Drawing, numbers: Numbers, reach: float) -> Stance:
 
 
 def _normal_of(places: Sequence[Vector], reach: float) -> Vector | None:
-    """Return the normal of the plane that contains all places; None if there is no such plane, or if the places are on
-    one line."""
+    """Return the normal of the plane that contains all places; None if there is no such plane, if the places are on one
+    line, or if there are no places."""
     if not places:
         return None
     ways = [plus(place, places[0], -1.0) for place in places]

@@ -453,7 +453,8 @@ def _widened(low: float, high: float, size: float) -> tuple[float, float]:
 
 
 def _power(low: float, high: float, axis: Axis) -> int:
-    """Return the power of ten by which the numbers of an axis are divided; 0 for numbers of a usual size."""
+    """Return the power of ten by which the numbers of an axis are divided; 0 for degrees and numbers of a usual
+    size."""
     greatest = max(abs(low), abs(high))
     power = floor(log10(greatest)) if greatest > 0 else 0
     return 0 if axis.in_degrees or USUAL[0] <= power <= USUAL[1] else power

@@ -86,7 +86,8 @@ def typed_formula(step: Step, letters: set[Symbol], known: set[Symbol]) -> Typed
     """Return an answer as students type it; None if plain text cannot express it, or if its form is not unique.
 
     letters  the letters of the problem
-    known    the letters that a solved equation may contain: with an unknown force in it, its form is not unique
+    known    the letters that a solved equation may contain; with an unknown force, the form of an equation is not
+             unique
     """
     from sympy import Expr, I, MatrixBase, Symbol, oo, zoo
     from sympy.core.numbers import NumberSymbol, pi
@@ -137,7 +138,7 @@ def _solved(step: Step) -> tuple[Any, Any]:
 
 
 def _plain(value: Any) -> str:
-    """Return plain text of a formula, in which each letter has its own name."""
+    """Return the plain text of a formula, in which each letter is printed as its name."""
     import re
 
     from derive.render.printing.plain_sympy import sympy_text

@@ -99,8 +99,8 @@ def _swings(factor: Expr) -> bool:
 def _is_root_of_quadratic(total: Expr, below: int) -> bool:
     """Return whether a sum divided by `below` looks like the quadratic formula: (b + sqrt(b^2 + c^2))/2.
 
-    The sum has two numbers, at least one with a square root, or two terms. Exactly one of the two terms must then be a
-    root of a sum, and its coefficient must not be a multiple of `below`: sqrt(b^2 + c^2) + b/2 is not such a sum.
+    The sum has two terms. If both are numbers, at least one must have a square root. Otherwise exactly one must be a
+    root of a sum, with a coefficient that is not a multiple of `below`: sqrt(b^2 + c^2) + b/2 does not look like it.
     """
     roots = [term for term in total.args if _has_root(term)]
     if len(total.args) != 2 or total.is_number:

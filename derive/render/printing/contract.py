@@ -184,8 +184,8 @@ def _step(named: StepNames, notation: Notation) -> dict[str, Any]:
 
 
 def _whole(step: Step, notation: Notation) -> str | None:
-    """Return the LaTeX of the symbol, or the key of the equation, of which the result is a limit or series; None if
-    there is none."""
+    """Return the LaTeX of the symbol, or the key of the equation, of which the result is a limit or series; None for
+    any other result."""
     whole = step.approximates
     return None if whole is None else whole.name if isinstance(whole, Str) else latex(notation.layout(whole))
 
