@@ -161,7 +161,7 @@ def polynomial_in(
     """Return the residual of an equation with a dummy symbol in place of each unknown, and the list of dummy symbols.
 
     Factors that contain the symbol of an unknown but not the unknown itself are dropped. Without `or_value`, the
-    assumption that these factors do not vanish is recorded.
+    assumption that these factors do not vanish is recorded where it is needed.
     """
     left = residual_of(verb, equation, or_value)
     marks = [mark_for(unknown) for unknown in unknowns]

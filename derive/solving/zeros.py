@@ -284,8 +284,8 @@ def _exponent(product: Expr, q: Symbol) -> Expr:
 
 
 def _of_one_power(factor: Expr, x: Expr) -> list[Expr] | None:
-    """The real roots of A x^n + B, with n > 2; None for any other polynomial. Raises `Unsolved` if the degree is above
-    `HIGHEST`, or if the sign of -B/A is unknown."""
+    """The real roots of A x^n + B, with n > 2; None for any other polynomial. Raises `Unsolved` if the factor is not a
+    polynomial of degree at most `HIGHEST`, or if the sign of -B/A is unknown."""
     polynomial = factor.as_poly(x)
     if polynomial is None or polynomial.degree() > HIGHEST:
         raise Unsolved(factor)

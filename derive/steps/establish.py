@@ -2,8 +2,8 @@
 
 A `Step` is data: keys and expressions, no sentence and no TeX. Only `establish()` makes a step, after three checks:
 
-    (a) Each line of the chain follows from the line before it; a limit, a series or a rounded number equals it only
-        approximately. The left side equals the first line. The returned value equals the last exact line.
+    (a) Each line of the chain follows from the line before it; a limit, a series or a rounded number equals an earlier
+        line only approximately. The left side equals the first line. The returned value equals the last exact line.
     (b) Every second route to the result, and every check of the result, agrees with the result.
     (c) The subjects of the inputs fit together, and the word that chooses the sentence is true of the result.
 

@@ -110,7 +110,7 @@ def value_of(
     """The value of an answer in a unit, rounded to significant figures.
 
     Return None if symbols remain in the value, if it is not real, or if it needs no rounding: it is zero, or consists
-    of whole numbers.
+    of whole numbers. Return None also for a relation whose left side is not a single symbol.
 
     answer    any quantity; in a relation with a single symbol on its left side, the right side gets the number
     amounts   symbol -> its number with a unit

@@ -124,7 +124,7 @@ def test_the_axis_of_a_root_with_its_own_symbol_has_a_unit(tmp_path: Path) -> No
         ([("    plot: effective_potential\n", "")], "`against` has no effect without `plot` or `curves`"),
         ([("    plot: effective_potential\n", "    plot: stability\n")], "is several results"),
         ([("    plot: effective_potential\n", "    plot: effective\n")], "`effective`"),
-        ([("    at: b\n", "    at: b\n    per: [1, m]\n")], "`m` is in kg, but this axis is in J"),
+        ([("    at: b\n", "    at: b\n    per: [1, m]\n")], "`m` is in kg, but it divides values in J"),
         ([("    at: b\n", "    at: b\n    per: [m*g*R]\n")], "`per` of this plot must have 2 quantities, but has 1"),
         ([("    at: b\n", "    at: b\n    energies: [m*g]\n")], "`m*g` is in N, not in J"),
         ([("    at: b\n", "    at: b\n    without: [x]\n")], "`without` has no effect on `energy`, which is a plot"),
@@ -597,7 +597,7 @@ def test_a_path_shows_surfaces(tmp_path: Path) -> None:
     [
         ([("surfaces: [sphere, floor]", "surfaces: [sphere, flor]")], "no surface is called `flor`"),
         ([("surfaces: [sphere, floor]", "surfaces: []")], "`surfaces` must be a list of surfaces"),
-        ([("plot: [path_x, path_z]", "plot: [path_x, path_z/R]")], "the path is not in the plane of `sphere`"),
+        ([("plot: [path_x, path_z]", "plot: [path_x, path_z/R]")], "a path of these quantities cannot show `sphere`"),
         ([("plot: [path_x, path_z]", "plot: path_z")], "`surfaces` has no effect on `path`, which is not a path"),
         (
             [("surfaces: [sphere, floor]", "up: [0 m, 1 m]")],
