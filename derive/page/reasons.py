@@ -2,8 +2,8 @@
 
 A reason that only names equations, "from (2) and (3)", is left out if all these equations are in view. An equation is
 in view if it is one of the two equations before the line, or if the paragraph before the display names it. The lines of
-a step show a common reason once, at the last of these lines, and the next step of the display does not repeat this
-reason. A result that a part has framed is not framed again in this part.
+a step show a common reason once, at the last of these lines. The next step of the display does not repeat this reason.
+A result that a part has framed is not framed again in this part.
 """
 
 from __future__ import annotations

@@ -6,7 +6,7 @@
 
 Each rule specifies, for all problems, how its steps are shown. Independently of the level, answers and reworded steps
 have lines of their own, unless earlier lines show their result. A step whose symbol or equation the page needs
-(`Needed`) is shown too, so a page does not use a symbol or an equation number that it has not introduced.
+(`Needed`) is shown, too. So a page does not use a symbol or an equation number that it has not introduced.
 """
 
 from __future__ import annotations

@@ -6,8 +6,8 @@ systems:
 
 conservative   without G and C: the determinant is a polynomial in lambda = omega^2, where s = i omega; the columns a
                are real
-gyroscopic     without C: the determinant is a polynomial in omega^2. It may be the product of a polynomial in omega and
-               its mirror image, one for each sense of rotation; the roots then have simpler formulas
+gyroscopic     without C: the determinant is a polynomial in omega^2. This polynomial may be the product of a polynomial
+               in omega and its mirror image, one for each sense of rotation; the roots then have simpler formulas
 damped         the determinant is a polynomial in s; its factors must be linear or quadratic
 """
 

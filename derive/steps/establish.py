@@ -171,8 +171,8 @@ def establish(
     facts       facts that the quantity carries in addition to its value
     proposals   quantities that are usual in the field; the result may be written in their symbols
 
-    Raises `Unverified` if a line differs from the line before it, or if a route or a check gives a different result. It
-    is also raised if a statement in the sentence of the step is not confirmed.
+    Raises `Unverified` if a line differs from the line before it, or if a route or a check gives a different result.
+    `Unverified` is also raised if a statement in the sentence of the step is not confirmed.
     """
     key = key or rule.key
     quantities = {role: q for role, q in inputs.items() if isinstance(q, Quantity)}

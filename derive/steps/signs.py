@@ -50,8 +50,8 @@ def sign_known(value: Expr) -> int | None:
 def sign_beside_root(value: Expr) -> int | None:
     """Return the sign of a ratio of sums P + Q sqrt(D); None if it is unknown.
 
-    The square roots must be real. If P^2 is less than Q^2 D, P + Q sqrt(D) has the sign of Q; if P^2 is greater, P + Q
-    sqrt(D) has the sign of P.
+    The square roots must be real. If P^2 is less than Q^2 D, the sum P + Q sqrt(D) has the sign of Q. If P^2 is
+    greater, the sum has the sign of P.
     """
     own = sign_known(value)
     if own is not None:

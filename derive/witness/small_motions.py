@@ -92,8 +92,8 @@ class Neighbourhood:
 
 
 def neighbourhood(claim: Claim, trial: Trial, place: Mapping[Symbol, Expr]) -> Neighbourhood | None:
-    """The states near the equilibrium at `place`; None if `place` contains a symbol that is not a coordinate, or if
-    constraints act and cyclic coordinates are eliminated."""
+    """The states near the equilibrium at `place`. None if `place` contains a symbol that is not a coordinate. None also
+    if constraints act and cyclic coordinates are eliminated."""
     q = claim.blueprint.coordinates
     cyclic = {q.index(of): value for of, value in claim.constants.items() if of not in place}
     if cyclic and claim.blueprint.of.conditions:
@@ -157,8 +157,8 @@ UNSTABLE = frozenset(["unstable", "unstable_along"])
 
 def stability(claim: Claim) -> Verdict | None:
     """Test the stability that the step states. At a stable equilibrium, no small displacement may grow. At an unstable
-    equilibrium, some small displacement must grow. This is not required if an eigenvalue is zero, because the linear
-    motion does not then show whether the equilibrium is stable."""
+    equilibrium, some small displacement must grow. If an eigenvalue is zero, no displacement is required to grow,
+    because the linear motion does not then show whether the equilibrium is stable."""
     inputs = claim.judged.inputs
     if "coordinates" not in inputs or "place" not in inputs:
         return None

@@ -1,6 +1,6 @@
 """A description with random numbers for its symbols, and states that satisfy the conditions and the given values.
 
-The numbers are the same in every run. They are in the ranges of their symbols and satisfy the assumptions of the page.
+The numbers are the same in every run, are in the ranges of their symbols, and satisfy the assumptions of the page.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """From the expressions of a drawing to points on paper: numbers for the symbols, and the viewing direction.
 
 A symbol with a number keeps this number. The other symbols of a kind get substitute values in the order of their
-declaration: 1, 3/2, 2, ... times the mean size of the given numbers of this kind. Without given numbers, the values are
-1, 3/2, 2, ... times 36 degrees for angles, and 1, 3/2, 2, ... for other kinds.
+declaration. These values are 1, 3/2, 2, ... times the mean size of the given numbers of this kind. Without given
+numbers, the values are 1, 3/2, 2, ... times 36 degrees for angles, and 1, 3/2, 2, ... for other kinds.
 """
 
 from __future__ import annotations
@@ -195,8 +195,8 @@ def _apartness(stance: Stance, ends: Sequence[Vector], corners: Sequence[Vector]
 
 
 def _clearness(stance: Stance, vectors: Sequence[Vector], pairs: Sequence[tuple[Vector, Vector]]) -> float:
-    """Return a measure of how clearly the vectors appear. It grows with the shortest length of a vector in the view,
-    and with the smallest sine of an angle between two vectors in the view."""
+    """Return a measure of how clearly the vectors appear. The measure grows with the shortest length of a vector in the
+    view, and with the smallest sine of an angle between two vectors in the view."""
     longest = min((hypot(*stance.spot(v)) for v in vectors), default=1.0)
     widest = 1.0
     for a, b in pairs:

@@ -270,9 +270,9 @@ def _is_tick_at_end(point: tuple[float, float, bool], across: Ticks, curves: Cur
 def _point(
     at: float, value: float, is_zero: bool, curves: Curves, own: Sequence[Curve], across: Ticks, notation: Notation
 ) -> tuple[Spot, str]:
-    """Return a point of a panel with its name. The name is the symbol of its place on the horizontal axis, followed by
-    the value unless the values on the axis are divided by a quantity. Without a symbol, the name of a meeting point has
-    the values on both axes, the name of a zero has one value, and a zero at a tick has no name."""
+    """Return a point of a panel with its name. The name is the symbol of its place on the horizontal axis. The value
+    follows, unless the values on the axis are divided by a quantity. If the place has no symbol, the name of a meeting
+    point has the values on both axes, and the name of a zero has one value. A zero at a tick then has no name."""
     x, y = at * curves.variable.per_unit, value * curves.up.per_unit
     for curve in own:
         (found,) = with_names([Extremum(at, value, MINIMUM)], curve.places, NEAR * (curve.upper - curve.lower))

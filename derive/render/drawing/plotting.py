@@ -88,8 +88,8 @@ class Writing:
         return scale * (right - left), scale * (above - below)
 
     def at(self, spot: Spot, text: str, scale: float, share: Spot, colour: str = LINE, upwards: bool = False) -> Shape:
-        """Place a text at a point; `share` gives the fraction of the width of the text that is to the left of the
-        point, and the fraction of the height that is below the point."""
+        """Place a text at a point. Of the width and the height of the text, `share` gives the fractions to the left of
+        the point and below it."""
         contour, extent = self.known[text]
         if upwards:
             contour, extent = turned(contour), (-extent[3], extent[0], -extent[1], extent[2])

@@ -162,8 +162,8 @@ def _told(typed: Typed | None, notation: Notation) -> dict[str, Any]:
 def _components(step: Step, notation: Notation) -> list[str]:
     """Return the symbols of the components of a vector in TeX; an empty list for any other answer.
 
-    There are no components if only the ratios of the entries have a meaning, as for the amplitudes of a mode, or if the
-    answer is a list of values in any order.
+    There are no components if only the ratios of the entries have a meaning, as for the amplitudes of a mode. The same
+    is true if the answer is a list of values in any order.
     """
     from sympy import MatrixBase
 
