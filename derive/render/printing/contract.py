@@ -6,8 +6,8 @@ each line equals the line before it, with these exceptions:
 
     a number        (`because: rounded`) differs from the last line before the numbers by at most `within`.
     a relation      has a residual, left minus right: the residual of the line before is `factor` times the residual of
-                    this line. The factor is not zero if no entry of `nonzero` is zero. For an inequality, the factor is
-                    positive if every entry of `nonzero` is positive.
+                    this line. The factor is not zero if no entry of `nonzero` is zero. In an inequality, these entries
+                    are positive, and a negative factor reverses the sign (<, >).
     a series        (`because: series`, or `limit` with order 0) agrees with the line before up to the `order` in its
                     `variable`.
     the motion      (`because: motion`): the two lines are equal after `motion` is substituted in both.
