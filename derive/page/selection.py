@@ -38,8 +38,8 @@ LONGEST_CLAUSE = 24  # greatest number of nodes in the expression tree of a resu
 
 @dataclass(frozen=True)
 class Needed:
-    """The steps that the page needs, as earlier versions of the page have shown. `letters` contains the hidden steps
-    whose symbols the page uses, and `numbers` the hidden steps to whose equations it refers.
+    """The hidden steps that the page needs, found from earlier versions of the page. `letters` contains the hidden
+    steps whose symbols the page uses, and `numbers` the hidden steps to whose equations it refers.
 
     in_words   key of a step whose equation is in its sentence -> whether the sentence must name the step's symbol
     """
@@ -162,7 +162,7 @@ class Selection:
         return found
 
     def _only_for_worded(self, steps: Sequence[Step]) -> set[str]:
-        """Return the steps that only explain steps with their own `wording:`."""
+        """Return the steps that only explain reworded steps."""
         found: set[str] = set()
         for step in reversed(steps) if self.worded else ():
             users = {other.key for other in steps if step.key in other.inputs}

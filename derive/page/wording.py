@@ -452,8 +452,8 @@ def equation_of(step: Step) -> Inline:
 
 
 def with_verdict(nodes: Sequence[Inline], words: Phrases) -> tuple[Inline, ...]:
-    """Return the sentence with its verdict marked, if it contains exactly one: "the equilibrium is stable". In a
-    sentence with several verdicts, a single inequality is marked instead."""
+    """Return the sentence with its verdict marked, if it contains exactly one verdict: "the equilibrium is stable". In
+    a sentence with several verdicts, a single inequality is marked instead."""
     pattern = re.compile(rf"\b({'|'.join(words.labels['verdicts'])})\b")
     found = [(i, match) for i, node in enumerate(nodes) if type(node) is Text for match in pattern.finditer(node.text)]
     if len(found) > 1:

@@ -40,7 +40,7 @@ DIAGRAM = 0.6  # height divided by width of a bifurcation diagram
 FLATTEST, STEEPEST = 0.25, 1.4  # limits of height divided by width, for a path whose axes have the same scale
 # The axis of a positive curve begins at zero if the least value is below this part of the curve's height.
 NEAR_ZERO = 0.25
-FEWEST = 3  # least number of ticks, if smaller steps can give it
+FEWEST = 3  # least number of ticks; smaller steps are tried to reach it
 AT_TICK = 1e-5  # a tick marks a place within this fraction of the distance between the outermost ticks
 USUAL = (-2, 4)  # numbers at an axis have no factor 10^n if the power of ten of the greatest number is in this range
 
@@ -56,8 +56,9 @@ class Trace:
     """One curve of a panel.
 
     points   the curve, in the units of the axes
-    turns    the extrema: the point, whether it is a minimum, and the forms of the name of its place on the horizontal
-             axis, the shortest last. There is no name if the place has no symbol and a tick already shows it
+    turns    the extrema, each with its point, whether it is a minimum, and the forms of the name of its place on the
+             horizontal axis, the shortest form last. There is no name if the place has no symbol and a tick already
+             shows it
     name     the name of the curve; empty if the panel has no other curve
     """
 

@@ -115,8 +115,8 @@ def typed_formula(step: Step, letters: set[Symbol], known: set[Symbol]) -> Typed
 
 
 def _solved(step: Step) -> tuple[Any, Any]:
-    """Return the symbol and the value of an answer. An equation is solved for its left side or for its only second
-    rate; any other relation has the value None."""
+    """Return the symbol and the value of an answer. An equation is solved for its left side or for its only
+    acceleration; any other relation has the value None."""
     from sympy import Symbol, diff
 
     from derive.algebra.expressions import RATES, Relation, bound

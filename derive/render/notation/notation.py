@@ -258,8 +258,8 @@ class Notation:
         return side_by_side([*(self._as_factor(f, Binding.DOTTED) for f in before), self._as_factor(last)])
 
     def _as_factor(self, expr: Any, most: Binding = Binding.OPEN) -> Layout:
-        """Return a factor for use next to others. The factor is in brackets if it binds less strongly than `most`, or
-        if it is a number with a unit."""
+        """Return a factor for use next to other factors. The factor is in brackets if it binds less strongly than
+        `most`, or if it is a number with a unit."""
         inner = self.layout(expr)
         return Fenced(inner) if binding(inner) is Binding.MEASURED else within(inner, most)
 

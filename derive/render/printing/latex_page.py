@@ -346,7 +346,8 @@ class LatexPage:
         return rf"{escaped(self.words.labels['figure'])}{space}\figureno{{{number}}}"
 
     def margin(self, display: Display, before: Sequence[Inline] = ()) -> Tex:
-        """Return the note next to a display and its words: the grade, and a route or check that has room."""
+        """Return the note next to a display and its words: the grade, and the first route or check that has room, if
+        any."""
         lines = [escaped(self.words.grades[display.grade])]
         said = second_ways(display, self.words)
         fitting = [route for route in said if _note_height(route) <= self._height(display, before)]
