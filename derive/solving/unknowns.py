@@ -185,8 +185,8 @@ def factors_elsewhere(value: Expr, unknown: Expr) -> list[Expr]:
 
 
 def _is_below(factor: Expr, unknown: Expr) -> bool:
-    """Whether a factor is the cosine in tan(theta) = sin(theta)/cos(theta). Where it vanishes, the sine does not, so an
-    equation for the tangent has no root there."""
+    """Whether a factor is the cosine in tan(theta) = sin(theta)/cos(theta). Where the cosine vanishes, the sine does
+    not vanish, so an equation for the tangent has no root there."""
     return isinstance(unknown, tan) and factor == cos(unknown.args[0])
 
 

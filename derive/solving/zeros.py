@@ -43,7 +43,7 @@ from derive.solving.root_of_factor import roots_of
 from derive.steps.record import assume
 from derive.steps.signs import sign_for_all
 
-HIGHEST = 6  # highest degree of a polynomial in the coordinate that is solved
+HIGHEST = 6  # polynomials in the coordinate are solved up to this degree
 ZERO, ONE = Integer(0), Integer(1)
 
 

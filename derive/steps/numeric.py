@@ -420,8 +420,8 @@ def coefficient_of(answer: Quantity, figures: int, of_vectors: bool = False) -> 
 
     answer       a quantity, usually a scalar with symbols
     figures      the number of significant figures
-    of_vectors   whether products of roots and pi are also rounded, and vectors whose components are numbers times the
-                 same symbols
+    of_vectors   whether products of roots and pi, and vectors whose components are numbers times the same symbols, are
+                 rounded, too
 
     Check: the answer divided by its symbols, evaluated again as for `value_of`.
     Outcomes: exact.

@@ -1,6 +1,6 @@
 """A verified step, the quantity that it yields, and small functions on values for every verb.
 
-A `Step` is data: keys and expressions, no sentence and no TeX. Only `derive.steps.establish` makes one.
+A `Step` is data: keys and expressions, no sentence and no TeX. Only `derive.steps.establish` makes a step.
 """
 
 from __future__ import annotations

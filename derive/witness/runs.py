@@ -260,7 +260,7 @@ FLOWN = 1e-4
 
 
 def flight(claim: Claim) -> Verdict | None:
-    """Test a component of the position in a free flight: the motion is simulated until the constraint force vanishes,
+    """Test a component of the position in a free flight. The motion is simulated until the constraint force vanishes,
     then without the constraints that end there."""
     fact, i = claim.judged.inputs["flight"], int(claim.judged.inputs["component"])
     count = 0
