@@ -646,7 +646,8 @@ class Damped(LinearSystem):
     def column(self, root: CharacteristicRoot) -> MatrixBase | None:
         """The amplitudes, if they do not depend on the exponent.
 
-        Return None if the amplitudes depend on it, if the root is repeated, or if there is not exactly one column.
+        Return None if the amplitudes depend on the exponent, if the root is repeated, or if there is not exactly one
+        column.
         """
         columns = _null_columns(self.at(S), Poly(root.factor.at(S), S)) if root.times == 1 else []
         return None if len(columns) != 1 or columns[0].has(S) else ImmutableDenseMatrix(columns[0].applyfunc(tidied))

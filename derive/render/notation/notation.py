@@ -99,8 +99,9 @@ def _swings(factor: Expr) -> bool:
 def _is_root_of_quadratic(total: Expr, below: int) -> bool:
     """Return whether a sum divided by `below` looks like the quadratic formula: (b + sqrt(b^2 + c^2))/2.
 
-    The sum has two terms. If both are numbers, at least one must have a square root. Otherwise exactly one must be a
-    root of a sum, with a coefficient that is not a multiple of `below`: sqrt(b^2 + c^2) + b/2 does not look like it.
+    The sum must have two terms. If both terms are numbers, at least one of them must have a square root. In all other
+    cases exactly one term must be a root of a sum, with a coefficient that is not a multiple of `below`. So the result
+    is false for sqrt(b^2 + c^2) + b/2.
     """
     roots = [term for term in total.args if _has_root(term)]
     if len(total.args) != 2 or total.is_number:
