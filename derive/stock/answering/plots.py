@@ -306,7 +306,8 @@ class Plotted:
     def _one(self, answer: Word) -> Quantity:
         quantities = self.named(answer)
         if len(quantities) != 1:
-            rejected("wrong-argument", f"`{answer}` is several results, so it has no single curve", answer.place)
+            message = f"`{answer}` denotes several results, but a plot needs one result here"
+            rejected("wrong-argument", message, answer.place)
         return quantities[0]
 
     def _variable(self, against: Word, letters: set[Any], message: str) -> tuple[Symbol, str]:
