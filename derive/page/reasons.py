@@ -1,9 +1,9 @@
 """Reasons and frames that a page leaves out because the reader does not need them.
 
 A reason that only names equations, "from (2) and (3)", is left out if all these equations are in view. An equation is
-in view if it is one of the two before the line, or if the paragraph before the display names it. The lines of a step
-show a common reason once, at the last of these lines, and the next step of the display does not repeat this reason. A
-result that a part has framed is not framed again in this part.
+in view if it is one of the two equations before the line, or if the paragraph before the display names it. The lines of
+a step show a common reason once, at the last of these lines. The next step of the display does not repeat this reason.
+A result that a part has framed is not framed again in this part.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from derive.page.numbering import Number
 from derive.page.tree import Block, Display, Paragraph
 from derive.page.wording import Inline, Ref, Text
 
-JUST_BEFORE = 2  # the reader has this many equations before a line in view
+JUST_BEFORE = 2  # the number of equations before a line that the reader still has in view
 
 
 def without_known_reasons(blocks: Sequence[Block], numbers: Mapping[str, Number]) -> tuple[Block, ...]:

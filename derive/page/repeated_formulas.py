@@ -46,9 +46,9 @@ class Stated:
 
 
 def results(step: Step, lines: Lines) -> int:
-    """Return the number of final lines that are the result. For a list of results, these are all lines. For a value
-    with measured numbers, these are the lines with decimals, if there are any. Otherwise they are the last exact line
-    and the decimals after it."""
+    """Return how many of the last lines show the result. For a list of results, these are all lines. For a value
+    with measured numbers, these are the lines with decimals, if there are any. For any other value, these are the last
+    exact line and the lines with decimals after it."""
     if isinstance(getattr(step, "symbol", None), MatrixBase):  # a list of results, with a line for each value
         return len(lines)
     decimals = next((i for i, line in enumerate(reversed(lines)) if not line.numeric), len(lines))
@@ -56,7 +56,8 @@ def results(step: Step, lines: Lines) -> int:
 
 
 def told_by_number(step: Step, nodes: tuple[Inline, ...], level: Level) -> tuple[Inline, ...]:
-    """Return the sentence of a repeated result, which refers to the earlier equation and needs no lines after it."""
+    """Return the sentence that refers to the earlier equation of a repeated result and needs no lines; () if there is
+    none."""
     before, _ = around_chain(nodes)
     if step.outcome not in AGAIN or level is Level.FULL or not before:
         return ()

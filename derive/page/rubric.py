@@ -1,8 +1,9 @@
 """A rubric: the points of a part divided among its steps, in halves or quarters if possible.
 
-The author may specify points in a part, `rubric: {lagrangian: 2, motion_theta: 1}`; the rest is divided by shares. A
-step has one share and an answer has two. The points are rounded by the method of largest remainders. If an answer has a
-formula and a number, the formula has the two shares, and the number is worth at most half a point.
+The author may specify points in a part, `rubric: {lagrangian: 2, motion_theta: 1}`; the other steps divide the rest in
+proportion to their shares. A step has one share and an answer has two. The points are rounded by the method of largest
+remainders. If an answer has a formula and a number, the formula has the two shares, and the number is worth at most
+half a point.
 """
 
 from __future__ import annotations

@@ -6,7 +6,7 @@
 
 Each rule specifies, for all problems, how its steps are shown. Independently of the level, answers and reworded steps
 have lines of their own, unless earlier lines show their result. A step whose symbol or equation the page needs
-(`Needed`) is shown too, so a page does not use a symbol or an equation number that it has not introduced.
+(`Needed`) is shown, too. So a page does not use a symbol or an equation number that it has not introduced.
 """
 
 from __future__ import annotations
@@ -38,8 +38,8 @@ LONGEST_CLAUSE = 24  # greatest number of nodes in the expression tree of a resu
 
 @dataclass(frozen=True)
 class Needed:
-    """The steps that the page needs, as earlier versions of the page have shown. `letters` contains the hidden steps
-    whose symbols the page uses, and `numbers` the hidden steps to whose equations it refers.
+    """The hidden steps that the page needs, found from earlier versions of the page. `letters` contains the hidden
+    steps whose symbols the page uses, and `numbers` the hidden steps to whose equations it refers.
 
     in_words   key of a step whose equation is in its sentence -> whether the sentence must name the step's symbol
     """
@@ -98,7 +98,7 @@ class Selection:
         return self._manners.get(key, OWN)
 
     def is_behind_quoted(self, key: str) -> bool:
-        """Return whether only quoted results depend on a step, so that the page needs no words for it.
+        """Return whether the page leaves out a step on which only quoted results depend.
 
         A quoted result is stated without its derivation.
         """
@@ -162,7 +162,7 @@ class Selection:
         return found
 
     def _only_for_worded(self, steps: Sequence[Step]) -> set[str]:
-        """Return the steps that only explain steps with their own `wording:`."""
+        """Return the steps that only explain reworded steps."""
         found: set[str] = set()
         for step in reversed(steps) if self.worded else ():
             users = {other.key for other in steps if step.key in other.inputs}

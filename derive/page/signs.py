@@ -24,7 +24,8 @@ def sign_behind_name(step: Step, form: Form) -> str:
 
 
 def name_before(step: Step) -> Any:
-    """Return the left side of a chain: the symbol of the step or, for a limit or series, of the full quantity."""
+    """Return the left side of a chain: the symbol of the step, or for a limit or a series the symbol of the exact
+    result."""
     return step.approximates if step.breaks_off and not isinstance(step.approximates, Str) else step.symbol
 
 

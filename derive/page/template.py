@@ -51,7 +51,7 @@ def templates_of(root: Path) -> Templates:
 
 
 def unused_templates(root: Path) -> list[Complaint]:
-    """Return a warning for each file in the templates of a course that has no effect."""
+    """Return a warning for each file that has no effect in the templates of a course."""
     templates = templates_of(root)
     if len(templates.folders) == 1:
         return []

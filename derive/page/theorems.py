@@ -2,7 +2,7 @@
 
 A page is part of several documents: the document of its problem and the documents of its set. In a document of a set,
 the first problem that uses a theorem states it in full, and later problems refer to this problem. So a page contains a
-long and a short sentence, and each document prints one of them.
+long and a short sentence for each theorem, and each document prints one of the two.
 """
 
 from __future__ import annotations

@@ -33,8 +33,8 @@ class Display:
         return min(self.grades, key=LEAST_SURE_FIRST.index)
 
     def with_more(self, other: Display, beside: bool = False) -> Display:
-        """Join two displays, in one row if `beside`. The routes of `other` are kept only if this display has no routes;
-        the same is true of the checks."""
+        """Join two displays, in one row if `beside` is true. The routes of `other` are kept only if this display has no
+        routes; the same is true of the checks."""
         groups = (
             (*self.groups[:-1], self.groups[-1].beside(other.groups[0])) if beside else (*self.groups, *other.groups)
         )

@@ -231,7 +231,8 @@ class Phrases:
         return (Text(self.labels["by_definition"]),) if step.grade is Grade.DEFINITION and not step.inputs else ()
 
     def worth(self, points: Any, extra: bool = False) -> str:
-        """Return `1 point` or `2.5 points`, "" if there are no points, or the label of an extra question."""
+        """Return the points in words, such as `2.5 points`; "" if there are none. An extra question has a label
+        instead."""
         if extra:
             return str(self.labels["extra"])
         if points is None:
@@ -451,8 +452,8 @@ def equation_of(step: Step) -> Inline:
 
 
 def with_verdict(nodes: Sequence[Inline], words: Phrases) -> tuple[Inline, ...]:
-    """Return the sentence with its verdict marked, if it contains exactly one: "the equilibrium is stable". In a
-    sentence with several verdicts, a single inequality is marked instead."""
+    """Return the sentence with its verdict marked, if it contains exactly one verdict: "the equilibrium is stable". In
+    a sentence with several verdicts, a single inequality is marked instead."""
     pattern = re.compile(rf"\b({'|'.join(words.labels['verdicts'])})\b")
     found = [(i, match) for i, node in enumerate(nodes) if type(node) is Text for match in pattern.finditer(node.text)]
     if len(found) > 1:

@@ -40,8 +40,8 @@ def preview(
     told: Callable[[str, Shown], None],
     ending: Ending,
 ) -> None:
-    """Serve the pages of a set until the user interrupts or `ending` is set; `ready` is called with the address,
-    `told` with each shown page or its errors."""
+    """Serve the pages of a set until the user interrupts or `ending` is set. The function `ready` is called with the
+    address, and `told` with each shown page or its errors."""
     check_asked(root, set_id, [name] if name else ())
     heading = problem_set(root, set_id)
     first = name or heading.problems[0].rpartition("/")[2]

@@ -5,7 +5,7 @@
     /NAME/events      messages to the page NAME.html: its new content, or its errors
 
 Nothing else is served, and no file can be requested by its name. A request that does not use a local name of this
-machine is rejected, so that no page of another site can read the content of these pages.
+machine is rejected. So no page of another site can read the content of these pages.
 """
 
 from __future__ import annotations

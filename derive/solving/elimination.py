@@ -1,7 +1,7 @@
 """The order in which a person solves linear equations: an equation with only one unknown is used first, if there is
 one.
 
-Example: in M x'' = mu N, M y'' = N - M g and y'' = 0, the last two equations give N, and the first one then gives x''.
+Example: M x'' = mu N, M y'' = N - M g, y'' = 0. The last two equations give N, and the first equation then gives x''.
 """
 
 from __future__ import annotations

@@ -133,7 +133,7 @@ def rest_vanishes(value: Any, found: Any, x: Symbol, place: Expr, power: Rationa
     """Compare the remainder at two distances: the remainder divided by the last power kept must shrink.
 
     The next power may be fractional, as in a + b x^(1/4), so the quotient may shrink more slowly than the distance.
-    Both sides of the value `place` are tested where both are possible, because |m - M| has different leading terms on
+    Both sides of the value `place` are tested if both are possible. For example, |m - M| has different leading terms on
     the two sides of m = M.
     """
     for before, after in zip(entries_of(value), entries_of(found), strict=True):

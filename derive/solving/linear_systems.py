@@ -6,8 +6,8 @@ systems:
 
 conservative   without G and C: the determinant is a polynomial in lambda = omega^2, where s = i omega; the columns a
                are real
-gyroscopic     without C: the determinant is a polynomial in omega^2. It may be the product of a polynomial in omega and
-               its mirror image, one for each sense of rotation; the roots then have simpler formulas
+gyroscopic     without C: the determinant is a polynomial in omega^2. This polynomial may be the product of a polynomial
+               in omega and its mirror image, one for each sense of rotation; the roots then have simpler formulas
 damped         the determinant is a polynomial in s; its factors must be linear or quadratic
 """
 
@@ -232,7 +232,8 @@ class LinearSystem:
         except PolynomialError:
             found = []
         if sum(part.degree() * times for part, times in found) != degree:
-            raise Rejected(Complaint("no-closed-form", "the determinant is not a polynomial that can be factored"))
+            message = f"the determinant is not a polynomial of degree {degree} that can be factored"
+            raise Rejected(Complaint("no-closed-form", message))
         return [(part, times) for part, times in found]
 
 
@@ -531,8 +532,8 @@ class Gyroscopic(LinearSystem):
         sign = self.sign(factor.discriminant)
         if sign == -1:
             message = (
-                "there is no normal mode: one motion spirals outwards, "
-                "and another of the same frequency spirals inwards"
+                "one motion spirals outwards, and another motion of the same frequency spirals inwards, "
+                "so these motions are not normal modes"
             )
             raise Rejected(Complaint("no-oscillation", message, help="use `stability` instead"))
         return 1 if sign == 1 or self.is_minimum else None
@@ -645,7 +646,8 @@ class Damped(LinearSystem):
     def column(self, root: CharacteristicRoot) -> MatrixBase | None:
         """The amplitudes, if they do not depend on the exponent.
 
-        Return None if they do, if the root is repeated, or if there is not exactly one column.
+        Return None if the amplitudes depend on the exponent, if the root is repeated, or if there is not exactly one
+        column.
         """
         columns = _null_columns(self.at(S), Poly(root.factor.at(S), S)) if root.times == 1 else []
         return None if len(columns) != 1 or columns[0].has(S) else ImmutableDenseMatrix(columns[0].applyfunc(tidied))

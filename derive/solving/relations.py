@@ -150,7 +150,7 @@ def solved_for_unknown(of: Quantity, difference: Expr, mark: str, unknown: Expr)
     for u.
 
     If the difference contains u only as u^2, the relation is solved for u^2. If neither u nor the other side can be
-    negative, it is then solved for u.
+    negative, the relation is then solved for u.
     """
     u = mark_for(unknown)
     written, beside = without_factors_beside(with_unknown(difference, unknown, u), unknown, u)

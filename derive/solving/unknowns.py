@@ -161,7 +161,7 @@ def polynomial_in(
     """Return the residual of an equation with a dummy symbol in place of each unknown, and the list of dummy symbols.
 
     Factors that contain the symbol of an unknown but not the unknown itself are dropped. Without `or_value`, the
-    assumption that these factors do not vanish is recorded.
+    assumption that these factors do not vanish is recorded where it is needed.
     """
     left = residual_of(verb, equation, or_value)
     marks = [mark_for(unknown) for unknown in unknowns]
@@ -185,8 +185,8 @@ def factors_elsewhere(value: Expr, unknown: Expr) -> list[Expr]:
 
 
 def _is_below(factor: Expr, unknown: Expr) -> bool:
-    """Whether a factor is the cosine in tan(theta) = sin(theta)/cos(theta). Where it vanishes, the sine does not, so an
-    equation for the tangent has no root there."""
+    """Whether a factor is the cosine in tan(theta) = sin(theta)/cos(theta). Where the cosine vanishes, the sine does
+    not vanish, so an equation for the tangent has no root there."""
     return isinstance(unknown, tan) and factor == cos(unknown.args[0])
 
 

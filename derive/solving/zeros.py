@@ -43,7 +43,7 @@ from derive.solving.root_of_factor import roots_of
 from derive.steps.record import assume
 from derive.steps.signs import sign_for_all
 
-HIGHEST = 6  # highest degree of a polynomial in the coordinate that is solved
+HIGHEST = 6  # polynomials in the coordinate are solved up to this degree
 ZERO, ONE = Integer(0), Integer(1)
 
 
@@ -213,8 +213,8 @@ def _with_sine(value: Expr) -> list[Zero]:
 
 
 def _sure_roots(factor: Expr, x: Expr) -> list[Expr]:
-    """The roots of a polynomial in a cosine or a sine; raise `Unsolved` if a root is real only under a condition, or if
-    the degree is too high."""
+    """The roots of a polynomial in a cosine or a sine. Raises `Unsolved` if a root is real only under a condition, or
+    if the degree is too high."""
     if (values := _of_one_power(factor, x)) is not None:
         return values
     found = [root for root, _ in _roots(factor, x)]
@@ -284,8 +284,8 @@ def _exponent(product: Expr, q: Symbol) -> Expr:
 
 
 def _of_one_power(factor: Expr, x: Expr) -> list[Expr] | None:
-    """The real roots of A x^n + B, with n > 2; None for any other polynomial. Raises `Unsolved` if the degree is above
-    `HIGHEST`, or if the sign of -B/A is unknown."""
+    """The real roots of A x^n + B, with n > 2; None for any other polynomial. Raises `Unsolved` if the factor is not a
+    polynomial of degree at most `HIGHEST`, or if the sign of -B/A is unknown."""
     polynomial = factor.as_poly(x)
     if polynomial is None or polynomial.degree() > HIGHEST:
         raise Unsolved(factor)
@@ -336,9 +336,9 @@ def _allowed(zero: Zero, sign: int | None, q: Symbol) -> list[Zero]:
     """Return a list with the zero if the coordinate can have this value; otherwise an empty list. `sign` is the sign of
     the zero.
 
-    If the sign is unknown, a zero of a positive coordinate gets the condition that its value is positive; raise
-    `Unsolved` if it already has another condition. A value such as l^2 needs no condition: its symbols are assumed not
-    to vanish.
+    If the sign is unknown, a zero of a positive coordinate gets the condition that its value is positive. Raises
+    `Unsolved` if the zero already has another condition. A value such as l^2 needs no condition: its symbols are
+    assumed not to vanish.
     """
     if not q.is_positive:
         return [zero]

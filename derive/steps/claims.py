@@ -183,8 +183,8 @@ def says_what_it_divides_by(facts: Judged, outcome: str) -> bool:
 
 
 def given_as_the_condition_has_it(facts: Judged, outcome: str) -> bool:
-    """Judge what a sentence says about a symbol with a given number. It must state this number to within 5 percent.
-    It must also be right about whether the number satisfies the condition."""
+    """Judge what a sentence says about a symbol with a given number. The sentence must state this number to within 5
+    percent. It must also be right about whether the number satisfies the condition."""
     condition = facts.inputs.get("condition")
     if condition is None:
         return "seen" not in facts.words

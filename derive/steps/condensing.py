@@ -1,6 +1,6 @@
 """Replace the symbols of earlier results by their values in the lines of a step.
 
-This is done for results whose steps have the manner `taken_in`.
+Only the symbols of results whose steps have the manner `taken_in` are replaced.
 """
 
 from __future__ import annotations

@@ -2,8 +2,8 @@
 
 A `Step` is data: keys and expressions, no sentence and no TeX. Only `establish()` makes a step, after three checks:
 
-    (a) Each line of the chain follows from the line before it; a limit, a series or a rounded number equals it only
-        approximately. The left side equals the first line. The returned value equals the last exact line.
+    (a) Each line of the chain follows from the line before it; a limit, a series or a rounded number equals an earlier
+        line only approximately. The left side equals the first line. The returned value equals the last exact line.
     (b) Every second route to the result, and every check of the result, agrees with the result.
     (c) The subjects of the inputs fit together, and the word that chooses the sentence is true of the result.
 
@@ -171,8 +171,8 @@ def establish(
     facts       facts that the quantity carries in addition to its value
     proposals   quantities that are usual in the field; the result may be written in their symbols
 
-    Raises `Unverified` if a line differs from the line before it, or if a route or a check gives a different result. It
-    is also raised if a statement in the sentence of the step is not confirmed.
+    Raises `Unverified` if a line differs from the line before it, or if a route or a check gives a different result.
+    `Unverified` is also raised if a statement in the sentence of the step is not confirmed.
     """
     key = key or rule.key
     quantities = {role: q for role, q in inputs.items() if isinstance(q, Quantity)}

@@ -188,7 +188,7 @@ def _free(expr: Any) -> set[Basic]:
 
 def _of_chain(step: Step, table: Table) -> Dimension | None:
     """Return the common dimension of those lines of a step that are not relations; None if it is unknown. Raise
-    `Inhomogeneous` if the dimensions differ, or if the two sides of a relation do."""
+    `Inhomogeneous` if the dimensions differ, or if the two sides of a relation have different dimensions."""
     first: tuple[Any, Dimension] | None = None
     for form in step.chain:
         dimension = dimension_of(form.expr, table)

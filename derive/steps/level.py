@@ -44,8 +44,8 @@ class Display:
     abbreviates       whether the result is a square root for which later steps may write the symbol of the step
     names_formula     whether the sentence names the formula, so that a line within a text needs no left side
     repeats           the key of the equation that the step repeats, if any
-    result_in         names of rules; if such a rule made an input, the lines of this input may already contain the
-                      result, and the sentence may then point to these lines
+    result_in         names of rules. If such a rule made an input, the lines of this input may already contain the
+                      result, and the sentence may point to these lines
     conditions        roles of those conditions in the sentence that are part of the answer
     quoted            whether only the result is shown, unless a part asks for the step, the level is `full`, or `show:`
                       states `full` for the step

@@ -87,8 +87,8 @@ class NaturalQuantities:
     def _shortened(self, value: Any, known: Mapping[Symbol, Proposal]) -> Shortened | None:
         """Return a shorter form of a value or a condition in known quantities, or None.
 
-        In a value that changes, such as a kinetic energy, the symbol of a defined quantity replaces the formula of this
-        quantity, such as mu for m_1 m_2/(m_1 + m_2), and no symbol is eliminated.
+        In a value that changes, such as a kinetic energy, no symbol is eliminated. The symbol of a defined quantity
+        only replaces the formula of this quantity, such as mu for m_1 m_2/(m_1 + m_2).
         """
         moving = {rate(q, order) for q in record.named_coordinates() for order in range(3)}
         is_value = isinstance(value, Expr) and not is_matrix(value)

@@ -110,7 +110,7 @@ def value_of(
     """The value of an answer in a unit, rounded to significant figures.
 
     Return None if symbols remain in the value, if it is not real, or if it needs no rounding: it is zero, or consists
-    of whole numbers.
+    of whole numbers. Return None also for a relation whose left side is not a single symbol.
 
     answer    any quantity; in a relation with a single symbol on its left side, the right side gets the number
     amounts   symbol -> its number with a unit
@@ -420,8 +420,8 @@ def coefficient_of(answer: Quantity, figures: int, of_vectors: bool = False) -> 
 
     answer       a quantity, usually a scalar with symbols
     figures      the number of significant figures
-    of_vectors   whether products of roots and pi are also rounded, and vectors whose components are numbers times the
-                 same symbols
+    of_vectors   whether products of roots and pi, and vectors whose components are numbers times the same symbols, are
+                 rounded, too
 
     Check: the answer divided by its symbols, evaluated again as for `value_of`.
     Outcomes: exact.

@@ -3,9 +3,9 @@
 A verb chooses an outcome, such as "zero", "unstable" or "slow", and a page chooses its sentence by this outcome. For
 each outcome the rule has a predicate that must be true of the result. `establish` evaluates the predicate.
 
-Predicates are in the files `claims.py` of the folders of verbs, or in `derive/steps/claims.py`. They may use the facts
-of a result and the descriptions of bodies and systems. The files `claims.py` in the folders of verbs import no module
-of `derive/mechanics` that defines a rule, except the module for coordinates as functions of the time.
+Predicates are in the files `claims.py` of the folders of verbs, or in `derive/steps/claims.py`. Predicates may use the
+facts of a result and the descriptions of bodies and systems. The files `claims.py` in the folders of verbs import no
+module of `derive/mechanics` that defines a rule, except the module for coordinates as functions of the time.
 """
 
 from __future__ import annotations

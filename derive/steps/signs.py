@@ -1,6 +1,6 @@
 """Decide the sign of an expression.
 
-Several means are tried:
+Several methods are tried:
 
     exact zero         the normal form of the expression
     factors            for each factor, as written and expanded, the assumptions on its symbols
@@ -50,8 +50,8 @@ def sign_known(value: Expr) -> int | None:
 def sign_beside_root(value: Expr) -> int | None:
     """Return the sign of a ratio of sums P + Q sqrt(D); None if it is unknown.
 
-    The square roots must be real. If P^2 is less than Q^2 D, P + Q sqrt(D) has the sign of Q; if P^2 is greater, P + Q
-    sqrt(D) has the sign of P.
+    The square roots must be real. If P^2 is less than Q^2 D, the sum P + Q sqrt(D) has the sign of Q. If P^2 is
+    greater, the sum has the sign of P.
     """
     own = sign_known(value)
     if own is not None:
@@ -123,8 +123,8 @@ def _sign_of_factor(factor: Expr, by_numbers: bool) -> int | None:
 
 
 def _difference_of_powers(value: Expr) -> Expr | None:
-    """Return a^n - b^n, which has the sign of a - b, for a difference of positive terms with nth roots, such as l^(2/3)
-    - c^(2/3); None for any other expression."""
+    """For a difference a - b of positive terms with nth roots, such as l^(2/3) - c^(2/3), return a^n - b^n, which has
+    the same sign. Return None for any other expression."""
     terms = Add.make_args(value)
     roots = [power for power in value.atoms(Pow) if power.exp.is_Rational and not power.exp.is_Integer]
     if len(terms) != 2 or not roots or any(power.base.is_Add for power in roots):

@@ -1,6 +1,6 @@
 """A verified step, the quantity that it yields, and small functions on values for every verb.
 
-A `Step` is data: keys and expressions, no sentence and no TeX. Only `derive.steps.establish` makes one.
+A `Step` is data: keys and expressions, no sentence and no TeX. Only `derive.steps.establish` makes a step.
 """
 
 from __future__ import annotations
@@ -97,8 +97,8 @@ class Step:
 
     @property
     def grade(self) -> Grade:
-        """Return the grade of the step: the lowest grade among its lines, its test at trial numbers, and the most
-        certain of its other routes and checks."""
+        """Return the lowest of these grades: the grades of the lines, the grade of the test at trial numbers, and the
+        best grade of the other routes and checks."""
         needed = [e for e in self.evidence if e.compared is Compared.LINES or e.claim == TRIALS]
         routes = [e.grade for e in self.evidence if e not in needed]
         surest = [max(routes, key=LEAST_SURE_FIRST.index)] if routes else []

@@ -18,8 +18,8 @@ from derive.errors import Complaint, Rejected
 
 
 class Mixed(Enum):
-    """The value of a property in which united subjects differ. It counts as different from every value, also from
-    itself, except for two quantities that belong to the whole of one system."""
+    """The value of a property in which united subjects differ. This value counts as different from every value, also
+    from itself. The only exception is two quantities that belong to the whole of one system."""
 
     SEVERAL = "several"
 

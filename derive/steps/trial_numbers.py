@@ -204,7 +204,7 @@ def _side(condition: Relation, point: Point) -> bool | None:
 
 
 def _narrowed(condition: Relation, one: Point, other: Point) -> tuple[Point, ...]:
-    """Return two points close to each other: the condition holds only at the first of them. Return nothing if the
+    """Return two points close to each other: the condition holds only at the first of them. The result is empty if the
     condition has no meaning at a point between the given points."""
     for _ in range(HALVINGS):
         middle = {s: (number + other[s]) / 2 for s, number in one.items()}

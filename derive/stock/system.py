@@ -216,7 +216,8 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
         return {step.symbol: step for step in steps if step.symbol in drawn and isinstance(step.value, Expr)}
 
     def _motions_with_forces(self, steps: Sequence[Quantity]) -> list[str]:
-        """Return, in space, the keys of the equations of motion that contain constraint forces; in a plane, nothing."""
+        """Return, in space, the keys of the equations of motion that contain constraint forces; in a plane, the list is
+        empty."""
         forces = {each.force for each in self.system.constraints}
         is_plane = len(self.system.places[0].components) == 2
         laws = [each for each in steps if each.key.startswith("motion_") and not is_plane]
@@ -637,7 +638,7 @@ class SystemAnswers(StockAnswers[DescribedSystem]):
             kinds = {q.step.kind: q.key for q in established if getattr(q.symbol, "name", "") == name}
             if len(kinds) > 1:
                 keys = " and ".join(f"`{key}`" for key in kinds.values())
-                message = f"`{name}` denotes two quantities, {keys}"
+                message = f"`{name}` denotes different quantities, {keys}"
                 rejected("letter-clash", message, place, "use another symbol on this line")
 
 
@@ -653,8 +654,8 @@ STOCK = Stock(SystemKeys, read, SystemAnswers)
 
 
 def _forces_found(steps: Sequence[Any], system: System) -> tuple[dict[Any, Quantity], dict[Any, Quantity]]:
-    """Return two mappings, both with the symbols of constraint forces as keys. The first contains the step that derives
-    a force, the second a later step that expresses it in coordinates without rates."""
+    """Return two mappings, both with the symbols of constraint forces as keys. The first mapping contains the steps
+    that derive forces, the second mapping later steps that express these forces in coordinates without rates."""
     found: dict[Any, Quantity] = {}
     along: dict[Any, Quantity] = {}
     rates, coordinates = {rate(q) for q in system.coordinates}, {*system.coordinates}

@@ -2,5 +2,6 @@
 
 The simulation does not use derived equations. A description has formulas for masses, positions, forces and constraints,
 or a given Lagrangian. The equations of Newton and Euler, or Lagrange's equations for a given Lagrangian, contain a
-multiplier for each constraint. They are solved numerically for the accelerations, and SciPy integrates these.
+multiplier for each constraint. These equations are solved numerically for the accelerations, and SciPy integrates the
+accelerations.
 """

@@ -49,7 +49,7 @@ class Claim:
 
     @property
     def is_approximate(self) -> bool:
-        """Whether the step or one of its ancestors belongs to a limiting or special case, which is not tested."""
+        """Whether the step or one of its ancestors belongs to a limiting or special case. Such a step is not tested."""
         return any(each.step.rule in APPROXIMATE for each in self.quantity.ancestors())
 
     @property

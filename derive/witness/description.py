@@ -56,8 +56,8 @@ class Pair:
 class Force:
     """A force in N at the position `place`; or a torque in N m, if `place` is an angle.
 
-    body   the index of a body: the force acts on the particle of this body at `place`; without a body, it acts on the
-           point `place` itself
+    body   the index of a body: the force acts on the particle of this body at `place`. Without a body, the force acts
+           on the point `place` itself
     """
 
     components: Vector

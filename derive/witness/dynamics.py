@@ -331,7 +331,7 @@ class Dynamics:
         return on_places, np.where(in_rates[:, None], by_rates, by_places)
 
     def momenta(self, state: State) -> Reals:
-        """The momenta conjugate to the independent coordinates; zero for the coordinates that these determine."""
+        """The momenta conjugate to the independent coordinates; zero for the other coordinates."""
         return self.independent(state).T @ self._all_momenta(state)
 
     def independent(self, state: State) -> Reals:

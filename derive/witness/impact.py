@@ -89,8 +89,8 @@ def _equations(of: Impact, trial: Trial, state: State) -> tuple[Reals, Reals, Re
     """The mass matrix, and four arrays with an entry for each unknown impulse.
 
     The entries of the first array are the changes of the momenta per unit of the impulse. The second array is equal to
-    the first; its entries are also the factors of the rates in the speed along the impulse. The last two arrays have
-    the required speed after the impact, and the symbol of the impulse.
+    the first; its entries are the factors of the rates in the speed along the impulse. The last two arrays have the
+    required speed after the impact, and the symbol of the impulse.
     """
     matrix, _ = trial.dynamics.inertia(state)
     at = trial.dynamics.placed(state)

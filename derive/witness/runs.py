@@ -260,7 +260,7 @@ FLOWN = 1e-4
 
 
 def flight(claim: Claim) -> Verdict | None:
-    """Test a component of the position in a free flight: the motion is simulated until the constraint force vanishes,
+    """Test a component of the position in a free flight. The motion is simulated until the constraint force vanishes,
     then without the constraints that end there."""
     fact, i = claim.judged.inputs["flight"], int(claim.judged.inputs["component"])
     count = 0
@@ -280,8 +280,8 @@ def flight(claim: Claim) -> Verdict | None:
 
 
 def landing(claim: Claim) -> Verdict | None:
-    """Test the time at which a free flight ends: the flight is simulated, without the constraints that ended at its
-    beginning, until the particle meets the surface."""
+    """Test the time at which a free flight ends. The flight is simulated until the particle meets the surface, without
+    the constraints that ended at the beginning of the flight."""
     fact, target = claim.judged.inputs["flight"], claim.judged.inputs["target"]
     x, y = fact.point.place
     if target is not None:
@@ -309,8 +309,8 @@ def landing(claim: Claim) -> Verdict | None:
 
 
 def _begun(claim: Claim, fact: Any) -> Iterator[tuple[Trial, State, Dynamics]]:
-    """Yield trials, each with the state in which the force of the constraint vanishes, and with the dynamics of the
-    system without the constraints that end there.
+    """Yield trials, each with a state and with dynamics. In this state the force of the constraint vanishes. The
+    dynamics are those of the system without the constraints that end there.
 
     fact   the flight: the position where it begins, and the motion before it
     """

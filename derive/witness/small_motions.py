@@ -33,7 +33,7 @@ SURE = 1e-3
 FREQUENCY = 1e-5  # relative accuracy of squared frequencies and of motions; ten times this error is allowed
 STAYS = 1e-7  # accuracy of an acceleration if all numbers are of order one; ten times this error is allowed
 DOUBLE = 1e-4  # relative accuracy of eigenvalues s, which is low for two nearly equal eigenvalues
-SHORT, MOMENTS = 2.0, 6  # duration of a simulated small motion, and number of times at which it is tested
+SHORT, MOMENTS = 2.0, 6  # duration of a simulated small motion, and number of times at which the motion is tested
 ZERO = Integer(0)
 DRAWS = 8  # number of trials for a statement about stability
 DISPLACED = np.array([-2.0, -1.0, 1.0, 2.0])
@@ -92,8 +92,8 @@ class Neighbourhood:
 
 
 def neighbourhood(claim: Claim, trial: Trial, place: Mapping[Symbol, Expr]) -> Neighbourhood | None:
-    """The states near the equilibrium at `place`; None if `place` contains a symbol that is not a coordinate, or if
-    constraints act and cyclic coordinates are eliminated."""
+    """The states near the equilibrium at `place`. None if `place` contains a symbol that is not a coordinate. None also
+    if constraints act and cyclic coordinates are eliminated."""
     q = claim.blueprint.coordinates
     cyclic = {q.index(of): value for of, value in claim.constants.items() if of not in place}
     if cyclic and claim.blueprint.of.conditions:
@@ -157,8 +157,8 @@ UNSTABLE = frozenset(["unstable", "unstable_along"])
 
 def stability(claim: Claim) -> Verdict | None:
     """Test the stability that the step states. At a stable equilibrium, no small displacement may grow. At an unstable
-    equilibrium, some small displacement must grow. This is not required if an eigenvalue is zero, because the linear
-    motion does not then show whether the equilibrium is stable."""
+    equilibrium, some small displacement must grow. If an eigenvalue is zero, no displacement is required to grow,
+    because the linear motion does not then show whether the equilibrium is stable."""
     inputs = claim.judged.inputs
     if "coordinates" not in inputs or "place" not in inputs:
         return None

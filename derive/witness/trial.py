@@ -1,6 +1,6 @@
 """A description with random numbers for its symbols, and states that satisfy the conditions and the given values.
 
-The numbers are the same in every run. They are in the ranges of their symbols and satisfy the assumptions of the page.
+The numbers are the same in every run, are in the ranges of their symbols, and satisfy the assumptions of the page.
 """
 
 from __future__ import annotations
@@ -185,8 +185,8 @@ class Trial:
         return State(np.array(q), np.array(v), abs(time))
 
     def _projected(self, state: State, given: Sequence[Given]) -> State:
-        """Return a state near `state` that satisfies the conditions and the given values. Raise `Contradiction` if none
-        is found.
+        """Return a state near `state` that satisfies the conditions and the given values. Raise `Contradiction` if no
+        such state is found.
 
         Newton's method finds first the coordinates, and then the rates.
         """
@@ -259,7 +259,7 @@ class Trial:
 
     def with_momenta(self, state: State, momenta: Mapping[int, float]) -> State:
         """The state with these momenta of cyclic coordinates; only the rates of these coordinates, and of the
-        coordinates that these determine, are changed."""
+        coordinates that depend on them, are changed."""
         if not momenta:
             return state
         rows = list(momenta)

@@ -228,11 +228,15 @@ parts:
         ("normal: N, ", "", "a normal force must keep it there"),
         ("{sliding: mu, direction: [1, 0]}", "{sliding: mu}", "needs the direction"),
         ("{sliding: mu, direction: [1, 0]}", "{sliding: mu, direction: [0, 1]}", "must be along the surface"),
-        ("{sliding: mu, direction: [1, 0]}", "{direction: [1, 0]}", "needs one of `rolling`, `sliding` and `static`"),
+        (
+            "{sliding: mu, direction: [1, 0]}",
+            "{direction: [1, 0]}",
+            "needs exactly one of `rolling`, `sliding` and `static`",
+        ),
         ("{sliding: mu, direction: [1, 0]}", "rolling", "rolling needs a friction force with a symbol"),
         ("{sliding: mu, direction: [1, 0]}", "{static: mu}", "needs the symbol of its force"),
         ("{sliding: mu, direction: [1, 0]}", "{rolling: F, force: G}", "`force` is the symbol of the static friction"),
-        ("{sliding: mu, direction: [1, 0]}", "{static: mu, rolling: F}", "needs one of"),
+        ("{sliding: mu, direction: [1, 0]}", "{static: mu, rolling: F}", "needs exactly one of"),
         ("{sliding: mu, direction: [1, 0]}", "{static: -mu, force: F}", "is not known to be positive"),
         (
             "normal: N, friction: {sliding: mu, direction: [1, 0]}",

@@ -121,7 +121,7 @@ def test_a_force_that_is_called_as_a_moment_of_inertia_is_refused_at_its_line(tm
     text = CUT_STRING.replace("force: T", "force: I").replace("put_in: T", "put_in: I")
     (found,) = complaints(tmp_path, text)
     assert (found.code, found.place.line) == ("letter-clash", 10)
-    assert "denotes two quantities" in found.message
+    assert "denotes different quantities" in found.message
 
 
 def test_letters_that_are_free_stay() -> None:

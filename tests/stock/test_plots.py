@@ -122,9 +122,9 @@ def test_the_axis_of_a_root_with_its_own_symbol_has_a_unit(tmp_path: Path) -> No
             "`p_theta` is not a coordinate, a rate, `t` or a symbol under `symbols`",
         ),
         ([("    plot: effective_potential\n", "")], "`against` has no effect without `plot` or `curves`"),
-        ([("    plot: effective_potential\n", "    plot: stability\n")], "is several results"),
+        ([("    plot: effective_potential\n", "    plot: stability\n")], "denotes several results"),
         ([("    plot: effective_potential\n", "    plot: effective\n")], "`effective`"),
-        ([("    at: b\n", "    at: b\n    per: [1, m]\n")], "`m` is in kg, but this axis is in J"),
+        ([("    at: b\n", "    at: b\n    per: [1, m]\n")], "`m` is in kg, but it divides values in J"),
         ([("    at: b\n", "    at: b\n    per: [m*g*R]\n")], "`per` of this plot must have 2 quantities, but has 1"),
         ([("    at: b\n", "    at: b\n    energies: [m*g]\n")], "`m*g` is in N, not in J"),
         ([("    at: b\n", "    at: b\n    without: [x]\n")], "`without` has no effect on `energy`, which is a plot"),
@@ -296,7 +296,7 @@ def test_a_path_is_described_by_its_ends(tmp_path: Path) -> None:
         ([("[path_x, path_z]", "[path_x, path_y]")], "`path_y` is not the name of an answer", "did you mean `path_"),
         ([("[path_x, path_z]", "[path_x, path_z + v_0]")], "`path_z` is a length, but `v_0` is a speed", ""),
         ([("[path_x, path_z]", "[path_x, 'path_z +']")], "something is missing at the end", ""),
-        ([("[path_x, path_z]", "[path_x, equations_of_motion]")], "`equations_of_motion` is several results", ""),
+        ([("[path_x, path_z]", "[path_x, equations_of_motion]")], "`equations_of_motion` denotes several results", ""),
         ([("[path_x, path_z]", "[x, z]")], "neither `x` nor `z` depends on `t`, so there is no path", ""),
         ([("against: t", "against: s")], "neither `path_x` nor `path_z` depends on `s`", ""),
         ([("    against: t\n", "")], "the plot `path` needs `against`", ""),
@@ -483,7 +483,7 @@ def test_the_curves_of_several_answers_share_a_plot(tmp_path: Path) -> None:
     [
         ([("curves: [", "plot: path_x\n    curves: [")], 20, "the plot `path` cannot have both `plot` and `curves`"),
         ([("[path_x, path_z]\n    ag", "[path_x, path_x]\n    ag")], 19, "`path_x` has two curves"),
-        ([("[path_x, path_z]\n    ag", "[path_x, top]\n    ag")], 19, "`top` is several results"),
+        ([("[path_x, path_z]\n    ag", "[path_x, top]\n    ag")], 19, "`top` denotes several results"),
         ([("[path_x, path_z]\n    ag", "[path_x, path_y]\n    ag")], 19, "`path_y` is not the name of an answer"),
         ([("[path_x, path_z]\n    ag", "[path_x, lagrangian]\n    ag")], 20, "`lagrangian` does not depend on `t`"),
         ([("[path_x, path_z]\n    ag", "[]\n    ag")], 19, "`curves` must be a list of answers"),
@@ -597,7 +597,7 @@ def test_a_path_shows_surfaces(tmp_path: Path) -> None:
     [
         ([("surfaces: [sphere, floor]", "surfaces: [sphere, flor]")], "no surface is called `flor`"),
         ([("surfaces: [sphere, floor]", "surfaces: []")], "`surfaces` must be a list of surfaces"),
-        ([("plot: [path_x, path_z]", "plot: [path_x, path_z/R]")], "the path is not in the plane of `sphere`"),
+        ([("plot: [path_x, path_z]", "plot: [path_x, path_z/R]")], "a path of these quantities cannot show `sphere`"),
         ([("plot: [path_x, path_z]", "plot: path_z")], "`surfaces` has no effect on `path`, which is not a path"),
         (
             [("surfaces: [sphere, floor]", "up: [0 m, 1 m]")],

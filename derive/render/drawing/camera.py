@@ -1,8 +1,8 @@
 """From the expressions of a drawing to points on paper: numbers for the symbols, and the viewing direction.
 
 A symbol with a number keeps this number. The other symbols of a kind get substitute values in the order of their
-declaration: 1, 3/2, 2, ... times the mean size of the given numbers of this kind. Without given numbers, the values are
-1, 3/2, 2, ... times 36 degrees for angles, and 1, 3/2, 2, ... for other kinds.
+declaration. These values are 1, 3/2, 2, ... times the mean size of the given numbers of this kind. Without given
+numbers, the values are 1, 3/2, 2, ... times 36 degrees for angles, and 1, 3/2, 2, ... for other kinds.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from derive.figures.space import Stance, Vector, angle_of, cross, dot, plus, siz
 
 ANGLE = pi / 5
 APART = 0.25  # an arrowhead closer than this to a corner makes a view less suitable; relative to the size of the bodies
-OPEN = 0.5  # a view of a flat body is preferred if the cosine between its normal and the line of sight is above this
+OPEN = 0.5  # least cosine, if possible, of the angle between the line of sight and the normal of a flat body
 THIN = 0.1  # greatest thickness of a flat body, relative to its size
 SHARES = (0.8, 0.6, 1.0, 0.7)  # values of coordinates without a number, except angles, in units of a typical length
 
@@ -175,8 +175,8 @@ def _open_view(drawing: Drawing, numbers: Numbers, reach: float) -> Stance:
 
 
 def _normal_of(places: Sequence[Vector], reach: float) -> Vector | None:
-    """Return the normal of the plane that contains all places; None if there is no such plane, or if the places are on
-    one line."""
+    """Return the normal of the plane that contains all places; None if there is no such plane, if the places are on one
+    line, or if there are no places."""
     if not places:
         return None
     ways = [plus(place, places[0], -1.0) for place in places]
@@ -195,8 +195,8 @@ def _apartness(stance: Stance, ends: Sequence[Vector], corners: Sequence[Vector]
 
 
 def _clearness(stance: Stance, vectors: Sequence[Vector], pairs: Sequence[tuple[Vector, Vector]]) -> float:
-    """Return a measure of how clearly the vectors appear. It grows with the shortest length of a vector in the view,
-    and with the smallest sine of an angle between two vectors in the view."""
+    """Return a measure of how clearly the vectors appear. The measure grows with the shortest length of a vector in the
+    view, and with the smallest sine of an angle between two vectors in the view."""
     longest = min((hypot(*stance.spot(v)) for v in vectors), default=1.0)
     widest = 1.0
     for a, b in pairs:

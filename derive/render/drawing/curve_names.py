@@ -134,7 +134,8 @@ def _distance(box: Extent, dots: Sequence[Spot]) -> float:
 def corner_for(
     size: tuple[float, float], dots: Sequence[Spot], taken: Sequence[Extent], panel: Extent
 ) -> Extent | None:
-    """Return a box of this size in a corner of the panel, clear of curves and other texts; None if there is none."""
+    """Return a box of this size in a corner of the panel, clear of curves and other texts; None if there is no such
+    box."""
     wide, high = size
     left, below, right, above = panel[0] + INNER, panel[1] + INNER, panel[2], panel[3]
     corners = [(right - wide, above - high), (left, above - high), (right - wide, below), (left, below)]

@@ -99,8 +99,8 @@ class OnPaper(Paper):
 
 
 def _turns(facing: Sequence[float]) -> list[tuple[int, float]]:
-    """Return the places on the rim where a side begins or ceases to face the eye: the index of a rim point, and the
-    fraction of the distance from this point to the next."""
+    """Return the places on the rim where a side begins or ceases to face the eye. Each place is the index of a rim
+    point, and a fraction of the distance from this point to the next."""
     pairs = enumerate(pairwise(facing))
     return [(i, at / (at - after)) for i, (at, after) in pairs if (at >= 0) != (after >= 0)]
 

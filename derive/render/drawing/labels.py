@@ -22,8 +22,9 @@ Extent: TypeAlias = tuple[float, float, float, float]  # left, below, right, abo
 CLEAR = 1.5  # in points: at a smaller distance, a label counts as covering a line or another label
 LINE, HEAVY = 3.0, 60.0  # cost of covering a point of a line, and of covering another label
 OUTSIDE = 6.0  # cost of a position outside the thing that the label names
-BESIDE, TOGETHER = 9.0, 5.0  # gap in points below which two labels in a row look like a product; cost of such a pair
+BESIDE = 9.0  # the gap in a row, in points, below which two labels look like a product
 STACKED = 4.0  # the gap in a column, in points, below which two labels look like a fraction
+TOGETHER = 5.0  # cost of two labels that look like a product or a fraction
 HEAVY_ENOUGH = 20.0  # if the total cost is at least this number, the labels are placed again in a different order
 # For the label of a line, each point of another line that is closer to the label than NEAR, in points, costs DOUBT. All
 # these points together cost at most MOST_DOUBT.

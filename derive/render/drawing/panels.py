@@ -40,7 +40,7 @@ DIAGRAM = 0.6  # height divided by width of a bifurcation diagram
 FLATTEST, STEEPEST = 0.25, 1.4  # limits of height divided by width, for a path whose axes have the same scale
 # The axis of a positive curve begins at zero if the least value is below this part of the curve's height.
 NEAR_ZERO = 0.25
-FEWEST = 3  # least number of ticks, if smaller steps can give it
+FEWEST = 3  # least number of ticks; smaller steps are tried to reach it
 AT_TICK = 1e-5  # a tick marks a place within this fraction of the distance between the outermost ticks
 USUAL = (-2, 4)  # numbers at an axis have no factor 10^n if the power of ten of the greatest number is in this range
 
@@ -56,8 +56,9 @@ class Trace:
     """One curve of a panel.
 
     points   the curve, in the units of the axes
-    turns    the extrema: the point, whether it is a minimum, and the forms of the name of its place on the horizontal
-             axis, the shortest last. There is no name if the place has no symbol and a tick already shows it
+    turns    the extrema, each with its point, whether it is a minimum, and the forms of the name of its place on the
+             horizontal axis, the shortest form last. There is no name if the place has no symbol and a tick already
+             shows it
     name     the name of the curve; empty if the panel has no other curve
     """
 
@@ -270,9 +271,9 @@ def _is_tick_at_end(point: tuple[float, float, bool], across: Ticks, curves: Cur
 def _point(
     at: float, value: float, is_zero: bool, curves: Curves, own: Sequence[Curve], across: Ticks, notation: Notation
 ) -> tuple[Spot, str]:
-    """Return a point of a panel with its name. The name is the symbol of its place on the horizontal axis, followed by
-    the value unless the values on the axis are divided by a quantity. Without a symbol, the name of a meeting point has
-    the values on both axes, the name of a zero has one value, and a zero at a tick has no name."""
+    """Return a point of a panel with its name. The name is the symbol of its place on the horizontal axis. The value
+    follows, unless the values on the axis are divided by a quantity. If the place has no symbol, the name of a meeting
+    point has the values on both axes, and the name of a zero has one value. A zero at a tick then has no name."""
     x, y = at * curves.variable.per_unit, value * curves.up.per_unit
     for curve in own:
         (found,) = with_names([Extremum(at, value, MINIMUM)], curve.places, NEAR * (curve.upper - curve.lower))
@@ -453,7 +454,8 @@ def _widened(low: float, high: float, size: float) -> tuple[float, float]:
 
 
 def _power(low: float, high: float, axis: Axis) -> int:
-    """Return the power of ten by which the numbers of an axis are divided; 0 for numbers of a usual size."""
+    """Return the power of ten by which the numbers of an axis are divided; 0 for degrees and numbers of a usual
+    size."""
     greatest = max(abs(low), abs(high))
     power = floor(log10(greatest)) if greatest > 0 else 0
     return 0 if axis.in_degrees or USUAL[0] <= power <= USUAL[1] else power

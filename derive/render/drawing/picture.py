@@ -20,7 +20,7 @@ SMALLEST = 15.0  # in points: the least distance from the middle of the bodies t
 
 
 def picture(drawing: Drawing, numbers: Numbers, width: float, height: float) -> list[Piece]:
-    """Return the pieces in points.
+    """Return the pieces of a drawing, with all lengths in points.
 
     The pieces without their labels fit into `width` x `height` centimetres. Exceptions are some force diagrams, some
     arrows of normal modes, and drawings whose bodies would be too small.

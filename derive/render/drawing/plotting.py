@@ -1,4 +1,4 @@
-"""A plot as files: one panel for each curve or for all, with quantity and unit at each axis and with marked extrema.
+"""A plot as files: a panel for each curve, or one for all curves, with a quantity and a unit at each axis.
 
 A path has dots at its start and at its end and an arrowhead in the direction of the motion. If both quantities of a
 path have the same unit, both axes have the same scale.
@@ -46,10 +46,10 @@ SMALL, SMALLER, SMALLEST = 1.0, 0.95, 0.9  # font scales: at the axes, above a p
 TICK = 3.5  # in points: the length of a tick, and the distance from a tick to its number
 PAD = 4.0  # in points: from the name of an axis to its numbers, and from the name of an extremum to its dot
 EDGE = 3.0  # in points: the margin around everything
-HEAD = 0.35  # part of the length of a path before its arrowhead; not 0.5, where a path may be back at its start
+HEAD = 0.35  # part of the length of a path before its arrowhead; not 0.5, because a path may then be back at its start
 DOT = 2.2  # in points: the radius of a dot, for example at an extremum
 AROUND = 46.0  # in points: the usual height of everything below and above the axes of a panel
-LETTER = 10.0  # in points: the greatest width of a name of a vertical axis that is not turned
+LETTER = 10.0  # in points: a name of a vertical axis is turned if it is wider than this
 ROW = 17.0  # in points: the height of a row of numbers above a panel, with the margin
 SPACE = 7.0  # in points: the distance between two numbers above a panel
 SAMPLE, BETWEEN = 22.0, 14.0  # in points: the line in a legend, and the distance between the entries of a legend
@@ -88,8 +88,8 @@ class Writing:
         return scale * (right - left), scale * (above - below)
 
     def at(self, spot: Spot, text: str, scale: float, share: Spot, colour: str = LINE, upwards: bool = False) -> Shape:
-        """Place a text at a point; `share` gives the fraction of the width of the text that is to the left of the
-        point, and the fraction of the height that is below the point."""
+        """Place a text at a point. Of the width and the height of the text, `share` gives the fractions to the left of
+        the point and below it."""
         contour, extent = self.known[text]
         if upwards:
             contour, extent = turned(contour), (-extent[3], extent[0], -extent[1], extent[2])

@@ -86,7 +86,8 @@ def typed_formula(step: Step, letters: set[Symbol], known: set[Symbol]) -> Typed
     """Return an answer as students type it; None if plain text cannot express it, or if its form is not unique.
 
     letters  the letters of the problem
-    known    the letters that a solved equation may contain: with an unknown force in it, its form is not unique
+    known    the letters that a solved equation may contain; with an unknown force, the form of an equation is not
+             unique
     """
     from sympy import Expr, I, MatrixBase, Symbol, oo, zoo
     from sympy.core.numbers import NumberSymbol, pi
@@ -114,8 +115,8 @@ def typed_formula(step: Step, letters: set[Symbol], known: set[Symbol]) -> Typed
 
 
 def _solved(step: Step) -> tuple[Any, Any]:
-    """Return the symbol and the value of an answer. An equation is solved for its left side or for its only second
-    rate; any other relation has the value None."""
+    """Return the symbol and the value of an answer. An equation is solved for its left side or for its only
+    acceleration; any other relation has the value None."""
     from sympy import Symbol, diff
 
     from derive.algebra.expressions import RATES, Relation, bound
@@ -137,7 +138,7 @@ def _solved(step: Step) -> tuple[Any, Any]:
 
 
 def _plain(value: Any) -> str:
-    """Return plain text of a formula, in which each letter has its own name."""
+    """Return the plain text of a formula, in which each letter is printed as its name."""
     import re
 
     from derive.render.printing.plain_sympy import sympy_text
@@ -161,8 +162,8 @@ def _told(typed: Typed | None, notation: Notation) -> dict[str, Any]:
 def _components(step: Step, notation: Notation) -> list[str]:
     """Return the symbols of the components of a vector in TeX; an empty list for any other answer.
 
-    There are no components if only the ratios of the entries have a meaning, as for the amplitudes of a mode, or if the
-    answer is a list of values in any order.
+    There are no components if only the ratios of the entries have a meaning, as for the amplitudes of a mode. The same
+    is true if the answer is a list of values in any order.
     """
     from sympy import MatrixBase
 

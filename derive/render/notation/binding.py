@@ -111,8 +111,8 @@ def within(layout: Layout, most: Binding) -> Layout:
 
 
 def sign_apart(layout: Layout) -> tuple[Operator | None, Layout]:
-    """Split a layout into its leading sign, or None if it has none, and the rest; the sign of the first term of a sum
-    is not split off."""
+    """Return the leading sign of a layout, or None, and the rest. The sign of the first term of a sum is not split
+    off."""
     if isinstance(layout, Row) and isinstance(layout.items[0], Operator) and binding(layout) is Binding.SIGNED:
         return layout.items[0], row(*layout.items[1:])
     return None, layout

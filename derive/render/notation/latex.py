@@ -394,7 +394,7 @@ def _unit(text: str) -> str:
     return text.replace("*", r"\,").replace("·", r"\,").replace(" ", r"\,").replace("%", r"\%")
 
 
-ACCENTS = {  # those below a letter come last: TeX sets an accent above only over a letter or over another accent above
+ACCENTS = {  # marks below a letter are added last: TeX sets a mark above only over a letter or over another mark above
     "GRAVE ACCENT": "`",
     "ACUTE ACCENT": "'",
     "CIRCUMFLEX ACCENT": "^",

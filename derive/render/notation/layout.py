@@ -194,7 +194,8 @@ INNER, CROSS = Operator("inner"), Operator("cross")  # the dot and the cross bet
 
 
 def holds_fraction(layout: Layout) -> bool:
-    """Return whether the layout is a root or a function with a fraction inside, which is too tall for a numerator."""
+    """Return whether the layout is a root or a function with a fraction inside; such a layout is too tall for a
+    numerator."""
     inside = layout.inside if isinstance(layout, RootSign) else layout.argument if isinstance(layout, Applied) else None
     if isinstance(inside, Fenced):
         inside = inside.inside

@@ -99,8 +99,9 @@ def _swings(factor: Expr) -> bool:
 def _is_root_of_quadratic(total: Expr, below: int) -> bool:
     """Return whether a sum divided by `below` looks like the quadratic formula: (b + sqrt(b^2 + c^2))/2.
 
-    The sum has two numbers, at least one with a square root, or two terms. Exactly one of the two terms must then be a
-    root of a sum, and its coefficient must not be a multiple of `below`: sqrt(b^2 + c^2) + b/2 is not such a sum.
+    The sum must have two terms. If both terms are numbers, at least one of them must have a square root. In all other
+    cases exactly one term must be a root of a sum, with a coefficient that is not a multiple of `below`. So the result
+    is false for sqrt(b^2 + c^2) + b/2.
     """
     roots = [term for term in total.args if _has_root(term)]
     if len(total.args) != 2 or total.is_number:
@@ -258,8 +259,8 @@ class Notation:
         return side_by_side([*(self._as_factor(f, Binding.DOTTED) for f in before), self._as_factor(last)])
 
     def _as_factor(self, expr: Any, most: Binding = Binding.OPEN) -> Layout:
-        """Return a factor for use next to others. It is in brackets if it binds less strongly than `most`, or if it is
-        a number with a unit."""
+        """Return a factor for use next to other factors. The factor is in brackets if it binds less strongly than
+        `most`, or if it is a number with a unit."""
         inner = self.layout(expr)
         return Fenced(inner) if binding(inner) is Binding.MEASURED else within(inner, most)
 

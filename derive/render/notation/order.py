@@ -41,8 +41,9 @@ def ordered_terms(expr: Add, moving: Mapping[str, int]) -> list[Expr]:
 def powers_descending(terms: list[Any]) -> list[Any]:
     """Sort the terms of a polynomial of three or more terms by descending powers of its unknown: m w^2 - b w - k.
 
-    The unknown is the symbol with the highest power. The order is unchanged if two terms have the same power of the
-    unknown, or if the unknown is time, because a series in time has ascending powers.
+    The unknown is the only symbol with the highest power, at least 2. The order is unchanged if there is no such
+    symbol, or if two terms have the same power of the unknown. A sum in which the unknown is the time is unchanged,
+    too, because a series in time has ascending powers.
     """
     if len(terms) < 3:
         return terms
@@ -131,7 +132,7 @@ def motion_first(terms: list[Any], moving: Mapping[str, int]) -> list[Any]:
     only_squares = not accelerated and all(n in (0, -2) for term in terms for n in degrees(term))
     if any(isinstance(term, Symbol) and _is_acceleration(term) for term in terms):
         return sorted(terms, key=place)
-    # y + 7 x_dot/(2 Omega): a coordinate by itself is first, except in an equation of motion
+    # y + 7 x_dot/(2 Omega): a coordinate by itself is first, unless an acceleration is by itself
     alone = [term for term in terms if isinstance(term, Symbol) and f"{term.name}{RATE_ENDS[1]}" in moving]
     return [*alone, *sorted((term for term in terms if term not in alone), key=place)] if rates else terms
 

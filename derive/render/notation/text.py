@@ -2,16 +2,16 @@
 
 These are the rules for reading a line; `tests/printed/from_text.py` reads every printed line by these rules:
 
-    a b, 2a      a product; it binds tighter than `·` and `×` of vectors, which bind tighter than + and -
-    1/2 M a²/b   from left to right: half of M a², divided by b; a product after the stroke is in brackets
-    a·3b         a product with a later factor that begins with a number
-    a⃗·b⃗, a⃗ × b⃗  a product of vectors: it extends on either side up to the next sign
-    -a b         minus the whole product; this sign appears only where a sum begins, never after `·` or another sign
-    sin θ        a function of one letter; a longer argument is in brackets, `sin(2θ)`; sin² θ is the square of sin θ
-    √a           the square root of one letter or number; any other square root is √(...)
-    a⃗, I⃡        a vector under an arrow, a tensor under a double one; `I` is a scalar, `1⃡` the unit tensor; a zero is 0
-    ∫(0..a) dx   an integral over everything that follows in its product; `∫ f dm` is over a body
-    [F](0..a)    F between two limits; U|(x = 0) is U at a place; dL/dt and d/dt (...) are derivatives
+    a b, 2a      a product; it binds tighter than `·` and `×` of vectors, which bind tighter than + and -.
+    1/2 M a²/b   from left to right: half of M a², divided by b. A product after the stroke is in brackets.
+    a·3b         a product with a later factor that begins with a number.
+    a⃗·b⃗, a⃗ × b⃗  a product of vectors: it extends on either side up to the next sign.
+    -a b         minus the whole product. This sign appears only where a sum begins, never after `·` or another sign.
+    sin θ        a function of one letter. A longer argument is in brackets, `sin(2θ)`; sin² θ is the square of sin θ.
+    √a           the square root of one letter or number; any other square root is √(...).
+    a⃗, I⃡        a vector under an arrow, a tensor under a double arrow; `I` is a scalar, `1⃡` the unit tensor, 0 a zero.
+    ∫(0..a) dx   an integral over everything that follows in its product; `∫ f dm` is over a body.
+    [F](0..a)    F between two limits; U|(x = 0) is U at a place; dL/dt and d/dt (...) are derivatives.
 """
 
 from __future__ import annotations

@@ -4,16 +4,16 @@ Every step contains all its lines, at any level of detail, in plain SymPy text (
 `names` gives the value of each name in the chain. After SymPy has parsed the lines and these values are substituted,
 each line equals the line before it, with these exceptions:
 
-    a number        (`because: rounded`) differs from the last line before the numbers by at most `within`
+    a number        (`because: rounded`) differs from the last line before the numbers by at most `within`.
     a relation      has a residual, left minus right: the residual of the line before is `factor` times the residual of
-                    this line; the factor is not zero if no entry of `nonzero` is zero (for an inequality, if every
-                    entry is positive)
+                    this line. The factor is not zero if no entry of `nonzero` is zero. In an inequality, these entries
+                    are positive, and a negative factor reverses the sign (<, >).
     a series        (`because: series`, or `limit` with order 0) agrees with the line before up to the `order` in its
-                    `variable`
-    the motion      (`because: motion`): the line equals the one before after `motion` is substituted in both
+                    `variable`.
+    the motion      (`because: motion`): the two lines are equal after `motion` is substituted in both.
 
 If the left side is a formula (`symbol.formula`), it equals the first line. A step that `approximates` a symbol is a
-limit or a series of that symbol; a result derived from such a step is only approximately equal to its first line
+limit or a series of that symbol. A result derived from such a step is only approximately equal to its first line
 (`about`). A step with two roots has a list in place of each text.
 """
 
@@ -184,8 +184,8 @@ def _step(named: StepNames, notation: Notation) -> dict[str, Any]:
 
 
 def _whole(step: Step, notation: Notation) -> str | None:
-    """Return the LaTeX of the symbol, or the key of the equation, of which the result is a limit or series; None if
-    there is none."""
+    """Return the LaTeX of the symbol, or the key of the equation, of which the result is a limit or series; None for
+    any other result."""
     whole = step.approximates
     return None if whole is None else whole.name if isinstance(whole, Str) else latex(notation.layout(whole))
 

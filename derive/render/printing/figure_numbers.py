@@ -1,4 +1,4 @@
-"""Numbers on a page of several problems: figures have consecutive numbers on the whole page, and the number of an
+"""Numbers on a page of several problems. The figures of the whole page have consecutive numbers, and the number of an
 equation begins with the number of its problem.
 
 The problems of a page are printed separately, and each numbers its own figures from 1. These numbers are marked. Later

@@ -20,7 +20,7 @@ from derive.render.printing.lines import Printed, reason_width
 from derive.render.printing.templates import filled_template
 from derive.render.rendered import Tex
 
-WIDTH, ARTICLE = 46.0, 12.1  # characters, and centimetres, in a line of the class `article`
+WIDTH, ARTICLE = 46.0, 12.1  # a line of the class `article`: its number of characters, and its width in centimetres
 LEAST = 16.0  # least number of characters for which a line has room
 # Packages, in the order of loading, with the commands that need them.
 PACKAGES = {

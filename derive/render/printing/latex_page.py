@@ -182,8 +182,8 @@ class LatexPage:
     def is_in_first_row(self, block: Paragraph, display: Display) -> bool:
         """Return whether words, if they are short, may be in the first row of the display after them.
 
-        The words must continue the sentence of the display before them, or precede the law of an answer. They must not
-        contain a displayed formula, and the document must not have notes in the margin.
+        The words must continue the sentence of the display before them, or precede the law of an answer. The words must
+        not contain a displayed formula, and the document must not have notes in the margin.
         """
         first, *others = printed_lines(display.groups[0], self.notation)
         is_law = not first.framed and first.left is not None and any(line.framed for line in others)
@@ -204,8 +204,8 @@ class LatexPage:
         return Tex(_ADJACENT_DISPLAYS.sub(r"\1\\quad\\text{\2}\\quad ", "".join(found)))
 
     def _ended_together(self, nodes: Sequence[Inline]) -> Iterator[Inline]:
-        """Yield the nodes. In a paragraph longer than a third of a line, no-break spaces join the last words, so that
-        the last line is not a single short word."""
+        """Yield the nodes. In a paragraph longer than a third of a line, no-break spaces join the last words. So the
+        last line is not a single short word."""
         for _, paragraph in groupby(nodes, lambda node: isinstance(node, NewParagraph)):
             together = [(node, self._letters(node)) for node in paragraph]
             after = sum(letters for _, letters in together)
@@ -346,7 +346,8 @@ class LatexPage:
         return rf"{escaped(self.words.labels['figure'])}{space}\figureno{{{number}}}"
 
     def margin(self, display: Display, before: Sequence[Inline] = ()) -> Tex:
-        """Return the note next to a display and its words: the grade, and a route or check that has room."""
+        """Return the note next to a display and its words: the grade, and the first route or check that has room, if
+        any."""
         lines = [escaped(self.words.grades[display.grade])]
         said = second_ways(display, self.words)
         fitting = [route for route in said if _note_height(route) <= self._height(display, before)]

@@ -44,7 +44,7 @@ class Printed:
         return (width(self.left) if self.left else 0) + sum(2 + width(side) for _, side in self.sides)
 
 
-@lru_cache(maxsize=1024)  # every format and the height of a display need these lines
+@lru_cache(maxsize=1024)  # every format needs these lines, and the height of a display depends on them
 def printed_lines(equations: Equations, notation: Notation, limit: float = LINE_WIDTH) -> tuple[Printed, ...]:
     """Return the lines of one step, at most `limit` characters wide if they can be broken; the last line has the
     number."""

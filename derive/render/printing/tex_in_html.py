@@ -74,7 +74,7 @@ class TexInHtml(MarkdownPage):
 
     def typing(self, letters: Iterable[Symbol]) -> str:
         """Return a sentence that says how to type the letters whose names have more than one character; an empty text
-        if there are none."""
+        if no name is so long."""
         long = sorted((letter for letter in letters if len(letter.name) > 1), key=lambda letter: letter.name)
         words = self.words.labels
         told = [filled(words["typed_letter"], {"name": Text(each.name), "letter": Math(each)}) for each in long]

@@ -1,7 +1,7 @@
 """The text of a page, block by block, for programs that read its JSON (see docs/json.md).
 
-A sentence has the equation numbers of its page and also the keys of the equations, because an additional equation
-changes the numbers of all later equations.
+A sentence has the equation numbers of its page, and also the keys of the equations. An additional equation changes the
+numbers of all later equations, but not their keys.
 """
 
 from __future__ import annotations

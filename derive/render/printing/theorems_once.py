@@ -1,8 +1,8 @@
 """Theorems on a page of several problems: the first problem that uses a theorem states it, and later problems refer to
 the first problem.
 
-The problems of a page are printed separately, so each problem contains both texts, between marks. Afterwards one of
-the two texts and all marks are removed.
+The problems of a page are printed separately, so each problem contains both the statement and the reference, between
+marks. Afterwards one of these two texts and all marks are removed.
 """
 
 from __future__ import annotations

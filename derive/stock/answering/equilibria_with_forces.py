@@ -37,7 +37,7 @@ def rest_with_forces(
     unknown = [s for s in forces if s in present]
     if len(unknown) > len(still):
         names = ", ".join(s.name for s in unknown)
-        message = f"{len(still)} static equations do not determine the {len(unknown)} forces {names}"
+        message = f"the number of static equations is {len(still)}, too few for the {len(unknown)} forces {names}"
         help_line = "describe fewer constraint forces: for example, a contact without friction, or fewer joints"
         raise Rejected(Complaint("constrained", message, help=help_line))
     if len(unknown) != len(still):

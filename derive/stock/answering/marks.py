@@ -1,5 +1,5 @@
-"""`marks` and `like` under `drawings:`: marks, such as points and arrows, that a problem adds to a drawing of the
-engine, and drawings that repeat another drawing."""
+"""`marks` and `like` under `drawings:`. A problem adds marks, such as points and arrows, to a drawing of the engine, or
+repeats another drawing."""
 
 from __future__ import annotations
 

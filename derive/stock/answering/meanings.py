@@ -44,7 +44,7 @@ MEANINGS: Mapping[str, str] = {
     "*_dot_after": "the rate of {} just after the impact",
     # bodies
     "centre_of_mass": "the centre of mass",
-    "centre_of_mass_*": "the {} component of the centre of mass",
+    "centre_of_mass_*": "the {} coordinate of the centre of mass",
     "density": "the density",
     "mass": "the mass",
     "length": "the length",

@@ -113,7 +113,7 @@ class Plotted:
         for divisor, unit in zip(written, units, strict=True):
             shown = self._shown(divisor.scalar)
             if shown.expr != 1 and _dimension(shown.unit) != _dimension(unit):
-                message = f"`{divisor}` is in {shown.unit or 'no unit'}, but this axis is in {unit or 'no unit'}"
+                message = f"`{divisor}` is in {shown.unit or 'no unit'}, but it divides values in {unit or 'no unit'}"
                 rejected("wrong-argument", message, divisor.place)
             per.append((shown.label, shown.expr))
             keys += shown.keys
@@ -214,8 +214,9 @@ class Plotted:
         surface, plane = known[name], (stand_in("x"), stand_in("y"))
         moving = {TIME, *(each.symbol for each in self.coordinates.values())}
         if len(surface.place.components) != 2 or any(each.unit != unit_of_kind("length") for each in shown):
-            message = f"the path is not in the plane of `{name}`"
-            rejected("wrong-argument", message, name.place, "only a path of two lengths in a plane shows surfaces")
+            message = f"a path of these quantities cannot show `{name}`"
+            help_line = "only a path of two lengths, for a motion in a plane, shows surfaces"
+            rejected("wrong-argument", message, name.place, help_line)
         expr = explicit(surface.distance(Location(plane)))
         if expr.free_symbols & moving:
             rejected("wrong-argument", f"`{name}` moves, so a path cannot show it", name.place, "leave it out")
@@ -305,7 +306,8 @@ class Plotted:
     def _one(self, answer: Word) -> Quantity:
         quantities = self.named(answer)
         if len(quantities) != 1:
-            rejected("wrong-argument", f"`{answer}` is several results, so it has no single curve", answer.place)
+            message = f"`{answer}` denotes several results, but a plot needs one result here"
+            rejected("wrong-argument", message, answer.place)
         return quantities[0]
 
     def _variable(self, against: Word, letters: set[Any], message: str) -> tuple[Symbol, str]:

@@ -354,7 +354,7 @@ class Bodies:
             return shape(position, limits, mass=mass, density=density)
 
     def _limits(self, written: Mapping[Word, tuple[Tree, ...]]) -> tuple[WithVariables, dict[Any, tuple[Expr, Expr]]]:
-        """Read the limits of each variable; they may contain earlier variables."""
+        """Read the limits of each variable; the limits may contain earlier variables."""
         known = WithVariables(self.letters, {})
         limits: dict[Any, tuple[Expr, Expr]] = {}
         for name, ends in written.items():
@@ -396,7 +396,7 @@ class WithVariables(InLetters):
         raise Rejected(refused.complaints if refused else ())
 
     def any(self, node: Tree) -> Expr:
-        """Return the expression to which a density is proportional; it may have any dimension."""
+        """Return the expression to which a density is proportional; this expression may have any dimension."""
         if not isinstance(node, Scalar):
             return self.value(node, "density", "density")
         found, _ = read_expression(node, self.letters)

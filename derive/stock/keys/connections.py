@@ -268,7 +268,8 @@ class ContactKeys(Record):
         return (self.of.name or "").partition(".")[0].replace("_", " ")
 
     def _components(self, known: Connected) -> list[Word]:
-        """Return, in space, the symbols of the components of static or rolling friction; in a plane, nothing."""
+        """Return, in space, the symbols of the components of static or rolling friction; in a plane, the list is
+        empty."""
         symbol = self.friction.symbol if isinstance(self.friction, FrictionKeys) else None
         if symbol is None or "z" not in known.places.axes_of_motion:
             return []
@@ -278,7 +279,7 @@ class ContactKeys(Record):
     def _friction(self, own: FrictionKeys, known: Connected) -> dict[str, Any]:
         given = [each for each in ("rolling", "sliding", "static") if each in own.values_at]
         if len(given) != 1:
-            message = "`friction` needs one of `rolling`, `sliding` and `static`"
+            message = "`friction` needs exactly one of `rolling`, `sliding` and `static`"
             help_line = "with `{static: mu_s, force: F}` a round body rolls" if "static" in given else None
             rejected("missing-key", message, own.places[""], help_line)
         (sort,) = given

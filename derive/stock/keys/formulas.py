@@ -33,13 +33,13 @@ class OfKnownDimension(Declared):
 
 @dataclass(frozen=True)
 class FoundLetter(Declared):
-    """The symbol of an unknown that is also an answer, such as a constraint force; in a formula it denotes the
+    """The symbol of an unknown that is also an answer, such as a constraint force; in a formula this symbol denotes the
     answer."""
 
 
 @dataclass(frozen=True)
 class Formula:
-    """An expression whose names are symbols or answers. If a name is a symbol and also an answer, it denotes the
+    """An expression whose names are symbols or answers. If a name is a symbol and also an answer, the name denotes the
     symbol, unless the symbol is a `FoundLetter`."""
 
     node: Scalar

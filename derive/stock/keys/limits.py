@@ -91,7 +91,7 @@ def _case(given: LimitKeys, known: Mapping[str, Quantity], letters: Mapping[str,
 
 
 def _is_there(given: LimitKeys, known: Mapping[str, Quantity], letters: Mapping[str, Declared]) -> bool:
-    """Return whether the result contains the symbols of the case; with changed inputs they may be absent."""
+    """Return whether the result contains the symbols of the case; with changed inputs these symbols may be absent."""
     if given.of is None:
         return True
     told = _read(given.letter, letters).free_symbols if given.letter else {_letter(x, letters) for x in given.where}

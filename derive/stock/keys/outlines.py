@@ -40,8 +40,8 @@ def name_of_drawing(body: Body) -> str:
 def drawn(answers: Any, about: str = "", is_named: bool = False, key: str = "", shown: Sequence[str] = ()) -> None:
     """Draw the outline of a body, by default under the name of the body.
 
-    about      the name of a point. If it is `centre`, and the corners of the body are symmetric about one point, the
-        axes begin at this point. In all other cases they begin at the reference point of the body
+    about      the name of a point. If this name is `centre`, and the corners of the body are symmetric about one point,
+        the axes begin at this point. In all other cases the axes begin at the reference point of the body
     is_named   whether `about` is a point that the problem names, such as a pivot
     shown      the marks of SHOWS that are drawn in addition to the outline
     """

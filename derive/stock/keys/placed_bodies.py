@@ -160,7 +160,7 @@ class MovingBodyKeys(BodyKeys, QuotedKeys):
         with told_at(self.places[name]):
             angle = angle_of(unit("a rod", way)) if len(way.components) == 2 else None
         if angle is None:
-            message = "the angle of this direction is unknown, so the orientation of the rod is unknown"
+            message = "this direction does not determine an angle of rotation, so the orientation of the rod is unknown"
             help_line = "give the direction by sines and cosines of one angle: `along: [sin(theta), -cos(theta)]`"
             rejected("wrong-argument", message, self.places[name], help_line)
         return angle - pi / 2

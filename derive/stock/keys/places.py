@@ -190,8 +190,8 @@ class Places:
         carried: Mapping[Word, WrittenPlace | None] | None = None,
         bodies: Collection[str] = (),
     ):
-        """The name of a particle also denotes its place, the name of a body its centre of mass, and `rod.end` a point
-        of the body `rod`."""
+        """The name of a particle also denotes the place of the particle, and the name of a body denotes its centre of
+        mass. `rod.end` denotes a point of the body `rod`."""
         self.carried = {str(name): at for name, at in (carried or {}).items() if at is not None and at.name != name}
         self.written = {str(name): place for name, place in written.items()}
         self.turns = turns

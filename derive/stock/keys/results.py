@@ -331,7 +331,7 @@ def _check_verb(written: Record, name: str, faults: Faults) -> None:
     there = [*written_in(written)]
     found = [each for each in there if each in RESULT_VERBS]
     if len(found) != 1:
-        message = f"`{name}` needs one of {', '.join(f'`{verb}`' for verb in sorted(RESULT_VERBS))}"
+        message = f"`{name}` needs exactly one of {', '.join(f'`{verb}`' for verb in sorted(RESULT_VERBS))}"
         faults.error("missing-key", message, written.places[found[1]] if found else written.places[""])
         return
     verb = RESULT_VERBS[found[0]]
