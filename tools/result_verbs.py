@@ -22,7 +22,8 @@ def _line(verb: ResultVerb) -> str:
     several = [" or ".join(f"`{key}`" for key in verb.one_of)] if verb.one_of else []
     keys = verb.keys.values()
     needs = ", ".join([*_keys(key for key in keys if key.needed), *several])
-    return f"| `{verb.name}` | {needs} | {', '.join(_keys(key for key in keys if not key.needed))} | {verb.yields} |\n"
+    optional, yields = ", ".join(_keys(key for key in keys if not key.needed)), verb.yields.replace("|", r"\|")
+    return f"| `{verb.name}` | {needs} | {optional} | {yields} |\n"
 
 
 def _keys(keys: Iterable[ResultKey]) -> list[str]:

@@ -47,7 +47,7 @@ def verbs() -> str:
     lines = ["\n## Verbs\n\n| verb | under `results:` | yields |\n|---|---|---|\n"]
     for name, each in sorted(public.items()):
         if "Quantity" in str(signature(each).return_annotation):
-            yields = summary(getdoc(each) or "")
+            yields = summary(getdoc(each) or "").replace("|", r"\|")
             lines.append(f"| `{name}` | {f'`{asked[name]}`' if name in asked else ''} | {yields} |\n")
     return "".join(lines)
 
