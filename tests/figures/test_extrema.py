@@ -99,7 +99,7 @@ def test_a_wrong_derivative_is_refused_by_the_curve(monkeypatch: pytest.MonkeyPa
 
 @pytest.mark.parametrize("place", [Rational(1, 2), Rational(7, 22), Integer(0)])
 def test_a_pole_inside_the_range_is_an_error(place: Rational) -> None:
-    with pytest.raises(Rejected, match="infinite near"):
+    with pytest.raises(Rejected, match="infinite or not real near"):
         extrema(1 / Abs(x - place), x, -1, 2)
 
 
