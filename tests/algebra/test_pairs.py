@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections import Counter
 
 import pytest
-from algebra.pairs import Letters, Pair, families, kept, lines_of, pairs_in, written
 from sympy import Function, Piecewise, Symbol
 
 from derive.algebra.equality import Grade, equal
+from tests.algebra.pairs import Letters, Pair, families, kept, lines_of, pairs_in, written
 
 FAMILIES = families()
 

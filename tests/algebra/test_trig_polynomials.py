@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import pytest
-from algebra.test_corpus import PROVED, slips_of_the_corpus
 from sympy import Expr, I, Rational, S, cbrt, cos, diff, exp, pi, sin, sqrt, symbols, tan
 
 from derive.algebra.normal_form import _vanishes_by_relations, is_identity, vanishes
 from derive.algebra.sparse_polynomials import HIGHEST
 from derive.algebra.trig_polynomials import Outside, TrigRing, are_equal, is_zero, monomial_ratio
+from tests.algebra.test_corpus import PROVED, slips_of_the_corpus
 
 a, b, m = symbols("a b m", positive=True)
 x, y, z, t = symbols("x y z t", real=True)

@@ -428,7 +428,7 @@ def test_an_extremum_that_an_assumed_relation_excludes_is_refused() -> None:
 
 def test_what_has_no_extremum_or_the_other_one_is_refused() -> None:
     for wrong in (lambda: maximum(given(x0), x0), lambda: maximum(given(x0 + R**2 / x0, "g_1"), x0)):
-        with pytest.raises(Rejected, match="no place"):
+        with pytest.raises(Rejected, match="no allowed place"):
             wrong()
     with pytest.raises(Unverified, match="not the extreme value"):
         maximum(given(c**3 / 3 - R**2 * c, "cubic"), c, within=(-3 * R, 3 * R))

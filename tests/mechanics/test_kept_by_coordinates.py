@@ -134,7 +134,7 @@ def test_a_cylinder_that_the_coordinates_make_roll_needs_no_condition(tmp_path: 
         (SWINGS, "side: both", "side: inside", "a plane has no side `inside`"),
         (SWINGS, "  gravity: g", "  wires: [bob]\n  gravity: g", "must have one coordinate, but this particle has 2"),
         (SWINGS, "  gravity: g", "  wires: [cart, cart]\n  gravity: g", "`cart` is on a wire twice"),
-        (HANGS, "[-R, -x]", "[-R/2, -x]", "no horizontal or vertical piece of string that is tangent"),
+        (HANGS, "[-R, -x]", "[-R/2, -x]", "leads to the next end or pulley"),
         (HANGS, ", tension: T}", "}", "allow the length of the string to change"),
         (HANGS, "length: l, tension: T", "tension: T", "with a symbol for its force also needs a `length`"),
         (HANGS, "at: [R, -y]", "at: [-R, -y]", "the string leaves a pulley at (-R, 0)"),

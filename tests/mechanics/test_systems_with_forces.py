@@ -277,7 +277,7 @@ def two() -> System:
     [
         (lambda: force((1, 2, 3), point(0, 0)), "must have 2 components"),
         (lambda: force((1, 2), "here"), "needs a place|needs a `Location`"),
-        (lambda: couple(tau, alpha), "is constant"),
+        (lambda: couple(tau, alpha), "contains none"),
         (lambda: damping(c * t, point(*lengths("x", "y"))), "needs a constant constant"),
         (lambda: damping(c, alpha), "must act on a place, or along a coordinate"),
         (lambda: potential(k * l), "needs an energy in coordinates"),

@@ -438,7 +438,7 @@ BEATS = Rule(
 def beats(slow: Quantity, fast: Quantity, symbol: str = "omega_beat", key: str = "beats") -> Quantity:
     """Frequency of the beats of two oscillations of the same amplitude, omega_beat = omega_2 - omega_1.
 
-    slow, fast   the angular frequencies of two modes, 1/s; in any order if it is known which is greater
+    slow, fast   the angular frequencies of two modes, 1/s; in any order if the symbols determine the greater one
 
     The sum of the oscillations is cos(omega_1 t) + cos(omega_2 t) = 2 cos((omega_2 - omega_1) t/2)
     cos((omega_1 + omega_2) t/2). The amplitude of this product rises and falls with the frequency omega_2 - omega_1.

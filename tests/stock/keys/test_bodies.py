@@ -145,7 +145,10 @@ def test_what_is_cut_out_has_its_share_of_the_mass(tmp_path: Path) -> None:
             "{shape: disc, radius: R, mass: M, position: [R, 0]}",
             "5: a body needs either `shape` or `position`, not both",
         ),
-        ("{position: [x, 0], limits: {x: [h, 0]}, mass: M}", "5: the limits of `x` are h and 0, but"),
+        (
+            "{position: [x, 0], limits: {x: [h, 0]}, mass: M}",
+            "5: the limits of `x` are h and 0, but the first must be less than the second",
+        ),
         ("{position: [x, 0], limits: {x: [0, M]}, mass: M}", "5: `a limit of x` must be a length, but `M` is a mass"),
         (
             "{position: [R, 0], limits: {x: [0, h]}, mass: M}",
