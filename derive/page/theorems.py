@@ -60,9 +60,11 @@ class Theorems:
         return tuple(told)
 
     def without_law(self, step: Step) -> Step:
-        """Return the step without its line for the law, if the page has the level `standard` and has stated the law as
-        a theorem."""
-        said = self._level is Level.STANDARD and not self._told.isdisjoint(step.law_in)
-        if not (said and len(step.chain) > 1 and step.chain[0].because == "law"):
+        """Return the step without its line for the law, if the page has stated the law: as a theorem at the level
+        `standard`, or for an earlier step at the level `brief`."""
+        is_stated = self._level is not Level.FULL and not self._told.isdisjoint(step.law_in)
+        if self._level is Level.BRIEF:
+            self._told |= set(step.law_in)
+        if not (is_stated and len(step.chain) > 1 and step.chain[0].because == "law"):
             return step
         return replace(step, chain=step.chain[1:])

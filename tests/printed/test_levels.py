@@ -62,20 +62,16 @@ def equated(document: Document) -> set[object]:
     rights = [line.right for group in groups for line in group.lines]
     lefts += [each.left for each in rights if isinstance(each, Relation) and each.operator == "="]  # F ≈ F_max = 2
     found = {letter for left in lefts for letter in (letters_of(left) or letters_in(expressions_in(left)))}
-    for part in document.parts:
-        for block in part.blocks:
-            nodes = getattr(block, "nodes", ())
-            pairs = pairwise(nodes)
-            found |= {
-                letter
-                for node, sign in pairs
-                if isinstance(node, Math) and isinstance(sign, Text) and sign.text.startswith(" = ")
-                for letter in letters_of(node.expr)
-            }
-            said = [node.expr for node in nodes if isinstance(node, Math) and isinstance(node.expr, Relation)]
-            found |= {
-                letter for each in said if each.operator == "=" for letter in letters_in([each.left])
-            }  # I_1 = I_xx
+    written = [getattr(block, "nodes", ()) for part in document.parts for block in part.blocks]
+    for nodes in (*written, document.note):
+        found |= {
+            letter
+            for node, sign in pairwise(nodes)
+            if isinstance(node, Math) and isinstance(sign, Text) and sign.text.startswith(" = ")
+            for letter in letters_of(node.expr)
+        }
+        said = [node.expr for node in nodes if isinstance(node, Math) and isinstance(node.expr, Relation)]
+        found |= {letter for each in said if each.operator == "=" for letter in letters_in([each.left])}  # I_1 = I_xx
     return found
 
 
