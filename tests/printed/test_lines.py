@@ -56,7 +56,7 @@ MENDED = [
     # a function's argument
     (sin(2) * M, "sin(2) M"),
     (cos(theta) * M**n, "M^n cos θ"),
-    (sin(theta) ** 2 * theta**n, "sin² θ·θ^n"),
+    (sin(theta) ** 2 * theta**n, "θ^n sin² θ"),
     (ex.Ratio(sin(theta), Integer(2)), "(sin θ)/2"),
     (ex.Ratio(Integer(1), sin(theta)), "1/(sin θ)"),
     # numbers behind factors, plus or minus, places

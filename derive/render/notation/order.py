@@ -227,7 +227,7 @@ def rank_of_factor(
     sin(alpha) cos(alpha) sin(beta).
     """
     is_root = isinstance(factor, ex.Root) or isinstance(factor, Pow) and factor.exp.is_Rational and factor.exp.q == 2
-    base = factor.base if isinstance(factor, Pow) and factor.exp.is_Rational else factor
+    base = factor.base if isinstance(factor, Pow) else factor
     if is_root and not base.has(Function):
         return 0, Place.ROOT, 0, str(factor)
     if isinstance(base, Symbol | ex.Amount):
