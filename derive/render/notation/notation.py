@@ -337,7 +337,8 @@ class Notation:
             if items or i < len(others):
                 inner = self._operand(inner, leads=not items, ends=len(others) == 1)
             items.append(inner)
-        return signed(sign, row(*items)) if sign else row(*items)
+        placed = side_by_side(items)
+        return signed(sign, placed) if sign else placed
 
     def _operand(self, inner: Layout, *, leads: bool, ends: bool) -> Layout:
         """Return a factor of a product of vectors or tensors, in brackets if needed."""

@@ -346,6 +346,8 @@ def side_by_side(items: list[Layout]) -> Layout:
     for item in items:
         if placed and _needs_dot(placed[-1], item):
             placed.append(DOT)
+        elif placed and _ends_in_bare_function(placed[-1]) and isinstance(first_of(item), Name):
+            placed.append(THIN_SPACE)  # before a vector: a dot would mean a scalar product
         placed.append(item)
     return row(*placed)
 
@@ -358,10 +360,15 @@ def _needs_dot(before: Layout, item: Layout) -> bool:
 def _would_be_argument(before: Layout, item: Layout) -> bool:
     """Return whether a factor after a function could be misread as part of the argument: cos x a^n is printed as
     cos x·a^n."""
-    last, first = last_of(before), first_of(item)
-    bare = isinstance(last, Applied) and not isinstance(last.argument, Fenced)
+    first = first_of(item)
     letter = first.base if isinstance(first, Raised) else first
-    return bare and (isinstance(letter, Fraction) or isinstance(letter, Name) and letter.style == "scalar")
+    is_read_on = isinstance(letter, Fraction) or isinstance(letter, Name) and letter.style == "scalar"
+    return is_read_on and _ends_in_bare_function(before)
+
+
+def _ends_in_bare_function(layout: Layout) -> bool:
+    last = last_of(layout)
+    return isinstance(last, Applied) and not isinstance(last.argument, Fenced)
 
 
 def between_factors(before: Layout, after: Layout) -> Layout | None:
