@@ -144,7 +144,7 @@ PRINTED_SOMETHING_FALSE = {  # run -> the beginnings of the ids of its mutants
     "library/cue_ball": ["mechanics.answers.roots:_step: role: {'equation': equation, 'unknown': unknown}"],
     "library/drift": ["mechanics.model.forces:Charge.stored: sign: -self.charge -> self.charge"],
     "library/damped_oscillator": ["mechanics.vibrations.linear_motion:_sort: dropped: b ** 2 -> b"],
-    "library/kepler": ["mechanics.rest.sides:_sides_taken: and/or"],
+    "library/kepler": ["mechanics.rest.both_sides:_sides_taken: and/or"],
     "library/power_law": [
         "mechanics.vibrations.about_steady_motion:frequency_squared_about: role: {'potential': about.potential",
         "mechanics.vibrations.oscillations:_rate: outcome: 'unstable' -> 'conditional'",
