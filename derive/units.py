@@ -1,8 +1,8 @@
 """Units: the exact size of each unit in the SI, as the product of a rational number and a power of pi.
 
 `rpm` is pi/30 rad/s and not 0.10472, so a number substituted at the end is exact (docs/decisions/0003-units.md).
-An angle is a number. A unit also records to which power it contains a unit of angle. So `cm/rev` is rejected for a
-length, and degrees are rejected for a cosine.
+An angle is a number. A unit also records to which power it contains a unit of angle. So `cm/rev` is rejected as the
+unit of a length, and `degree` as the unit of the value of a cosine.
 """
 
 from __future__ import annotations

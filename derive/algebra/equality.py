@@ -429,7 +429,8 @@ def _both_squared(left: Relation, right: Relation) -> bool:
 def _ratio(above: Expr, below: Expr) -> Expr:
     if above.has(Float) or below.has(Float):  # inexact numbers are not cancelled
         return above / below
-    for turn in (Integer(1), Integer(-1)):  # points can suggest the ratio 1 or -1; `cancel` could take a minute
+    # The ratios 1 and -1 are first tried at points, because `cancel` could take a minute.
+    for turn in (Integer(1), Integer(-1)):
         samples = list(_samples(above, turn * below, FIRST))
         if samples and all(sample.agree for sample in samples):
             return turn

@@ -160,7 +160,7 @@ def rates(value: Expr, meaning: Meaning, known: Known) -> Iterator[Expr]:
     still = value.free_symbols - set(moving_letters(value.free_symbols, meaning))
     defined = [known.definitions[each][-1].value for each in still if each in known.definitions]
     if any(moving_letters(each.free_symbols, meaning) for each in defined):
-        return  # this letter changes, too, although the document never writes it with a dot
+        return  # a letter that is defined by moving letters moves, too, even if the document never writes it with a dot
     time = next((s for s, letter in meaning.symbols.items() if letter.base == "t" and not letter.sub), None)
     time = time if time is not None else Symbol("t", positive=True)
     order = 1 if any(each.dots for each in letters) else 2

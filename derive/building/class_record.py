@@ -62,7 +62,7 @@ class ClassRecord:
         """Return the error about an answer whose student is not named, is not in the class, or has a name that several
         students have."""
         if not student.strip():
-            message = f"no student of the class of `{self.set_id}` is named, so no variant can be chosen"
+            message = f"the answer does not name a student of the class of `{self.set_id}`, so its variant is unknown"
             return Complaint("no-such-student", message, help="give the code of the student")
         shown = student if len(student) <= 40 else f"{student[:40]} ..."
         if several := self.codes_with_name(student):

@@ -108,7 +108,7 @@ def _apply(node: Open, facts: Facts) -> tuple[int, str, bool]:
         return 1, "elsewhere a factor at least as often as a function", is_sure
     letters = {each.identity for each in argument.walk() if isinstance(each, Letter)}
     if letters & set(variables):
-        return 0, "the document writes it with this argument", facts.products[head.identity] == 0
+        return 0, "a function that the document writes with this argument", facts.products[head.identity] == 0
     if isinstance(inner, Num):
         return 0, "a value of a function", False
     return 0, "a function elsewhere", False

@@ -946,7 +946,7 @@ _inner_letter = _letter_in
 
 
 def _with_index(node: Node, index: Letter, value: Integer) -> Node:
-    """Return a term of a sum, with a number in place of its index in letters and in subscripts."""
+    """Return the term of a sum for one value of the index, which may be a letter or part of a subscript."""
     from dataclasses import fields, replace
 
     if isinstance(node, Letter):

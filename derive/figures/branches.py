@@ -130,7 +130,7 @@ def _truth(condition: Any, parameter: Symbol, numbers: Mapping[Any, Expr]) -> Ca
 
 
 def _real(expr: Expr, parameter: Symbol) -> Function:
-    """Return the function of a real expression; its value is not a number where the expression is not real."""
+    """Return a function that evaluates the expression. Its value is NaN where the expression is not real."""
     of = lambdify([parameter], expr, "numpy")
 
     def value(x: float) -> float:

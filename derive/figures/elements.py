@@ -161,7 +161,7 @@ def _ground(start: Any, end: Any, side: str, under: Any) -> Mark:
     (a, b), keys = vectors_of(start, end)
     solid = towards(side, a.rows)
     off = 0.0 if getattr(under, "stands", False) else UNDER.get(type(under), 0.0)
-    if off and (height := getattr(under, "height", None)) is not None:  # the height is not in points, but a length
+    if off and (height := getattr(under, "height", None)) is not None:  # a length in the drawing, not a size on paper
         across = solid - (b - a) * (b - a).dot(solid) / (b - a).dot(b - a)
         a, b = (end + across * as_expr(height) / (2 * across.norm()) for end in (a, b))
         off -= under.usual[1] / 2

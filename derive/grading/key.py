@@ -105,7 +105,7 @@ class Key:
     definitions   the value of each symbol that a step introduces
     allowed       defined symbols that an answer may contain, such as beta = b/(2 m)
     points        whether the problem has points; without points each part counts 1
-    momenta       the values of momenta that are also variables of the Hamiltonian
+    momenta       for each momentum that is a variable of the Hamiltonian, its value in terms of the rates
     """
 
     problem: str

@@ -1,4 +1,4 @@
-"""The worker of a preview, as the server controls it: the server asks, waits, ends a slow worker and starts a new one.
+"""How the server controls the worker of a preview: it sends a question, waits, and replaces a slow worker.
 
 The worker has the limits of a build's workers.
 """

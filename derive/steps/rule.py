@@ -89,8 +89,8 @@ class Quote:
 
     outcomes   outcomes whose steps use the theorem; if empty, the steps of all outcomes use the theorem
     law_in     outcomes in which the theorem is the law of the step, so the step need not repeat the law
-    between    only steps with one of these words for the term `between` of their phrase use the theorem; if empty, the
-               word does not matter
+    between    values of the term `between` in the phrase of a step; only steps with one of them use the theorem; if
+               empty, all steps
     """
 
     theorem: Theorem

@@ -254,8 +254,8 @@ def _towards(trial: Trial, unknown: Expr, state: State, sign: float) -> State:
 # contact is lost. The given start itself may be an equilibrium.
 BEGUN = 0.03
 FLIGHTS = 3  # number of sets of numbers with which a flight is simulated
-# The greatest difference between a formula for a position and a simulated flight, relative to 1 plus the size of the
-# value. For the time of a landing, the greatest difference is ten times as large.
+# The greatest accepted difference between a formula for a position and a simulated flight, relative to 1 plus the size
+# of the value. For the time of a landing, the greatest difference is ten times as large.
 FLOWN = 1e-4
 
 

@@ -1,4 +1,5 @@
-"""The statements of a document in `problems/<set>/reference.yaml`: groups of entries. Each group fixes its own input.
+"""The statements of a document in `problems/<set>/reference.yaml`: groups of entries. Each group states its own given
+values, which replace those of the problem.
 
 A value is an expression in the grammar of the problem files (`states:`), or a formula as the document prints it
 (`latex:`). Such a formula may be a relation, or a chain of values, each of which is compared.
@@ -73,7 +74,7 @@ class Statement:
     marks: tuple[str, ...]
     text: str
     place: Place = field(repr=False)
-    is_named: bool = False  # whether the first side is a letter that may only name the value: `T = ...`
+    is_named: bool = False  # whether the first side is a letter, which is perhaps just a name of the value: `T = ...`
 
     @classmethod
     def of(cls, value: Stated) -> Statement:

@@ -364,8 +364,8 @@ def _letters_of_motion(facts: Judged) -> set[Any]:
 
 
 def slips_first(facts: Judged) -> bool:
-    """Whether, numerically, mu_s N - |F| is positive before the place and zero at the place. At the place F must have
-    the stated sign. The stated condition for reaching the place must be correct.
+    """Whether, numerically, mu_s N - |F| is positive before the place and zero at the place. The friction F at the
+    place must have the stated sign. The stated condition for reaching the place must be correct.
 
     If the sentence states a condition for sticking at the start, mu_s N - |F| must not be positive at the start for
     numbers that violate this condition. Numbers for which the motion turns back before the place are skipped.

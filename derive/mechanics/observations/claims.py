@@ -287,7 +287,7 @@ def is_the_length_along_the_path(facts: Judged, told: Relation) -> bool:
 
 
 def is_harmonic_along_the_path(facts: Judged, told: Relation) -> bool:
-    """Whether the equation is s_ddot + omega^2 s = 0 for the length s along the path that the sentence states."""
+    """Whether the sentence states the equation s_ddot + omega^2 s = 0, where s is the length along the path."""
     s, square = facts.inputs["path"].left, facts.inputs["square"]
     left = explicit(told.left)
     stiffness = left.coeff(s)

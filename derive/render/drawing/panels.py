@@ -547,7 +547,8 @@ def _labels(own: Sequence[Curve]) -> tuple[Any, ...]:
 
 def _axis_name(symbols: Sequence[Any], axis: Axis, notation: Notation, power: int = 0, inline: bool = False) -> str:
     """Return the name of an axis, a quantity divided by its unit or by another quantity: `U / J`, `v / (m/s)`, `U /
-    (10^33 J)`, `r / r_0`. Several quantities have the same divisor, `(x, y) / m`."""
+    (10^33 J)`, `r / r_0`. The names of several quantities on one axis are in brackets before their common divisor:
+    `(x, y) / m`."""
     layouts = [_with_arguments(notation.layout(symbol)) for symbol in symbols]
     if axis.per is not None and len(symbols) == 1 and fraction(axis.per)[0] == 1:
         return f"${_mathtext(notation.layout(symbols[0] / axis.per), inline=True)}$"

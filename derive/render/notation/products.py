@@ -256,7 +256,7 @@ def _with_plain_root(factor: Expr) -> tuple[Expr, ...]:
 
 
 def _below_under_root(number: Rational, inside: Rational) -> tuple[Rational, Rational]:
-    """Return the factor that moves from the front of a root under the root, and the new number under the root. These
+    """Return the factor in front of a root that can be moved inside it, and the new number under the root. These
     two numbers are 1/3 and 2/3 for sqrt(6)/3 = sqrt(2/3), and 1/2 and 1/2 for sqrt(2)/2 = sqrt(1/2)."""
     shared = gcd(number.q, inside.p) if inside.q == 1 else Rational(1)
     return Rational(1, shared), inside / shared**2

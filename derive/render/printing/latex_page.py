@@ -303,8 +303,8 @@ class LatexPage:
         return "\n".join([set_rows[0], *(f"{at}\n{row}" for at, row in zip(breaks, set_rows[1:], strict=True))])
 
     def _row(self, lines: Sequence[Printed], stop: str) -> str:
-        """Return a row: left side, right sides, punctuation, reason and number. A frame ends a sentence without
-        punctuation."""
+        """Return a row: left side, right sides, punctuation, reason and number. A framed row has no punctuation after
+        it, even at the end of a sentence."""
         first, last = lines[0], lines[-1]
         stop = "" if last.framed else stop
         left = latex(first.left) if first.left else ""
