@@ -8,13 +8,13 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from functools import cache
 from pathlib import Path
 
 import yaml
 
-from tools.trees import nodes_of, nodes_under, parsed
+from tools.trees import nodes_of
 
 ROOT = Path(__file__).resolve().parent.parent
 DOCUMENT, TOLD = ROOT / "docs" / "errors.md", ROOT / "tools" / "errors.yaml"
@@ -55,14 +55,17 @@ def _may_raise(file: Path) -> bool:
 
 
 def _raised_in(file: Path) -> Iterator[tuple[str, str]]:
-    names, nodes = _named_texts(parsed(file)), nodes_of(file)
+    nodes = nodes_of(file)
     functions = [node for node in nodes if isinstance(node, ast.FunctionDef)]
+    assignments = sorted((node for node in nodes if isinstance(node, ast.Assign)), key=lambda each: each.lineno)
+    names = _named_texts(assignments)
     for call in (node for node in nodes if isinstance(node, ast.Call)):
         at = _code_at(call)
         if at is not None:
             message = call.args[at + 1] if len(call.args) > at + 1 else ast.Constant("")
-            own = [f for f in functions if f.lineno <= call.lineno <= (f.end_lineno or 0)]
-            within = {**names, **(_named_texts(own[-1], call.lineno) if own else {})}
+            around = [f.lineno for f in functions if f.lineno <= call.lineno <= (f.end_lineno or 0)]
+            start = max(around, default=call.lineno)
+            within = {**names, **_named_texts([each for each in assignments if start <= each.lineno < call.lineno])}
             for code in (text for text in _texts(call.args[at], within) if _CODE.fullmatch(text)):
                 yield from ((code, text) for text in _texts(message, within) if text.strip("… "))
                 yield code, ""
@@ -76,15 +79,15 @@ def _code_at(call: ast.Call) -> int | None:
     return 1 if function.endswith("_stopped") and len(call.args) > 1 else 0 if call.args else None
 
 
-def _named_texts(scope: ast.AST, before: float = float("inf")) -> dict[str, list[ast.expr]]:
-    """Return, for each name in a scope, the expression that is assigned to it last before the given line."""
-    found: dict[str, list[ast.expr]] = {}
-    assigned = [node for node in nodes_under(scope) if isinstance(node, ast.Assign) and node.lineno < before]
-    for node in sorted(assigned, key=lambda each: each.lineno):
-        for name, value in (pair for target in node.targets for pair in _pairs(target, node.value)):
-            if isinstance(name, ast.Name):
-                found[name.id] = [value]
-    return found
+def _named_texts(assignments: Iterable[ast.Assign]) -> dict[str, list[ast.expr]]:
+    """Return the expression that is assigned last to each name."""
+    return {
+        name.id: [value]
+        for node in assignments
+        for target in node.targets
+        for name, value in _pairs(target, node.value)
+        if isinstance(name, ast.Name)
+    }
 
 
 def _pairs(target: ast.expr, value: ast.expr) -> list[tuple[ast.expr, ast.expr]]:
