@@ -74,6 +74,7 @@ bench: .venv/.runtime
 test: .venv/.tests
 	@$(PYTHON) -P -m ruff check --quiet .
 	@$(PYTHON) -P -m ruff format --quiet --check .
+	@$(PYTHON) -P -m compileall -q -j 2 derive  # once, and not by each worker
 	@$(PYTHON) -P -m mypy --no-error-summary & types=$$!; \
 	  $(PYTHON) -P -m pytest -n 2 --dist worksteal; tests=$$?; \
 	  wait $$types || { echo 'mypy has found errors: see above' >&2; exit 1; }; exit $$tests

@@ -1,6 +1,7 @@
 """List slow tests that run few lines of their own. The default run leaves these tests out.
 
-    python -P -m tests.covered
+    python -P -m tests.covered           of all tests
+    python -P -m tests.covered --again   of the tests of the default run, which are added to the list
 
 The tests of all runs are measured line by line, which takes about twice the time of a run. The default run keeps all
 tests that take less than `SLOW` seconds, all tests of wrong laws, which each run must refuse, and the tests in the
@@ -77,7 +78,8 @@ def _is_kept(test: str, lines: set[tuple[str, int]]) -> bool:
 
 
 def main() -> None:
-    LIST.write_text(HEAD, encoding="utf-8")
+    listed = covered() if "--again" in sys.argv else frozenset()
+    LIST.write_text(HEAD + "".join(f"{test}\n" for test in sorted(listed)), encoding="utf-8")
     durations = Durations()
     with tempfile.TemporaryDirectory() as folder:
         os.environ["COVERAGE_FILE"] = str(Path(folder) / "coverage")
@@ -85,7 +87,7 @@ def main() -> None:
         status = pytest.main(["-n", "2", "--dist", "worksteal", *options], plugins=[durations])
         lines = lines_by_test(Path(folder) / "coverage")
     chosen = superfluous(lines, durations.of)
-    LIST.write_text(HEAD + "".join(f"{test}\n" for test in chosen), encoding="utf-8")
+    LIST.write_text(HEAD + "".join(f"{test}\n" for test in sorted(listed.union(chosen))), encoding="utf-8")
     saved = sum(durations.of[test] for test in chosen)
     print(f"{len(chosen)} tests are listed, with {saved:.0f} of {durations.of.total():.0f} seconds")
     sys.exit(status)
