@@ -187,8 +187,8 @@ def test_the_tests_and_the_types_come_after_the_linter(tree: Tree) -> None:
     tree.write(".venv/.tests")
     tree.make("test")
     log = (tree.root / "calls.log").read_text().splitlines()
-    assert [line.split()[2] for line in log[:2]] == ["ruff", "ruff"]
-    assert sorted(line.split()[2] for line in log[2:]) == ["mypy", "pytest"]  # at the same time
+    assert [line.split()[2] for line in log[:3]] == ["ruff", "ruff", "compileall"]
+    assert sorted(line.split()[2] for line in log[3:]) == ["mypy", "pytest"]  # at the same time
 
 
 @pytest.mark.parametrize("failing", ["mypy", "pytest"])
