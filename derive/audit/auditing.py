@@ -15,14 +15,16 @@ from sympy import Expr, MatrixBase, Symbol
 
 from derive.audit.assumptions import Assumed
 from derive.audit.claims import Claim, Definition, Outcome, Verdict
-from derive.audit.deciding import Decision, counterexample, entries_of, same
+from derive.audit.deciding import Decision, counterexample, degree, entries_of, order_of_error, same
 from derive.audit.dimensions import odd_claims
 from derive.audit.expected import Compared, Expected, compared
 from derive.audit.knowledge import ASSUMED, Known
 from derive.audit.named_quantities import named_quantities
-from derive.audit.nearest_change import Nearness, letters_in, terms_in
-from derive.audit.slips import WHY, Edit, nearest_edit
+from derive.audit.nearest_change import TOO_EASY, Nearness, holds_at, letters_in, terms_in
+from derive.audit.numeric import NoNumber
+from derive.audit.slips import WHY, Edit, edits_of_side, nearest_edit
 from derive.audit.systems import (
+    changing_letters,
     energies,
     equations_of_motion,
     expanded,
@@ -58,6 +60,7 @@ SPECIAL = frozenset({Cue.GIVEN, Cue.PUT_IN, Cue.ZERO, Cue.APPROXIMATE})  # cues 
 MOST_READINGS = 8
 DISTINCT = ("sign", "exponent", "function")  # changes that do not lead from one special case to another
 PLAIN = ("", "unmarked", "all", "tensors")
+GIVEN_UP = (LimitReached, RecursionError, Meaningless, NoNumber, *FAULTS)  # a test of a claim ends without a result
 GOOD = (Outcome.HOLDS, Outcome.APPROXIMATES, Outcome.DEFINES)
 _BRACKETS = re.compile(
     r"\bPoisson|\bcommutator|\bcommut(?:e|es)\b|\binner product|\bHilbert|\bHermitian|\badjoint", re.IGNORECASE
@@ -214,6 +217,7 @@ class _Auditor:
         self.explanations: dict[int, list[Claim]] = {}  # by the id of the block of a display
         self.written: Counter[Identity] = Counter()  # how many claims contain a letter
         self.lagrangians: dict[int, tuple[Expr, int]] = {}  # L = T - U, by the number of the claim that it precedes
+        self.general: dict[int, bool] = {}  # whether a claim in a sentence always holds
         self.explained: set[int] = set()  # the numbers of claims that explain letters of the display before them
 
     def begin(self, scope: int) -> None:
@@ -257,6 +261,8 @@ class _Auditor:
         self.explain(claim)
         self.known.sentence = self.claims_of_sentence(claim)
         self.known.here = self.conditions_here(claim)
+        written = letters_in(claim.left, claim.right)
+        self.known.moving = frozenset(each.identity for each in written if each.dots)
         self.state_lagrangian(claim)
         if claim.right is None or (claim.left is None and claim.before is None):
             claim.verdict = Verdict(Outcome.UNREADABLE, claim.fault or "this is not read")
@@ -279,18 +285,23 @@ class _Auditor:
             claim.verdict, too_long = Verdict(Outcome.UNDECIDED, f"this takes more than {seconds:.1g} seconds"), True
         except RecursionError:
             claim.verdict = Verdict(Outcome.UNDECIDED, "this formula is nested too deeply")
+        except FAULTS as error:
+            claim.verdict = Verdict(Outcome.UNDECIDED, f"SymPy cannot handle it: {error}")
         search = min(seconds, SECONDS_OF_SEARCH)
         undecided = claim.verdict.outcome is Outcome.UNDECIDED and not too_long
-        display = claim.row.block.display or (undecided and self.is_general(claim))
-        if claim.verdict.outcome is Outcome.DEFINES or (undecided and display):
-            with suppress(LimitReached, RecursionError, *FAULTS), time_limited(search):
+        display = claim.row.block.display
+        if undecided and not display:
+            with suppress(*GIVEN_UP), time_limited(search):
+                display = self.is_general(claim)
+        if claim.verdict.outcome is Outcome.DEFINES or (undecided and (display or claim.relation == "~")):
+            with suppress(*GIVEN_UP), time_limited(search):
                 self.accuse_if_near(claim, claim.verdict)
         failed = claim.verdict.outcome is Outcome.DIFFERS and claim.verdict.inherits is None
         contradicts = claim.verdict.outcome is Outcome.DEFINES and claim.verdict.contradicts is not None
         if failed or ((undecided or contradicts) and display and not self.may_be_special(claim)):
-            with suppress(LimitReached, RecursionError, *FAULTS), time_limited(search):
+            with suppress(*GIVEN_UP), time_limited(search):
                 self.fixes += self.fixes_before(claim)
-        with suppress(LimitReached, RecursionError, *FAULTS), time_limited(seconds):
+        with suppress(*GIVEN_UP), time_limited(seconds):
             self.remark(claim, claim.verdict)
             self.remember(claim)
         self.late += max(0.0, process_time() - begun - USUAL_SECONDS)
@@ -347,7 +358,7 @@ class _Auditor:
         for each in self.explanations.pop(id(claim.row.block), []):
             if each.is_step or each.relation not in ("=", ":=") or each.left is None or each.right is None:
                 continue
-            with suppress(Meaningless, LimitReached, RecursionError, *FAULTS), time_limited(LEAST_SECONDS):
+            with suppress(*GIVEN_UP), time_limited(LEAST_SECONDS):
                 letter, value = self.sides(each.left, readings(each.right, self.facts)[0][0], self.meaning)
                 plain = isinstance(value, MatrixBase) or value.as_coeff_Mul()[1].is_Symbol or not value.free_symbols
                 if isinstance(letter, Symbol) and not plain and self.known.latest(letter) is None:
@@ -360,7 +371,7 @@ class _Auditor:
         side = self.last_good_side(claim)
         if side is None:
             return said
-        with suppress(Meaningless, LimitReached, RecursionError, *FAULTS), time_limited(LEAST_SECONDS):
+        with suppress(*GIVEN_UP), time_limited(LEAST_SECONDS):
             value = self.expanded(self.meaning.of(readings(side, self.facts)[0][0]))
             if isinstance(value, MatrixBase):
                 time = next((each for each in value.free_symbols if each.name == "t"), Symbol("t", real=True))
@@ -494,6 +505,8 @@ class _Auditor:
 
     def accuse_if_near(self, claim: Claim, verdict: Verdict) -> None:
         """Report a row that does not follow, but would follow after one small change."""
+        if claim.values is not None and claim.relation == "~":
+            self.accuse(claim, verdict, self.change_of_approximation(claim))
         if claim.values is None or claim.relation not in ("=", ":="):
             return
         if Cue.INCORRECT in claim.row.block.cues or (Cue.APPROXIMATE in claim.row.block.cues and claim.is_step):
@@ -524,6 +537,8 @@ class _Auditor:
         if edit is not None and in_sentence and edit.was not in strange:
             self.doubt(verdict, edit)
             return
+        if edit is not None and edit.kind in TOO_EASY and self.may_add_something(claim):
+            return
         if edit is not None and edit.kind == "index" and not ("_" in edit.was and "_" in edit.meant):
             return  # r_0 may be the value of r in a special case
         if edit is None and not claim.is_step and claim.row.block.display and not self.may_be_special(claim):
@@ -541,6 +556,32 @@ class _Auditor:
             return
         self.accuse(claim, verdict, edit)
 
+    def may_add_something(self, claim: Claim) -> bool:
+        """Whether a row has a new letter or begins a part, so that it may have more terms than earlier rows."""
+        assert claim.values is not None
+        symbols = claim.values[0].free_symbols | claim.values[1].free_symbols
+        before = [each for each in self.claims[: claim.number] if each.row.block.part == claim.row.block.part]
+        return bool(self.known.new_letters(symbols)) or not any(each.row.block.display for each in before)
+
+    def change_of_approximation(self, claim: Claim) -> Edit | None:
+        """Return one change of the right side after which it would have the leading terms of the left side where the
+        letters that change are small, as in `cos x ~ 1 - x^2`; None if it already has them."""
+        assert claim.values is not None and claim.right is not None
+        left, right = claim.values
+        if isinstance(left, MatrixBase) or isinstance(right, MatrixBase):
+            return None
+        small = changing_letters(left.free_symbols, self.meaning)
+        if not small or left.free_symbols != right.free_symbols:
+            return None
+        node = readings(claim.right, self.facts)[0][0]
+        for edit in edits_of_side(node, letters_in(node), self.shown):
+            with suppress(*FAULTS, Meaningless):
+                value = self.meaning.of(edit.node)
+                found = order_of_error(left, value, self.meaning, [small])
+                if found is not None and found[1] > degree(value, small) > 0:
+                    return edit
+        return None
+
     def accuse(self, claim: Claim, verdict: Verdict, edit: Edit | None) -> None:
         """Report a row that would follow after the given change, if there is one."""
         if edit is None:
@@ -552,17 +593,37 @@ class _Auditor:
         verdict.why_plausible, verdict.span = WHY[edit.kind], edit.span
 
     def is_general(self, claim: Claim) -> bool:
+        if claim.number not in self.general:
+            self.general[claim.number] = self.holds_generally(claim)
+        return self.general[claim.number]
+
+    def holds_generally(self, claim: Claim) -> bool:
         """Whether a sentence states an equation that always holds: it has several terms, it is not the value of a
         letter without rates, and nothing near it may name a special case."""
         if claim.values is None or claim.is_step or claim.row.block.display or claim.row.block.cues & SPECIAL:
             return False
-        if any(isinstance(each, MatrixBase) for each in claim.values) or self.may_be_special(claim):
+        if any(isinstance(each, MatrixBase) for each in claim.values):
             return False
         left, right = claim.values
         value = sympy.expand(left - right)
         is_value = left.as_base_exp()[0].is_Symbol or right.is_number
         has_rates = any(map(self.known.is_rate, value.free_symbols))
-        return len(sympy.Add.make_args(value)) > 1 and (has_rates or not is_value)
+        if len(sympy.Add.make_args(value)) < 2 or (is_value and not has_rates):
+            return False
+        return not self.may_be_special(claim) or not self.may_hold_specially(claim)
+
+    def may_hold_specially(self, claim: Claim) -> bool:
+        """Whether a claim holds, or is not known to fail, where the conditions in sentences of its part hold."""
+        left_side = self.last_good_side(claim)
+        if Cue.APPROXIMATE in claim.row.block.cues or left_side is None or claim.right is None:
+            return True
+        part = claim.row.block.part
+        here = {each for each in self.known.conditions if self.claims[each].row.block.part == part}
+        with suppress(Meaningless, NoNumber, *FAULTS):
+            known = replace(self.known, conditions=self.known.conditions - here, kept={})
+            points = Nearness(self.meaning, known, [], self.shown).points()
+            return len(points) < 2 or all(holds_at(each, left_side, claim.right) for each in points)
+        return True
 
     def doubt(self, verdict: Verdict, edit: Edit | None) -> None:
         """Leave a row undecided if one change would make it follow: it contains a slip or is a special case."""
@@ -632,8 +693,8 @@ class _Auditor:
         left = claim.values[0]
         behind = set(left.free_symbols | self.expanded(left).free_symbols) if claim.is_step else set()
         if isinstance(left, Symbol) and not claim.is_step:
-            letters = [each.free_symbols for each, _ in self.known.equations[-MOST_ROWS:] if left in each.free_symbols]
-            behind = set().union(*letters)
+            equations = [each for each, _ in self.known.equations[-MOST_ROWS:] if left in each.free_symbols]
+            behind = set().union(*(expanded(self.known, each, left, sure=True)[0].free_symbols for each in equations))
         known = {(each.identity, each.dots) for each in written}
         found = [self.meaning.symbols[each] for each in sorted(behind, key=str) if each in self.meaning.symbols]
         return [each for each in found if (each.identity, each.dots) not in known][:MOST_LOST]
@@ -750,7 +811,10 @@ class _Auditor:
             self.shown, known is not self.known, terms=terms,
         )  # fmt: skip
         if letter is not None and (at_root := root_equation(letter, self.meaning, known)) is not None:
-            return near.of_root(right_node, at_root[0], at_root[1])
+            unknown, equation, _ = at_root
+            letters = self.with_letters_of(equation, near.letters)
+            near.letters = [each for each in letters if self.meaning.symbol(each) != unknown]
+            return near.of_root(right_node, unknown, equation)
         if letter is not None and Cue.ZERO in claim.row.block.cues and known is self.known:
             if (at_zero := zeros_in_time(letter, self.meaning, known)) is not None:
                 edit = near.of_root(right_node, at_zero[0], at_zero[1])
@@ -791,10 +855,14 @@ class _Auditor:
                     return edit
         for equation, number in reversed(equations_of_motion(*claim.values, self.meaning, near.known)):
             if self.belongs_to(claim, self.claims[number]):
-                lost = [self.meaning.symbols[each] for each in equation.free_symbols if each in self.meaning.symbols]
-                near.letters = [*near.letters, *(each for each in lost if not each.dots and each not in near.letters)]
+                near.letters = self.with_letters_of(equation, near.letters)
                 return near.of_motion(right_node, letter, equation)
         return None
+
+    def with_letters_of(self, equation: Expr, letters: Sequence[Letter]) -> list[Letter]:
+        """Return the given letters and the letters of an equation, without those that have dots."""
+        found = [self.meaning.symbols.get(each) for each in sorted(equation.free_symbols, key=str)]
+        return [*letters, *(each for each in found if each is not None and not each.dots and each not in letters)]
 
     def belongs_to(self, claim: Claim, earlier: Claim) -> bool:
         """Whether an earlier row is in the same part as a claim, or the sentence of the claim refers to its label."""
@@ -879,7 +947,7 @@ class _Auditor:
         self.scope = self.meaning.scope = scope_of(self.document, claim.row)
         edits: list[tuple[Claim, Edit]] = []
         for suspect in suspects:
-            with suppress(LimitReached, RecursionError, *FAULTS), time_limited(SECONDS_OF_SEARCH):
+            with suppress(*GIVEN_UP), time_limited(SECONDS_OF_SEARCH):
                 lost: list[Node] | None = [*letters_in(suspect.right, claim.right)] if suspect is not formula else None
                 edit = self.near_edit(suspect, self.known_without(suspect, claim), lost)
                 edits += [(suspect, edit)] if edit is not None else []
@@ -1127,6 +1195,8 @@ class _Auditor:
         if verdict.outcome is not Outcome.DEFINES or claim.values is None:
             return True
         letter, value = claim.values
+        if value == 0 and letter.is_Symbol and letter.name in ("U", "V") and letter not in self.known.seen:
+            return False  # the choice of the zero of a potential energy
         if not isinstance(letter, Symbol) or isinstance(value, MatrixBase) or value.is_number:
             return True
         if value.is_Symbol and claim.index + 1 < len(claim.statement.relations):
@@ -1134,6 +1204,18 @@ class _Auditor:
         if moving_letters(set(self.known.new_letters(value.free_symbols)), self.meaning):
             return False  # `r = r_0 + eta` introduces another coordinate
         return any(letter in equation.free_symbols for equation, _ in self.known.equations)
+
+    def is_constant(self, claim: Claim) -> bool:
+        """Whether a sentence gives a constant value to a coordinate: `x = a`."""
+        if claim.values is None or claim.row.block.display or isinstance(claim.values[1], MatrixBase):
+            return False
+        letter, value = claim.values
+        if not isinstance(letter, Symbol) or not moving_letters({letter}, self.meaning) or self.known.is_rate(letter):
+            return False
+        named = [self.meaning.symbols.get(each) for each in value.free_symbols]
+        return not any(e is None or e.base == "t" for e in named) and not moving_letters(
+            value.free_symbols, self.meaning
+        )
 
     def is_linear(self, claim: Claim) -> bool:
         assert claim.values is not None
@@ -1177,6 +1259,8 @@ class _Auditor:
         elif self.is_equilibrium(claim):
             self.known.conditions.add(claim.number)
             self.known.at_rest.add(claim.number)
+        if self.is_constant(claim):
+            self.known.instants[claim.number] = self.meaning.symbols[claim.values[0]].identity
         self.known.seen |= claim.values[0].free_symbols | claim.values[1].free_symbols
         if claim.relation not in ("=", ":="):
             start = claim

@@ -416,7 +416,7 @@ class Decision:
                     continue
                 letters, power = order
                 words = " and ".join(_word(each) for each in letters)
-                if power > _degree(right, letters):
+                if power > degree(right, letters):
                     return Verdict(Outcome.APPROXIMATES, f"the error is of order {power} in {words}", used)
                 if letters == changing_letters(left.free_symbols, self.meaning):
                     because = f"the terms of order {power} in {words} are not those of the left side"
@@ -912,7 +912,7 @@ def order_of_error(
     return None
 
 
-def _degree(value: Expr, letters: tuple[Symbol, ...]) -> int:
+def degree(value: Expr, letters: tuple[Symbol, ...]) -> int:
     poly = value.as_poly(*letters)
     return int(poly.total_degree()) if poly is not None else 0
 

@@ -7,7 +7,7 @@ contradicts the other rows and these agree with each other.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
@@ -91,17 +91,27 @@ def odd_claims(claims: Sequence[Claim], meaning: Meaning, named: Mapping[str, Po
     if len({each.source for each in equations}) + len(named) < FEWEST_CLAIMS:
         return []
     equations += usual(equations, meaning, named)
-    conflicts = _conflicts(equations)
     unsure = {*TWO_MEANINGS, *(each for each in LESS_USUAL if each not in named)}
-    for letter in sorted(unsure) if conflicts else ():
-        without = [each for each in equations if each.source != -1 or list(each.form) != [letter]]
-        if not _conflicts(without):
-            return []  # the letter may have a different dimension here: `l` is an angular momentum
+    if any(not _conflicts(_without_usual({letter}, equations)) for letter in sorted(unsure)):
+        return []  # the letter may have a different dimension here: `l` is an angular momentum
+    found = _candidates(claims, equations)
+    if not found and len(only := _candidates(claims, _without_usual(unsure, equations))) == 1:
+        return only
+    return found
+
+
+def _without_usual(letters: Set[str], equations: Sequence[Equation]) -> list[Equation]:
+    """Return equations without the dimensions that letters have from words or from their names."""
+    return [each for each in equations if each.source != -1 or not letters >= each.form.keys()]
+
+
+def _candidates(claims: Sequence[Claim], equations: Sequence[Equation]) -> list[Claim]:
+    """Return the claims without any one of which the equations agree; none if all equations agree."""
+    conflicts = _conflicts(equations)
     if not conflicts:
         return []
     shared = set.intersection(*conflicts)
-    by_number = {claim.number: claim for claim in claims}
-    candidates = [by_number[number] for number in sorted(shared)]
+    candidates = [claim for claim in claims if claim.number in shared]
     for outcomes in (UNDERIVED, FOLLOWS):
         among = [each for each in candidates if each.verdict is not None and each.verdict.outcome in outcomes]
         found = [

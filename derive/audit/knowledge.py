@@ -10,6 +10,7 @@ import sympy
 from sympy import Expr, Integral, MatrixBase, Symbol
 
 from derive.audit.claims import Definition
+from derive.documents.facts import Identity
 from derive.documents.layout import Row
 from derive.documents.meaning import Meaning, Value
 from derive.documents.syntax import Letter
@@ -37,6 +38,10 @@ class Known:
     at_rest: set[int] = field(default_factory=set)  # conditions that hold at an equilibrium only
     sentence: frozenset[int] = frozenset()  # claims in the sentence before the current display
     here: frozenset[int] = frozenset()  # conditions that are used in the current row
+    instants: dict[int, Identity] = field(
+        default_factory=dict
+    )  # claims such as x = a in sentences, with the coordinate x
+    moving: frozenset[Identity] = frozenset()  # coordinates whose rates are in the current row
     named: set[Symbol] = field(default_factory=set)  # letters to which a display gave a value
     kept: dict[object, Any] = field(default_factory=dict)  # results that were computed from this knowledge
 
@@ -135,7 +140,13 @@ class Known:
 
     def latest(self, symbol: Symbol) -> Definition | None:
         found = self.definitions.get(symbol)
+        if found and self.is_at_instant(found[-1].claim):
+            return None
         return found[-1] if found else self.computed(symbol)
+
+    def is_at_instant(self, claim: int) -> bool:
+        """Whether a claim such as `x = a` holds only at an instant, because the current row contains x'."""
+        return self.instants.get(claim) in self.moving
 
     def surely(self, symbol: Symbol) -> Definition | None:
         """Return a definition of a letter that is valid in the current row, or None."""

@@ -110,19 +110,20 @@ class Nearness:
         may_be_identity = is_step or functions
 
         def holds(one: Node, other: Node) -> bool:
-            try:
-                for p in points:
-                    size = sum(abs(p.of_node(term)) for each in (one, other) for term in terms_of(each))
-                    if size < SMALLEST or abs(p.of_node(one) - p.of_node(other)) > SMALL * size:
-                        return False
-                return may_be_identity or not close(self.bare.of_node(one), self.bare.of_node(other))
-            except (*FAULTS, NoNumber, Meaningless):
-                return False
+            with suppress(*FAULTS, NoNumber, Meaningless):
+                if all(holds_at(p, one, other) for p in points):
+                    return may_be_identity or not close(self.bare.of_node(one), self.bare.of_node(other))
+            return False
 
         if holds(left, right):
             return None
         one, other = self.letters_behind(left, letter), self.letters_behind(right, letter)
-        complete = one == other if is_step else one | other <= set(points[0].fixed)
+        lost = [self.meaning.symbols.get(each) for each in one - other]
+        moving = {each.identity for each in letters_in(right) if each.dots}
+        # A coordinate whose rate is in the row is not zero, so its terms were lost.
+        complete = other <= one and all(each is not None and each.identity in moving for each in lost) if is_step else (
+            one | other <= set(points[0].fixed)
+        )  # fmt: skip
         for edit, first in self.edits_of_both(left, right, complete):
             if holds(edit.node, right) if first else holds(left, edit.node):
                 # A later row shows which of two roots is right.
@@ -281,6 +282,12 @@ def is_other_root(edit: Edit, side: Node) -> bool:
     )
 
 
+def holds_at(point: Numbers, left: Node, right: Node) -> bool:
+    """Whether two sides are equal at a point; False if all their terms are very small."""
+    size = sum(abs(point.of_node(term)) for each in (left, right) for term in terms_of(each))
+    return size >= SMALLEST and abs(point.of_node(left) - point.of_node(right)) <= SMALL * size
+
+
 def terms_of(side: Node) -> list[Node]:
     return [term for _, term in side.terms] if isinstance(side, Add) else [side]
 
@@ -301,4 +308,4 @@ def terms_in(sides: Sequence[Node], shown: Shown) -> list[Node]:
     return list(found.values())[:MOST_TERMS]
 
 
-__all__ = ["Nearness", "letters_in", "terms_in"]
+__all__ = ["TOO_EASY", "Nearness", "letters_in", "terms_in"]

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
 
-from sympy import Expr, Mul, Symbol, expand, factor_terms
+from sympy import Expr, Integer, Mul, Symbol, count_ops, expand, factor_terms
 
 from derive.audit.fingerprint import at, number_of, size_at
 from derive.audit.systems import Equation
@@ -20,6 +20,7 @@ from derive.documents.meaning import Meaning
 STEPS = 12  # the greatest number of steps of Newton's method
 TRIED = 8  # the greatest number of starting points of Newton's method
 OTHER_STARTS = 2  # further starting points for an equation that has no solution near the first one
+MOST_OPERATIONS = 6  # of an equation by which a letter may vanish
 SLOPE = 1e-6  # the relative change of a letter with which a slope is computed
 SMALL = 1e-10  # an equation with a smaller residual, relative to its terms, counts as satisfied
 DAMPING = 1e-9  # the relative increase of the diagonal of the linear system
@@ -43,9 +44,7 @@ class Surface:
     points: list[Numbers] = field(default_factory=list)
 
     def find(self, count: int) -> Surface:
-        self.zeros = {
-            each.value for each in self.equations if each.value.is_Symbol and self.has_either_sign(each.value)
-        }
+        self.zeros = self.letters_that_vanish()
         self.kept = [each for each in self.equations if each.value in self.zeros]
         here = self.begin(0)
         for each in self.equations:
@@ -60,12 +59,24 @@ class Surface:
             elif any(self.moved(start, [*self.kept, each], vanishing=True) is not None for start in starts):
                 self.special.append(each)
         for point in range(TRIED):
-            found = here if point == 0 else self.moved(self.begin(point), self.kept)
+            found = here if point == 0 else self.moved(self.near(here, point), self.kept)
             if found is not None:
                 self.points.append(found)
             if len(self.points) == count:
                 break
         return self
+
+    def letters_that_vanish(self) -> set[Symbol]:
+        """Return the letters that vanish by an equation such as x' = 0, or by y' = x' if x' vanishes."""
+        found: dict[Symbol, Integer] = {}
+        values = [each.value for each in self.equations if count_ops(each.value) <= MOST_OPERATIONS]
+        grows = True
+        while grows:
+            rest = {value.xreplace(found).as_coeff_Mul()[1] for value in values}
+            new = {each for each in rest if each.is_Symbol and self.has_either_sign(each)} - found.keys()
+            found |= dict.fromkeys(new, Integer(0))
+            grows = bool(new)
+        return set(found)
 
     def begin(self, point: int) -> Numbers:
         letters = set().union(*(each.value.free_symbols for each in self.equations)) if self.equations else set()
@@ -73,6 +84,10 @@ class Surface:
             each: 0j if each in self.zeros else complex(number_of(each.name, point))
             for each in sorted(letters, key=str)
         }
+
+    def near(self, here: Numbers, point: int) -> Numbers:
+        """Return a start for another point: far from any solution, Newton's method often finds none."""
+        return {each: value * number_of(each.name, point) / number_of(each.name, 0) for each, value in here.items()}
 
     def weight(self, symbol: Symbol) -> float:
         letter = self.meaning.symbols.get(symbol)
@@ -153,10 +168,11 @@ def _solved(matrix: list[list[complex]], right: list[complex]) -> list[complex]:
         pivot = max(range(column, count), key=lambda i: abs(rows[i][column]))
         rows[column], rows[pivot] = rows[pivot], rows[column]
         for i in range(count):
-            if i != column and rows[i][column]:
+            if i != column and rows[i][column] and rows[column][column]:
                 factor = rows[i][column] / rows[column][column]
                 rows[i] = [a - factor * b for a, b in zip(rows[i], rows[column], strict=True)]
-    return [rows[i][-1] / rows[i][i] for i in range(count)]
+    # An equation between letters that vanish has no slopes, so its row is zero.
+    return [rows[i][-1] / rows[i][i] if rows[i][i] else 0j for i in range(count)]
 
 
 __all__ = ["Numbers", "Surface"]

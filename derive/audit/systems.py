@@ -53,7 +53,15 @@ def equations_of(
     sure      whether to leave out conditions in sentences and motions x(t), which may hold in one case only
     written   whether to leave out Lagrange's and Hamilton's equations of a function
     """
-    state = (len(known.equations), sum(map(len, known.definitions.values())), without, sure, written, known.here)
+    state = (
+        len(known.equations),
+        sum(map(len, known.definitions.values())),
+        without,
+        sure,
+        written,
+        known.here,
+        known.moving,
+    )
     if state not in known.kept:
         if len(known.kept) > 200:
             known.kept.clear()
@@ -75,6 +83,8 @@ def _equations_of(known: Known, meaning: Meaning, without: Symbol | None, sure: 
 
     for value, number in reversed(known.equations[-LAST_EQUATIONS:]):
         if value.has(Integral) or (sure and number in known.conditions - known.here) or len(found) == MOST_EQUATIONS:
+            continue
+        if known.is_at_instant(number):
             continue
         put_in, used = expanded(known, value, without, sure)
         add(put_in, (*used, number), "earlier equations")

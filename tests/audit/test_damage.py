@@ -108,6 +108,41 @@ $$ m \ddot x + k x = 0. $$
             r" $w = \frac{m}{M + m} u$",
             r" $w = \frac{m}{M + v} u$",
         ),
+        (
+            "The frequencies are the roots of\n$$ l^2 \\omega^4 - 4 g l \\omega^2 + 2 g^2 = 0 $$\nThey are\n",
+            r"$$ \omega_1 = \sqrt{(2 - \sqrt{2}) \frac{g}{l}} $$",
+            r"$$ \omega_1 = \sqrt{(2 - \sqrt{2}) \frac{R}{l}} $$",
+        ),
+        (
+            "A small angle has",
+            r" $\cos\theta \approx 1 - \frac12 \theta^2$",
+            r" $\cos\theta \approx 8 - \frac12 \theta^2$",
+        ),
+        (
+            "The block reaches the floor at $s = h/\\sin\\alpha$. The energies are\n"
+            "$$ T = \\frac12 m \\dot s^2 \\qquad U = m g (h - s \\sin\\alpha) $$\nso\n",
+            r"$$ L = T - U = \frac12 m \dot s^2 - m g (h - s \sin\alpha) $$",
+            r"$$ L = T - U = \frac13 m \dot s^2 - m g (h - s \sin\alpha) $$",
+        ),
+        (
+            "The speed is given by\n$$ v^2 = l^2 \\dot\\theta^2 + \\omega^2 (R + l \\sin\\theta)^2 $$\n"
+            "and the energy is\n",
+            r"$$ T = \frac12 m v^2 = \frac12 m (l^2 \dot\theta^2 + \omega^2 (R + l \sin\theta)^2) $$",
+            r"$$ T = \frac12 m v^2 = \frac12 m (l^2 \dot\theta^2 + \omega^2 (R)^2) $$",
+        ),
+        (
+            "Only the derivatives at $\\theta = 0$ are needed. The impulse gives\n"
+            "$$ 3 \\dot y + 4 l \\dot\\theta = J $$\n$$ \\dot y + 2 l \\dot\\theta = 2 J $$\nThe difference of both is",
+            r" $\dot y + l \dot\theta = -\frac12 J$.",
+            r" $\dot y + l \dot\theta = -\frac72 J$.",
+        ),
+        (
+            "Choose $U = 0$. The energy is\n$$ T = \\frac12 m l^2 \\dot\\phi^2 \\sin^2\\alpha $$\nand the Lagrangian\n"
+            "$$ L = T - U = \\frac12 m l^2 \\dot\\phi^2 \\sin^2\\alpha. $$\n"
+            "The momentum is\n$$ p_\\phi = \\frac{\\partial L}{\\partial \\dot\\phi} $$\n",
+            r"$$ p_\phi = m l^2 \dot\phi \sin^2\alpha $$",
+            r"$$ p_\phi = m l^2 \dot\phi \sin^2\phi $$",
+        ),
     ],
     ids=[
         "Lagrange", "Lagrange, solved", "a system", "a force", "a root", "a square", "a power of a sine",
@@ -115,6 +150,8 @@ $$ m \ddot x + k x = 0. $$
         "a Lagrangian",
         "a letter twice", "a lost term", "an approximation", "an index", "a period", "a frequency", "an oscillation",
         "a motion", "a linear equation", "T - U", "a lost letter", "a differential", "a strange letter",
+        "a letter of a root", "a constant term", "a place that is reached", "a term in brackets",
+        "a sentence after a condition", "a letter behind a derivative",
     ],
 )  # fmt: skip
 def test_what_follows_from_earlier_rows_is_compared_with_them(before: str, right: str, slip: str) -> None:
@@ -512,3 +549,28 @@ def test_a_value_is_compared_with_the_row_to_which_its_sentence_refers() -> None
     assert wrong(text) == []
     (claim,) = wrong(text.replace("- 1)", "+ 1)"))
     assert claim.row.line == 7
+
+
+def test_a_letter_whose_usual_dimension_is_wrong_does_not_hide_a_slip() -> None:
+    """The letter `l` is an angular momentum here, and not a length."""
+    text = (
+        "A particle of mass $m$ is at the distance $r$ from the centre. Its speed is "
+        "$v = r \\dot\\phi$. The energies are\n"
+        "$$ T = \\frac12 m r^2 \\dot\\phi^2 $$\n$$ U = \\frac12 k r^2 $$\n$$ L = T - U $$\n"
+        "The angular momentum is\n$$ l = \\frac{\\partial L}{\\partial \\dot\\phi} $$\n"
+        "The radius $r_0$ of a circle is given by\n$$ l^2 = m k r_0^4. $$\n"
+        "The frequency of small oscillations about it is given by\n"
+        "$$ m \\omega^2 = \\frac{3 l^2}{m r_0^4} + k $$\n"
+    )
+    assert wrong(text) == []
+    (claim,) = wrong(text.replace("+ k $", "+ 1 $"))
+    assert claim.row.line == 10
+
+
+@pytest.mark.parametrize(
+    "row", ["\\dot{\\vec{x}} = \\vec{A}(t)\\vec{x}", "s = \\exp(\\int_0^T \\operatorname{tr} \\vec{A} \\, dt)"]
+)
+def test_a_row_without_a_meaning_ends_no_audit(row: str) -> None:
+    before = "The motion obeys\n$$ m \\ddot x + k x = 0 $$\nand for vectors\n$$ \\dot{\\vec x} = A \\vec x $$\n"
+    claims = audit(f"{before}$$ {row} $$").claims
+    assert claims[-1].verdict is not None
