@@ -539,6 +539,9 @@ class _Auditor:
             return
         if edit is not None and edit.kind in TOO_EASY and self.may_add_something(claim):
             return
+        if edit is not None and edit.kind == "letter" and edit.meant in self.letters_of_one_claim():
+            self.fixes += self.fixes_before(claim)  # probably the other claim with this letter is wrong
+            return
         if edit is not None and edit.kind == "index" and not ("_" in edit.was and "_" in edit.meant):
             return  # r_0 may be the value of r in a special case
         if edit is None and not claim.is_step and claim.row.block.display and not self.may_be_special(claim):
@@ -555,6 +558,10 @@ class _Auditor:
                 self.accuse_if_letters_agree(claim, verdict)
             return
         self.accuse(claim, verdict, edit)
+
+    def letters_of_one_claim(self) -> set[str]:
+        """Return the letters that only one claim of the document contains, as they are written."""
+        return {self.shown(each.span) for each in self.meaning.symbols.values() if self.written[each.identity] == 1}
 
     def may_add_something(self, claim: Claim) -> bool:
         """Whether a row has a new letter or begins a part, so that it may have more terms than earlier rows."""
@@ -1203,6 +1210,8 @@ class _Auditor:
             return True  # `theta = phi = 0`
         if moving_letters(set(self.known.new_letters(value.free_symbols)), self.meaning):
             return False  # `r = r_0 + eta` introduces another coordinate
+        if self.known.is_rate(letter) and moving_letters(value.free_symbols, self.meaning):
+            return False  # an equation of motion
         return any(letter in equation.free_symbols for equation, _ in self.known.equations)
 
     def is_constant(self, claim: Claim) -> bool:

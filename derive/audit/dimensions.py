@@ -91,7 +91,8 @@ def odd_claims(claims: Sequence[Claim], meaning: Meaning, named: Mapping[str, Po
     if len({each.source for each in equations}) + len(named) < FEWEST_CLAIMS:
         return []
     equations += usual(equations, meaning, named)
-    unsure = {*TWO_MEANINGS, *(each for each in LESS_USUAL if each not in named)}
+    momenta = {each for equation in equations for each in equation.form if each.startswith("p_")}  # or angular momenta
+    unsure = {*TWO_MEANINGS, *momenta, *(each for each in LESS_USUAL if each not in named)}
     if any(not _conflicts(_without_usual({letter}, equations)) for letter in sorted(unsure)):
         return []  # the letter may have a different dimension here: `l` is an angular momentum
     found = _candidates(claims, equations)

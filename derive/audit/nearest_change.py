@@ -206,7 +206,10 @@ class Nearness:
         def satisfies(node: Node) -> bool:
             motion = motion_of(letter, self.meaning.of(node), self.meaning)
             at_motion = equation.xreplace(motion)
-            return bool(motion) and is_zero(expanded(self.known, at_motion, sure=True)[0])
+            # Another coordinate in the equation may have a motion from a sentence.
+            return bool(motion) and any(
+                is_zero(expanded(self.known, at_motion, sure=sure)[0]) for sure in (True, False)
+            )
 
         for edit in (None, *self.edits(side)):
             with suppress(*FAULTS, Meaningless):

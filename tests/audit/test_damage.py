@@ -574,3 +574,23 @@ def test_a_row_without_a_meaning_ends_no_audit(row: str) -> None:
     before = "The motion obeys\n$$ m \\ddot x + k x = 0 $$\nand for vectors\n$$ \\dot{\\vec x} = A \\vec x $$\n"
     claims = audit(f"{before}$$ {row} $$").claims
     assert claims[-1].verdict is not None
+
+
+def test_a_letter_that_one_other_row_contains_is_wrong_there() -> None:
+    text = (
+        "The masses are $m_1$ and $m_2$. Newton's second law is\n$$ m_1 \\ddot x = m_1 g - S_1 $$\n"
+        "$$ m_2 \\ddot y = m_2 g - S_2 $$\nThe first string pulls with the force $S_1 = m_1 (g - \\ddot x)$."
+    )
+    assert wrong(text) == []
+    (claim,) = wrong(text.replace("m_1 g", "m_1 S"))
+    assert claim.row.line == 2 and claim.verdict is not None and claim.verdict.suggestion == "g instead of S"
+
+
+def test_two_motions_in_a_sentence_satisfy_equations_of_motion_together() -> None:
+    text = (
+        "The equations are\n$$ \\dot u = -b w $$\n$$ \\dot w = b u $$\nwith a constant $b$. "
+        "The solution is $u = a \\cos b t$ and $w = a \\sin b t$."
+    )
+    assert [str(each.verdict.outcome) for each in audit(text).claims if each.verdict][-1] in ("holds", "defines")
+    slip = audit(text.replace("\\sin", "\\cos")).claims[-1].verdict
+    assert slip is not None and slip.outcome is Outcome.UNDECIDED and "\\sin instead of \\cos" in slip.because
