@@ -539,11 +539,10 @@ class _Auditor:
             return
         if edit is not None and edit.kind in TOO_EASY and self.may_add_something(claim):
             return
-        if edit is not None and edit.kind == "letter" and edit.meant in self.letters_of_one_claim():
+        rare = self.letters_of_one_claim() if edit is not None and edit.kind == "letter" else set()
+        if edit is not None and edit.meant in rare and edit.was not in rare:
             self.fixes += self.fixes_before(claim)  # probably the other claim with this letter is wrong
             return
-        if edit is not None and edit.kind == "index" and not ("_" in edit.was and "_" in edit.meant):
-            return  # r_0 may be the value of r in a special case
         if edit is None and not claim.is_step and claim.row.block.display and not self.may_be_special(claim):
             near = Nearness(self.meaning, self.known, [], self.shown, terms=[])
             if (lost := near.lost_term(claim.values[0] - claim.values[1])) is not None:
@@ -741,6 +740,8 @@ class _Auditor:
                 continue
             if not self.letters_behind(earlier) & wanted:
                 continue
+            if not claim.row.block.display and not earlier.row.block.display:
+                continue  # two formulas in sentences may be about different cases
             if undecided and not self.belongs_to(claim, earlier) and not self.is_motion(earlier):
                 continue  # a later part may be about another case
             tried += 1

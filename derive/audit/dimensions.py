@@ -96,9 +96,15 @@ def odd_claims(claims: Sequence[Claim], meaning: Meaning, named: Mapping[str, Po
     if any(not _conflicts(_without_usual({letter}, equations)) for letter in sorted(unsure)):
         return []  # the letter may have a different dimension here: `l` is an angular momentum
     found = _candidates(claims, equations)
-    if not found and len(only := _candidates(claims, _without_usual(unsure, equations))) == 1:
+    sure = [each for each in _without_usual(unsure, equations) if not any(map(_is_unsure, each.form))]
+    if not found and len(only := _candidates(claims, sure)) == 1:
         return only
     return found
+
+
+def _is_unsure(letter: str) -> bool:
+    """Whether a letter may have two meanings, or is a vector, whose bold and plain letters may differ."""
+    return letter in TWO_MEANINGS or letter.startswith(("vec ", "hat "))
 
 
 def _without_usual(letters: Set[str], equations: Sequence[Equation]) -> list[Equation]:

@@ -51,6 +51,7 @@ _OTHER_MEANING = re.compile(
 )
 _LET = re.compile(r"\b(?:let|where|here|with)\b", re.IGNORECASE)
 _AND = re.compile(r",?(?: and)?$")
+_PLURAL = re.compile(r"(?<!mas)(?<!radiu)(?<!thicknes)s$|^radii$|^springs of")
 NEAR = 40  # the number of characters before a name in which a word such as "square" changes its meaning
 
 
@@ -75,7 +76,8 @@ def _named(document: Document) -> Iterator[tuple[Block, Letter, str]]:
             name = ""
             continue
         before = _plain(block.before).rstrip()
-        if not (name and _AND.match(before)):
+        joined = _AND.match(before) and (before.strip() != "," or _PLURAL.search(name))
+        if not (name and joined):
             found = _BEFORE.search(before) or _OF_SOMETHING.search(before)
             name, start = "", found.start() if found else len(before)
             if _OTHER_MEANING.search(before[max(0, start - NEAR) : start]):

@@ -93,6 +93,8 @@ class Nearness:
             return []
         easy = self.terms is not None and complete
         found = [each for each in edits_of_side(side, self.letters, self.shown) if easy or each.kind not in TOO_EASY]
+        if not self.written:  # r_0 may be the value of r in a special case
+            found = [each for each in found if each.kind != "index" or ("_" in each.was and "_" in each.meant)]
         sides = {self.shown(each.span) for each in (side, other) if each is not None}
         at_rest = not any(each.dots for each in letters_in(side, other))
         for term in self.terms or () if easy else ():
@@ -127,7 +129,7 @@ class Nearness:
         for edit, first in self.edits_of_both(left, right, complete):
             if holds(edit.node, right) if first else holds(left, edit.node):
                 # A later row shows which of two roots is right.
-                return None if not self.written and is_other_root(edit, left if first else right) else edit
+                return None if not self.written and is_other_root(edit, left, right) else edit
         return None
 
     def of_value(self, side: Node, value: Expr) -> Edit | None:
@@ -237,7 +239,7 @@ class Nearness:
         for edit, first in self.edits_of_both(left, right, complete=False):
             with suppress(*FAULTS, NoNumber, Meaningless):
                 if is_conserved(edit.node, right) if first else is_conserved(left, edit.node):
-                    return edit
+                    return None if is_other_root(edit, left, right) else edit
         return None
 
     def is_complete(self, left: Expr, right: Expr) -> bool:
@@ -277,12 +279,14 @@ def letters_in(*sides: Node | None) -> list[Letter]:
     return list(found.values())
 
 
-def is_other_root(edit: Edit, side: Node) -> bool:
-    """Whether a change reverses the sign of a square root: either sign may be right, because the text may choose one of
-    two solutions."""
-    return edit.kind == "sign" and any(
-        isinstance(each, Root) and edit.span.start <= each.span.start < edit.span.end for each in side.walk()
-    )
+def is_other_root(edit: Edit, *sides: Node) -> bool:
+    """Whether a change reverses the sign of a square root, or of the side that is equal to a square root.
+
+    Either sign may be right, because the text may choose one of two solutions.
+    """
+    roots = [each.span.start for side in sides for each in side.walk() if isinstance(each, Root)]
+    inside = any(edit.span.start <= each < edit.span.end for each in roots)
+    return edit.kind == "sign" and bool(inside or (roots and any(edit.span == side.span for side in sides)))
 
 
 def holds_at(point: Numbers, left: Node, right: Node) -> bool:

@@ -45,7 +45,7 @@ class Surface:
 
     def find(self, count: int) -> Surface:
         self.zeros = self.letters_that_vanish()
-        self.kept = [each for each in self.equations if each.value in self.zeros]
+        self.kept = [each for each in self.equations if self.vanishes(each)]
         here = self.begin(0)
         for each in self.equations:
             if each in self.kept:
@@ -67,16 +67,29 @@ class Surface:
         return self
 
     def letters_that_vanish(self) -> set[Symbol]:
-        """Return the letters that vanish by an equation such as x' = 0, or by y' = x' if x' vanishes."""
+        """Return the letters that vanish by an equation such as m x'' = 0, or by y' = x' if x' vanishes."""
         found: dict[Symbol, Integer] = {}
         values = [each.value for each in self.equations if count_ops(each.value) <= MOST_OPERATIONS]
         grows = True
         while grows:
-            rest = {value.xreplace(found).as_coeff_Mul()[1] for value in values}
-            new = {each for each in rest if each.is_Symbol and self.has_either_sign(each)} - found.keys()
+            factors = [Mul.make_args(value.xreplace(found)) for value in values]
+            new = {each for each in map(self.only_factor_that_may_vanish, factors) if each is not None}
             found |= dict.fromkeys(new, Integer(0))
             grows = bool(new)
         return set(found)
+
+    def only_factor_that_may_vanish(self, factors: Sequence[Expr]) -> Symbol | None:
+        free = [each for each in factors if not each.is_number and not self.is_constant_letter(each)]
+        return free[0] if len(free) == 1 and free[0].is_Symbol else None
+
+    def is_constant_letter(self, factor: Expr) -> bool:
+        letter = factor.as_base_exp()[0]
+        return isinstance(letter, Symbol) and not self.has_either_sign(letter)
+
+    def vanishes(self, equation: Equation) -> bool:
+        """Whether an equation contains only letters that vanish, apart from factors of all terms."""
+        short = count_ops(equation.value) <= MOST_OPERATIONS
+        return short and bool(equation.value.xreplace(dict.fromkeys(self.zeros, Integer(0))) == 0)
 
     def begin(self, point: int) -> Numbers:
         letters = set().union(*(each.value.free_symbols for each in self.equations)) if self.equations else set()
@@ -103,7 +116,7 @@ class Surface:
         vanishing   whether letters that may be negative may vanish there
         """
         here = dict(start)
-        equations = [each for each in equations if each.value not in self.zeros]
+        equations = [each for each in equations if not self.vanishes(each)]
         try:
             for _ in range(STEPS):
                 residuals, slopes, sizes = [], [], []
@@ -136,6 +149,8 @@ class Surface:
     def is_general(self, here: Numbers, equations: Sequence[Equation], vanishing: bool) -> bool:
         letters = set().union(*(each.value.free_symbols for each in equations)) if equations else set()
         sizes = {each: abs(here[each]) for each in letters}
+        if any(abs(here[each].imag) > SMALL * max(sizes[each], 1.0) for each in letters):
+            return False  # roots of negative numbers have two branches
         return all(
             each in self.zeros
             or (vanishing and self.has_either_sign(each) and sizes[each] < SMALLEST)

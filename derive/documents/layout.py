@@ -372,6 +372,8 @@ class _Reading:
             flat = [token for cell in cells for token in cell]
             if not without_spaces(flat):
                 continue
+            cells = [self.begun_side(block, cells) + cells[0], *cells[1:]]
+            flat = [token for cell in cells for token in cell]
             rest = self.rest_of_side(block, cells)
             solid = without_spaces(flat)
             if not any(map(_is_relation, solid)) and _is_mark_in_text(solid):
@@ -391,6 +393,23 @@ class _Reading:
         row = Row(self.count, span, self.source.line_of(span.start), self.text[span.start : span.end].strip(), block)
         block.rows.append(row)
         return row
+
+    def begun_side(self, block: Block, cells: list[list[Token]]) -> list[Token]:
+        """Remove the previous rows in which the left side of a row begins, and return their tokens."""
+        begun: list[Token] = []
+        tokens = without_spaces([token for cell in cells for token in cell])
+        if not any(map(_is_relation, _outside_brackets(tokens))):
+            return []
+        while block.display and block.rows and len(block.rows[-1].statements) == 1:
+            (before,) = block.rows[-1].statements
+            first = next(iter([*begun, *tokens]))
+            goes_on = first.is_mark("+", "-", "(", "[") or first.is_command("left", "times", "cdot")
+            if before.relations or block.rows[-1].fault or not (goes_on or _is_open(before.sides[0].tokens)):
+                break
+            begun = [*before.sides[0].tokens, *begun]
+            block.rows.pop()
+            self.last = None
+        return begun
 
     def rest_of_side(self, block: Block, cells: list[list[Token]]) -> Row | None:
         """Add the tokens to the last side of the previous row if they continue it, and return the row; otherwise return

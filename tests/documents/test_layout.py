@@ -99,3 +99,11 @@ def test_a_system_behind_a_brace_has_an_equation_in_each_row(system: str) -> Non
 def test_a_list_in_braces_is_not_a_system() -> None:
     ((_, right),) = values("$$ L = \\left\\{ \\begin{array}{l} a \\\\ b \\end{array} \\right\\} $$")
     assert right == "Matrix([[a], [b]])"
+
+
+@pytest.mark.parametrize("second", ["- \\frac{1}{2} k x^2 &= E", "(1 + a) \\\\ - \\frac{1}{2} k x^2 &= E"])
+def test_a_left_side_may_begin_in_rows_without_a_relation(second: str) -> None:
+    text = "$$\n\\begin{aligned}\n\\frac{1}{2} m \\dot x^2 \\\\\n" + second + "\n\\end{aligned}\n$$"
+    (row,) = read_document(source_of(text, Format.TEX, "a.tex")).rows
+    (statement,) = row.statements
+    assert len(statement.sides) == 2 and statement.sides[0].tokens[0].text == "frac"
