@@ -45,6 +45,8 @@ ROWS = [
     r"\vec a \times (\vec b \times \vec c) = \vec b(\vec a\cdot\vec c) - \vec c(\vec a\cdot\vec b)",
     r"\dv[2]{x}{t} = \qty(a + \abs{b})\,\SI{3}{\meter\per\second} \quad \text{where } b = \tfrac12 \sqrt[3]{x'}",
 ]
+# Rows after these may be compared with equations of motion and with vectors.
+CONTEXT = "$$ m \\ddot x + k x = 0 $$\n\n$$ \\dot{\\vec a} = A \\vec a $$\n\n$$ L = \\frac12 m \\dot x^2 - \\frac12 k x^2 $$\n\n"
 PIECES = [
     *"abcxyzmgltLR0123456789+-=*/^_{}()[]|&$%#~'!,.;:<>\\\n\t \"@",
     *[
@@ -142,7 +144,7 @@ def inputs(count: int, seed: int, rows: list[str] = ROWS) -> Iterator[tuple[str,
         opening, closing = random_.choice([
             ("$$ ", " $$"), ("Let $", "$ be."), ("\\begin{align}\n", "\n\\end{align}"), ("\\[", "\\]"), ("", ""),
         ])  # fmt: skip
-        text = f"# Problem 1\n\n{opening}{text}{closing}\n"
+        text = f"# Problem 1\n\n{random_.choice(['', CONTEXT])}{opening}{text}{closing}\n"
         if random_.random() < 0.9:
             text = mutated(text, random_)
         if kind is Format.NOTEBOOK and random_.random() < 0.8:
