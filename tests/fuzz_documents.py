@@ -46,7 +46,10 @@ ROWS = [
     r"\dv[2]{x}{t} = \qty(a + \abs{b})\,\SI{3}{\meter\per\second} \quad \text{where } b = \tfrac12 \sqrt[3]{x'}",
 ]
 # Rows after these may be compared with equations of motion and with vectors.
-CONTEXT = "$$ m \\ddot x + k x = 0 $$\n\n$$ \\dot{\\vec a} = A \\vec a $$\n\n$$ L = \\frac12 m \\dot x^2 - \\frac12 k x^2 $$\n\n"
+CONTEXT = (
+    "$$ m \\ddot x + k x = 0 $$\n\n$$ \\dot{\\vec a} = A \\vec a $$\n\n"
+    "$$ L = \\frac12 m \\dot x^2 - \\frac12 k x^2 $$\n\n"
+)
 PIECES = [
     *"abcxyzmgltLR0123456789+-=*/^_{}()[]|&$%#~'!,.;:<>\\\n\t \"@",
     *[
