@@ -509,6 +509,10 @@ class _Auditor:
             self.accuse(claim, verdict, self.change_of_approximation(claim))
         if claim.values is None or claim.relation not in ("=", ":="):
             return
+        if self.holds_at_place(claim):
+            verdict.outcome, verdict.given = Outcome.HOLDS, tuple(sorted(self.known.sentence))
+            verdict.because = "the two sides are equal at the place that the sentence names"
+            return
         if Cue.INCORRECT in claim.row.block.cues or (Cue.APPROXIMATE in claim.row.block.cues and claim.is_step):
             return
         if claim.values[0] in self.meaning.evaluations:
@@ -558,6 +562,14 @@ class _Auditor:
             return
         self.accuse(claim, verdict, edit)
 
+    def holds_at_place(self, claim: Claim) -> bool:
+        """Whether two sides are equal for the values that the sentence of a display gives: `At x = a, E = ...`."""
+        assert claim.values is not None
+        named = [self.claims[each].values for each in self.known.sentence]
+        put_in = {each[0]: each[1] for each in named if each is not None and isinstance(each[0], Symbol)}
+        left, right = (self.expanded(each) for each in claim.values)
+        return left.free_symbols & put_in.keys() != set() and same(left.xreplace(put_in), right)
+
     def letters_of_one_claim(self) -> set[str]:
         """Return the letters that only one claim of the document contains, as they are written."""
         return {self.shown(each.span) for each in self.meaning.symbols.values() if self.written[each.identity] == 1}
@@ -571,7 +583,7 @@ class _Auditor:
 
     def change_of_approximation(self, claim: Claim) -> Edit | None:
         """Return one change of the right side after which it would have the leading terms of the left side where the
-        letters that change are small, as in `cos x ~ 1 - x^2`; None if it already has them."""
+        letters that change are small, as in `cos x ~ 1 - x^2`; None if no change is found."""
         assert claim.values is not None and claim.right is not None
         left, right = claim.values
         if isinstance(left, MatrixBase) or isinstance(right, MatrixBase):
@@ -619,7 +631,7 @@ class _Auditor:
         return not self.may_be_special(claim) or not self.may_hold_specially(claim)
 
     def may_hold_specially(self, claim: Claim) -> bool:
-        """Whether a claim holds, or is not known to fail, where the conditions in sentences of its part hold."""
+        """Whether a claim may hold in the special cases that sentences of its part name; only numbers refute it."""
         left_side = self.last_good_side(claim)
         if Cue.APPROXIMATE in claim.row.block.cues or left_side is None or claim.right is None:
             return True
@@ -1223,9 +1235,8 @@ class _Auditor:
         if not isinstance(letter, Symbol) or not moving_letters({letter}, self.meaning) or self.known.is_rate(letter):
             return False
         named = [self.meaning.symbols.get(each) for each in value.free_symbols]
-        return not any(e is None or e.base == "t" for e in named) and not moving_letters(
-            value.free_symbols, self.meaning
-        )
+        depends_on_time = any(each is None or each.base == "t" for each in named)
+        return not depends_on_time and not moving_letters(value.free_symbols, self.meaning)
 
     def is_linear(self, claim: Claim) -> bool:
         assert claim.values is not None

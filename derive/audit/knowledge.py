@@ -38,9 +38,7 @@ class Known:
     at_rest: set[int] = field(default_factory=set)  # conditions that hold at an equilibrium only
     sentence: frozenset[int] = frozenset()  # claims in the sentence before the current display
     here: frozenset[int] = frozenset()  # conditions that are used in the current row
-    instants: dict[int, Identity] = field(
-        default_factory=dict
-    )  # claims such as x = a in sentences, with the coordinate x
+    instants: dict[int, Identity] = field(default_factory=dict)  # claims `x = a` in sentences, with the coordinate x
     moving: frozenset[Identity] = frozenset()  # coordinates whose rates are in the current row
     named: set[Symbol] = field(default_factory=set)  # letters to which a display gave a value
     kept: dict[object, Any] = field(default_factory=dict)  # results that were computed from this knowledge
@@ -140,13 +138,17 @@ class Known:
 
     def latest(self, symbol: Symbol) -> Definition | None:
         found = self.definitions.get(symbol)
-        if found and self.is_at_instant(found[-1].claim):
+        if found and self.is_elsewhere(found[-1].claim):
             return None
         return found[-1] if found else self.computed(symbol)
 
     def is_at_instant(self, claim: int) -> bool:
         """Whether a claim such as `x = a` holds only at an instant, because the current row contains x'."""
         return self.instants.get(claim) in self.moving
+
+    def is_elsewhere(self, claim: int) -> bool:
+        """Whether a claim holds only at an instant that the sentence of the current row does not name."""
+        return self.is_at_instant(claim) and claim not in self.sentence
 
     def surely(self, symbol: Symbol) -> Definition | None:
         """Return a definition of a letter that is valid in the current row, or None."""
@@ -169,7 +171,7 @@ class Known:
         if letter is not None and letter.dots:
             undotted = replace(letter, dots=letter.dots - 1)
             inner = self.latest(self.meaning.symbol(undotted))
-            if inner is None:
+            if inner is None or self.is_at_instant(inner.claim):
                 return None
             time = self.meaning.symbol(Letter(letter.span, "t"))
             return Definition(symbol, self.meaning.differentiated(inner.value, time, False), inner.claim)
@@ -282,14 +284,17 @@ class Known:
     def with_numbers(self, *values: Value) -> tuple[tuple[Value, ...], tuple[int, ...]]:
         """Return the values after substituting the numbers that claims give to letters, and the claims used."""
         free = set().union(*(each.free_symbols for each in values))
-        found = {symbol: each[-1] for symbol, each in self.numbers.items() if symbol in free}
+        found = {s: each[-1] for s, each in self.numbers.items() if s in free and not self.is_elsewhere(each[-1].claim)}
         put_in = {symbol: each.value for symbol, each in found.items()}
         return tuple(each.xreplace(put_in) for each in values), tuple(each.claim for each in found.values())
 
     def recent(self) -> list[tuple[Expr, int]]:
         """Return the last equations, and forms of them in which zeros and derivatives are substituted."""
         last = self.equations[-LAST_EQUATIONS:]
-        zeros = {symbol: each[-1].value for symbol, each in self.numbers.items() if each[-1].value == 0}
+        last_values = {symbol: each[-1] for symbol, each in self.numbers.items()}
+        zeros = {
+            s: each.value for s, each in last_values.items() if each.value == 0 and not self.is_elsewhere(each.claim)
+        }
         put_in = (
             [(each.subs(zeros), number) for each, number in last[-6:] if each.free_symbols & set(zeros)]
             if zeros

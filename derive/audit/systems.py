@@ -61,6 +61,7 @@ def equations_of(
         written,
         known.here,
         known.moving,
+        known.sentence,
     )
     if state not in known.kept:
         if len(known.kept) > 200:
@@ -84,7 +85,7 @@ def _equations_of(known: Known, meaning: Meaning, without: Symbol | None, sure: 
     for value, number in reversed(known.equations[-LAST_EQUATIONS:]):
         if value.has(Integral) or (sure and number in known.conditions - known.here) or len(found) == MOST_EQUATIONS:
             continue
-        if known.is_at_instant(number):
+        if known.is_elsewhere(number):
             continue
         put_in, used = expanded(known, value, without, sure)
         add(put_in, (*used, number), "earlier equations")
@@ -92,7 +93,8 @@ def _equations_of(known: Known, meaning: Meaning, without: Symbol | None, sure: 
         put_in, _ = expanded(known, value, without, sure)
         add(put_in, claims, name)
     for each in list(found[:6]):
-        if sympy.count_ops(each.value) > LARGEST_CONSTRAINT or known.here & set(each.claims):
+        at_instant = known.here & set(each.claims) or any(map(known.is_at_instant, each.claims))
+        if sympy.count_ops(each.value) > LARGEST_CONSTRAINT or at_instant:
             continue  # an equation that holds at one instant only cannot be differentiated
         for rate in rates(each.value, meaning, known):
             add(rate, each.claims, OF_RATES)

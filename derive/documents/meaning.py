@@ -331,8 +331,8 @@ class Meaning:
             matrix = self._of(node.argument)
             if not isinstance(matrix, MatrixBase):
                 raise Meaningless("the matrix is not written out", node.argument.span)
-            if matrix.rows != matrix.cols:
-                raise Meaningless("only a square matrix has a trace and a determinant", node.span)
+            if node.name == "tr" and matrix.rows != matrix.cols:
+                raise Meaningless("only a square matrix has a trace", node.span)
             return _determinant(matrix, node.span) if node.name == "det" else matrix.trace()
         if node.name == "order":
             return self.terms_left_out(node.argument)

@@ -594,3 +594,21 @@ def test_two_motions_in_a_sentence_satisfy_equations_of_motion_together() -> Non
     assert [str(each.verdict.outcome) for each in audit(text).claims if each.verdict][-1] in ("holds", "defines")
     slip = audit(text.replace("\\sin", "\\cos")).claims[-1].verdict
     assert slip is not None and slip.outcome is Outcome.UNDECIDED and "\\sin instead of \\cos" in slip.because
+
+
+ENERGIES = "The energies are\n$$ T = \\frac12 m \\dot x^2 \\qquad U = \\frac12 k x^2 $$\n"
+
+
+@pytest.mark.parametrize("start", ["The mass starts at $x = 0$. ", "The mass starts at $x = a$. "])
+def test_a_place_in_another_sentence_is_not_put_into_a_row_with_a_rate(start: str) -> None:
+    right = "so the Lagrangian is\n$$ L = T - U = \\frac12 m \\dot x^2 - \\frac12 k x^2 $$"
+    assert [str(each.verdict.outcome) for each in audit(start + ENERGIES + right).claims if each.verdict][-1] == "holds"
+    for slip in (right.replace("\\frac12 k x^2", "\\frac12 k a^2"), right.replace(" - \\frac12 k x^2", "")):
+        assert str(audit(start + ENERGIES + slip).claims[-1].verdict.outcome) != "holds"  # type: ignore[union-attr]
+
+
+def test_a_place_in_the_same_sentence_is_put_in_and_the_rate_does_not_vanish() -> None:
+    text = ENERGIES + "At $x = a$ the energy is\n$$ E = T + U = \\frac12 m \\dot x^2 + \\frac12 k a^2 $$"
+    assert str(audit(text).claims[-1].verdict.outcome) == "holds"  # type: ignore[union-attr]
+    slip = text.replace("+ \\frac12 k", "+ \\frac13 k")
+    assert str(audit(slip).claims[-1].verdict.outcome) != "holds"  # type: ignore[union-attr]
