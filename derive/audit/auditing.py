@@ -44,7 +44,23 @@ from derive.documents.layout import PROBLEM_WORDS, Cue, Document, Row, Statement
 from derive.documents.meaning import Meaning, Meaningless, Value
 from derive.documents.parser import Unreadable, parsed
 from derive.documents.source import Span
-from derive.documents.syntax import Add, Cases, Diff, EvalBar, Int, Letter, Mat, Mul, Node, Open, Sign, Sum, Text
+from derive.documents.syntax import (
+    Add,
+    Cases,
+    Diff,
+    EvalBar,
+    Frac,
+    Int,
+    Letter,
+    Mat,
+    Mul,
+    Node,
+    Num,
+    Open,
+    Sign,
+    Sum,
+    Text,
+)
 
 SECONDS = 3.0  # the limit of processor time for one claim, in seconds
 LEAST_SECONDS = 0.4  # the limit never falls below this number of seconds
@@ -325,17 +341,26 @@ class _Auditor:
         `r = l`, this becomes".
 
         A condition such as `x = 0` is not used in a row that contains `x`, because such a row is about other instants.
+        An equation with a rate and several terms, such as `x' + R w = 0`, is used in any row.
         Conditions of equilibrium are used in each row of the same part that contains no rates.
         """
         written = {each.identity for each in letters_in(claim.left, claim.right)}
         conditions = [self.claims[each] for each in self.known.sentence & self.known.conditions - self.known.at_rest]
-        here = {each.number for each in conditions if written.isdisjoint(
+        here = {each.number for each in conditions if self.is_law(each) or written.isdisjoint(
             letter.identity for letter in letters_in(each.left)
         )}  # fmt: skip
         if any(each.dots for each in letters_in(claim.left, claim.right)):
             return frozenset(here)
         part = claim.row.block.part
         return frozenset(here | {each for each in self.known.at_rest if self.claims[each].row.block.part == part})
+
+    def is_law(self, claim: Claim) -> bool:
+        """Whether an equation has several terms, and the rate of a letter in at least one of them."""
+        if claim.values is None or claim.left is None or any(isinstance(each, MatrixBase) for each in claim.values):
+            return False
+        value = sympy.expand(claim.values[0] - claim.values[1])
+        rates = any(map(self.known.is_rate, value.free_symbols))
+        return rates and len(sympy.Add.make_args(value)) > 1 and not isinstance(claim.left, Letter)
 
     def state_lagrangian(self, claim: Claim) -> None:
         """State L = T - U before the first display that gives a value to the Lagrangian L without T and U."""
@@ -623,10 +648,10 @@ class _Auditor:
         if any(isinstance(each, MatrixBase) for each in claim.values):
             return False
         left, right = claim.values
-        value = sympy.expand(left - right)
         is_value = left.as_base_exp()[0].is_Symbol or right.is_number
-        has_rates = any(map(self.known.is_rate, value.free_symbols))
-        if len(sympy.Add.make_args(value)) < 2 or (is_value and not has_rates):
+        has_rates = any(map(self.known.is_rate, left.free_symbols | right.free_symbols))
+        count = sum(len(sympy.Add.make_args(sympy.expand(each))) for each in (left, right) if each != 0)
+        if count < 2 or (is_value and not has_rates):
             return False
         return not self.may_be_special(claim) or not self.may_hold_specially(claim)
 
@@ -676,7 +701,9 @@ class _Auditor:
         assert claim.values is not None
         for earlier, _ in values_at_instant(claim.values[0], self.meaning, self.known):
             label = earlier.row.label if earlier.row is not None else ""
-            if label and label in _REFERENCE.findall(claim.row.block.sentence):
+            named = [self.meaning.symbols.get(each) for each in (earlier.symbol, claim.values[0])]
+            same_letter = len({each.base for each in named if each is not None}) == 1
+            if same_letter or (label and label in _REFERENCE.findall(claim.row.block.sentence)):
                 edit = self.change_to(claim, expanded(self.known, earlier.value)[0])
                 if edit is not None:
                     return edit
@@ -714,7 +741,8 @@ class _Auditor:
             equations = [each for each, _ in self.known.equations[-MOST_ROWS:] if left in each.free_symbols]
             behind = set().union(*(expanded(self.known, each, left, sure=True)[0].free_symbols for each in equations))
         known = {(each.identity, each.dots) for each in written}
-        found = [self.meaning.symbols[each] for each in sorted(behind, key=str) if each in self.meaning.symbols]
+        found = [replace(each, dots=dots) for each in letters_in(claim.left, claim.right) for dots in range(each.dots)]
+        found += [self.meaning.symbols[each] for each in sorted(behind, key=str) if each in self.meaning.symbols]
         return [each for each in found if (each.identity, each.dots) not in known][:MOST_LOST]
 
     def accuse_if_letters_agree(self, claim: Claim, verdict: Verdict) -> None:
@@ -771,7 +799,8 @@ class _Auditor:
         for earlier in reversed(self.claims[: claim.number]):
             if not self.may_be_changed(earlier) or earlier.statement is claim.statement or earlier.values is None:
                 continue
-            if scope_of(self.document, earlier.row) == self.scope and earlier.values[0] in claim.values[0].free_symbols:
+            letter = earlier.values[0].as_base_exp()[0]
+            if scope_of(self.document, earlier.row) == self.scope and letter in claim.values[0].free_symbols:
                 edit = self.near_edit(earlier, self.known_without(earlier, claim), terms)
                 if edit is not None:
                     return [Fix(claim, earlier, edit)]
@@ -818,7 +847,8 @@ class _Auditor:
         if claim.right is None or left_side is None or claim.values is None:
             return None
         right_node, left_node = readings(claim.right, self.facts)[0][0], readings(left_side, self.facts)[0][0]
-        if isinstance(left_node, Letter) and isinstance(right_node, Letter):  # "at theta = theta_1" names a place
+        places = [each for each in (left_node, right_node) if isinstance(each, Letter) and not each.dots]
+        if len(places) == 2:  # "at theta = theta_1" names a place
             return None
         letter = claim.values[0] if isinstance(claim.values[0], Symbol) and not claim.is_step else None
         letters = self.with_other_indices(letters_in(left_node, right_node))
@@ -874,9 +904,12 @@ class _Auditor:
                 if edit is not None and edit.meant != "1":  # a factor such as 2 in 2k may be right: two springs
                     return edit
         for equation, number in reversed(equations_of_motion(*claim.values, self.meaning, near.known)):
-            if self.belongs_to(claim, self.claims[number]):
+            same_part = self.belongs_to(claim, self.claims[number])
+            if same_part or self.is_motion(self.claims[number]):
                 near.letters = self.with_letters_of(equation, near.letters)
-                return near.of_motion(right_node, letter, equation)
+                edit = near.of_motion(right_node, letter, equation)
+                # In another part, a number may be different.
+                return edit if same_part or edit is None or edit.kind in (*DISTINCT, "factor") else None
         return None
 
     def with_letters_of(self, equation: Expr, letters: Sequence[Letter]) -> list[Letter]:
@@ -1282,6 +1315,8 @@ class _Auditor:
             self.known.at_rest.add(claim.number)
         if self.is_constant(claim):
             self.known.instants[claim.number] = self.meaning.symbols[claim.values[0]].identity
+            if len(claim.values[1].free_symbols) > 1:
+                self.known.places.add(claim.number)
         self.known.seen |= claim.values[0].free_symbols | claim.values[1].free_symbols
         if claim.relation not in ("=", ":="):
             start = claim
@@ -1357,6 +1392,13 @@ def indices_of(letter: Letter) -> list[str]:
 
 
 def same_letters(side: Node | None) -> Node | None:
+    """Return a sum with the same term twice, or a fraction such as l/l or w/(2 w); None if there is neither."""
+    if isinstance(side, Frac):
+        below = [factor for _, factor in side.bottom.factors] if isinstance(side.bottom, Mul) else [side.bottom]
+        last = below[-1]
+        if isinstance(side.top, Letter) and isinstance(last, Letter) and all(isinstance(e, Num) for e in below[:-1]):
+            if (last.identity, last.dots) == (side.top.identity, side.top.dots):
+                return side
     for each in side.walk() if side is not None else ():
         if isinstance(each, Add):
             letters = [(term.identity, term.dots) for _, term in each.terms if isinstance(term, Letter)]

@@ -39,6 +39,7 @@ class Known:
     sentence: frozenset[int] = frozenset()  # claims in the sentence before the current display
     here: frozenset[int] = frozenset()  # conditions that are used in the current row
     instants: dict[int, Identity] = field(default_factory=dict)  # claims `x = a` in sentences, with the coordinate x
+    places: set[int] = field(default_factory=set)  # claims `s = h/sin(alpha)` with several letters
     moving: frozenset[Identity] = frozenset()  # coordinates whose rates are in the current row
     named: set[Symbol] = field(default_factory=set)  # letters to which a display gave a value
     kept: dict[object, Any] = field(default_factory=dict)  # results that were computed from this knowledge
@@ -146,6 +147,11 @@ class Known:
         """Whether a claim such as `x = a` holds only at an instant, because the current row contains x'."""
         return self.instants.get(claim) in self.moving
 
+    def has_no_rate(self, claim: int) -> bool:
+        """Whether the rate of a coordinate cannot be computed from a claim such as `x = a`, because it may hold only at
+        an instant. `r = l` may also be a constraint."""
+        return self.is_at_instant(claim) or claim in self.places
+
     def is_elsewhere(self, claim: int) -> bool:
         """Whether a claim holds only at an instant that the sentence of the current row does not name."""
         return self.is_at_instant(claim) and claim not in self.sentence
@@ -171,7 +177,7 @@ class Known:
         if letter is not None and letter.dots:
             undotted = replace(letter, dots=letter.dots - 1)
             inner = self.latest(self.meaning.symbol(undotted))
-            if inner is None or self.is_at_instant(inner.claim):
+            if inner is None or self.has_no_rate(inner.claim):
                 return None
             time = self.meaning.symbol(Letter(letter.span, "t"))
             return Definition(symbol, self.meaning.differentiated(inner.value, time, False), inner.claim)

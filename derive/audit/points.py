@@ -20,6 +20,7 @@ from derive.documents.meaning import Meaning
 STEPS = 12  # the greatest number of steps of Newton's method
 TRIED = 8  # the greatest number of starting points of Newton's method
 OTHER_STARTS = 2  # further starting points for an equation that has no solution near the first one
+NEARER = 0.2  # the size of a step to another start, if too few points are found with steps of size 1
 MOST_OPERATIONS = 6  # of an equation by which a letter may vanish
 SLOPE = 1e-6  # the relative change of a letter with which a slope is computed
 SMALL = 1e-10  # an equation with a smaller residual, relative to its terms, counts as satisfied
@@ -58,12 +59,13 @@ class Surface:
                 self.kept.append(each)
             elif any(self.moved(start, [*self.kept, each], vanishing=True) is not None for start in starts):
                 self.special.append(each)
-        for point in range(TRIED):
-            found = here if point == 0 else self.moved(self.near(here, point), self.kept)
-            if found is not None:
-                self.points.append(found)
-            if len(self.points) == count:
-                break
+        self.points = [here]
+        for step in (1.0, NEARER):
+            for point in range(1, TRIED if len(self.points) < count else 0):
+                found = self.moved(self.near(here, point, step), self.kept)
+                self.points += [found] if found is not None else []
+                if len(self.points) == count:
+                    break
         return self
 
     def letters_that_vanish(self) -> set[Symbol]:
@@ -98,9 +100,10 @@ class Surface:
             for each in sorted(letters, key=str)
         }
 
-    def near(self, here: Numbers, point: int) -> Numbers:
+    def near(self, here: Numbers, point: int, step: float) -> Numbers:
         """Return a start for another point: far from any solution, Newton's method often finds none."""
-        return {each: value * number_of(each.name, point) / number_of(each.name, 0) for each, value in here.items()}
+        ratios = {each: number_of(each.name, point) / number_of(each.name, 0) for each in here}
+        return {each: value * (1 + step * (ratios[each] - 1)) for each, value in here.items()}
 
     def weight(self, symbol: Symbol) -> float:
         letter = self.meaning.symbols.get(symbol)

@@ -93,7 +93,7 @@ def _equations_of(known: Known, meaning: Meaning, without: Symbol | None, sure: 
         put_in, _ = expanded(known, value, without, sure)
         add(put_in, claims, name)
     for each in list(found[:6]):
-        at_instant = known.here & set(each.claims) or any(map(known.is_at_instant, each.claims))
+        at_instant = known.here & set(each.claims) or any(map(known.has_no_rate, each.claims))
         if sympy.count_ops(each.value) > LARGEST_CONSTRAINT or at_instant:
             continue  # an equation that holds at one instant only cannot be differentiated
         for rate in rates(each.value, meaning, known):
@@ -469,11 +469,12 @@ def _linear(value: Expr, claim: int, known: Known) -> Iterator[_Oscillation]:
     value, _ = expanded(known, value, sure=True)
     places = {each: meaning.symbol(replace(letter, dots=0)) for each, letter in rates.items()}
     inertia = {place: sympy.diff(value, rate) for rate, place in places.items()}
-    rigidity = {place: sympy.diff(value, place) for place in places.values()}
-    changing = {*places, *places.values()}
-    if any(each.free_symbols & changing for each in (*inertia.values(), *rigidity.values())):
+    coupled = {each for each in moving_letters(value.free_symbols, meaning) if not meaning.symbols[each].dots}
+    rigidity = {place: sympy.diff(value, place) for place in coupled.union(places.values())}
+    if any(each.free_symbols & {*places, *rigidity} for each in (*inertia.values(), *rigidity.values())):
         return
-    rest = value - sum(inertia[place] * rate + rigidity[place] * place for rate, place in places.items())
+    rest = value - sum(inertia[place] * rate for rate, place in places.items())
+    rest -= sum(slope * place for place, slope in rigidity.items())
     if is_zero(sympy.expand(rest)) or sympy.expand(rest) == 0:
         yield _Oscillation(rigidity, inertia, claim)
 
