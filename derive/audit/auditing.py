@@ -30,6 +30,7 @@ from derive.audit.systems import (
     expanded,
     frequency_equations,
     is_linear,
+    motion_of,
     moving_letters,
     rates,
     root_equation,
@@ -50,6 +51,7 @@ from derive.documents.syntax import (
     Diff,
     EvalBar,
     Frac,
+    Group,
     Int,
     Letter,
     Mat,
@@ -75,6 +77,7 @@ MOST_FIXED = 5  # at most this many earlier rows are searched for a slip other t
 SPECIAL = frozenset({Cue.GIVEN, Cue.PUT_IN, Cue.ZERO, Cue.APPROXIMATE})  # cues that explain why a row has fewer terms
 MOST_READINGS = 8
 DISTINCT = ("sign", "exponent", "function")  # changes that do not lead from one special case to another
+ENERGIES = ("L", "T", "K", "U", "V", "H")
 PLAIN = ("", "unmarked", "all", "tensors")
 GIVEN_UP = (LimitReached, RecursionError, Meaningless, NoNumber, *FAULTS)  # a test of a claim ends without a result
 GOOD = (Outcome.HOLDS, Outcome.APPROXIMATES, Outcome.DEFINES)
@@ -203,6 +206,7 @@ def audited(
         if progress is not None:
             progress(claim.row.line, len(claims) - done)
         auditor.decide(claim)
+    auditor.blame_common_rows()
     auditor.blame_earlier_rows()
     auditor.blame_formulas()
     auditor.blame_odd_dimensions()
@@ -551,8 +555,11 @@ class _Auditor:
             return  # a letter of an integrand may depend on the variable of integration
         in_sentence = not claim.is_step and not claim.row.block.display and not self.is_general(claim)
         if verdict.outcome is Outcome.DEFINES and self.may_have_other_value(claim):
-            # the letter may have a different value in another part or case
-            self.doubt(verdict, self.change_of_value(claim))
+            edit = self.change_of_value(claim)
+            if edit is not None and edit.kind in DISTINCT and self.restates(claim):
+                self.accuse(claim, verdict, edit)
+                return
+            self.doubt(verdict, edit)  # the letter may have a different value in another part or case
             if verdict.outcome is Outcome.DEFINES and claim.row.block.display:
                 value = self.known.definitions[claim.values[0]][-1].value
                 there = [each for _, _, each in values_at_place(value, claim.values[1], self.meaning)]
@@ -563,7 +570,7 @@ class _Auditor:
         if in_sentence and not strange and claim.values[1].is_Atom:
             return
         edit = self.near_edit(claim, self.known)
-        if edit is not None and in_sentence and edit.was not in strange:
+        if edit is not None and edit.was not in strange and self.may_be_right(claim, edit):
             self.doubt(verdict, edit)
             return
         if edit is not None and edit.kind in TOO_EASY and self.may_add_something(claim):
@@ -641,8 +648,10 @@ class _Auditor:
         return self.general[claim.number]
 
     def holds_generally(self, claim: Claim) -> bool:
-        """Whether a sentence states an equation that always holds: it has several terms, it is not the value of a
-        letter without rates, and nothing near it may name a special case."""
+        """Whether a sentence states an equation that always holds: it restates a known value; or it has several terms,
+        it is not the value of a letter without rates, and nothing near it may name a special case."""
+        if not claim.row.block.display and self.restates(claim):
+            return True
         if claim.values is None or claim.is_step or claim.row.block.display or claim.row.block.cues & SPECIAL:
             return False
         if any(isinstance(each, MatrixBase) for each in claim.values):
@@ -654,6 +663,28 @@ class _Auditor:
         if count < 2 or (is_value and not has_rates):
             return False
         return not self.may_be_special(claim) or not self.may_hold_specially(claim)
+
+    def may_be_right(self, claim: Claim, edit: Edit) -> bool:
+        """Whether a claim may be right without a change, because a sentence states it for a special case."""
+        if claim.is_step or claim.row.block.display or claim.values is None:
+            return False
+        if self.restates(claim) or motion_of(*claim.values, self.meaning):
+            return edit.kind not in DISTINCT
+        return not self.is_general(claim)
+
+    def restates(self, claim: Claim) -> bool:
+        """Whether a claim gives a letter, or a power of it, a value with the same letters as its earlier value.
+
+        A special case has fewer letters, but it may have other numbers.
+        """
+        if claim.values is None or claim.is_step or any(isinstance(each, MatrixBase) for each in claim.values):
+            return False
+        letter, value = claim.values[0].as_base_exp()[0], claim.values[1]
+        earlier = self.known.surely(letter) if isinstance(letter, Symbol) else None
+        if earlier is None or len(value.free_symbols) < 2 or moving_letters({letter}, self.meaning):
+            return False
+        one, other = (expanded(self.known, each, letter, sure=True)[0] for each in (earlier.value, value))
+        return set(one.free_symbols) == set(other.free_symbols)
 
     def may_hold_specially(self, claim: Claim) -> bool:
         """Whether a claim may hold in the special cases that sentences of its part name; only numbers refute it."""
@@ -825,15 +856,19 @@ class _Auditor:
             found |= value.free_symbols | expanded(self.known, value, sure=True)[0].free_symbols
         return found
 
-    def known_without(self, earlier: Claim, claim: Claim) -> Known:
-        """Return the definitions and equations that the rows up to `claim` give without the row `earlier`."""
+    def known_without(self, earlier: Claim, claim: Claim, before: bool = False) -> Known:
+        """Return the definitions and equations that the rows up to `claim` give without the row `earlier`.
+
+        before   whether `claim` itself gives nothing
+        """
         kept, self.known = self.known, self.assumptions()
         try:
             for each in self.claims[: claim.number + 1]:
                 if each is not earlier and scope_of(self.document, each.row) == self.scope:
                     if each.number in self.lagrangians:
                         self.known.state(*self.lagrangians[each.number])
-                    self.remember(each, believed=each is claim)
+                    if each is not claim or not before:
+                        self.remember(each, believed=each is claim)
             return self.known
         finally:
             self.known = kept
@@ -876,7 +911,9 @@ class _Auditor:
         edit = near.of_claim(left_node, right_node, letter, claim.is_step)
         if edit is None and known is self.known and claim.row.block.display and not claim.is_step:
             near.known = replace(known, here=known.here | self.constraints_of_part(claim), kept={})
-            edit = near.of_first_integral(left_node, right_node)
+            if near.known.here - known.here:
+                edit = near.of_claim(left_node, right_node, letter, claim.is_step)
+            edit = edit or near.of_first_integral(left_node, right_node)
         return None if edit is not None and claim.is_step and self.repeats_a_side(claim, edit.node) else edit
 
     def constraints_of_part(self, claim: Claim) -> frozenset[int]:
@@ -896,21 +933,24 @@ class _Auditor:
 
     def near_motion(self, claim: Claim, near: Nearness, right_node: Node, letter: Symbol) -> Edit | None:
         """Return one change after which a frequency, a period or a motion would follow from an equation of motion, or
-        None. The equation of motion belongs to the same part, or the sentence refers to it."""
+        None."""
         assert claim.values is not None
         for equation, number in reversed(frequency_equations(letter, self.meaning, near.known)):
-            if self.belongs_to(claim, self.claims[number]):
-                edit = near.of_root(right_node, letter, equation)
-                if edit is not None and edit.meant != "1":  # a factor such as 2 in 2k may be right: two springs
+            edit = near.of_root(right_node, letter, equation)
+            if edit is not None and edit.meant != "1":  # a factor such as 2 in 2k may be right: two springs
+                if self.may_change(edit, claim, self.claims[number]):
                     return edit
         for equation, number in reversed(equations_of_motion(*claim.values, self.meaning, near.known)):
-            same_part = self.belongs_to(claim, self.claims[number])
-            if same_part or self.is_motion(self.claims[number]):
+            if self.belongs_to(claim, self.claims[number]) or self.is_motion(self.claims[number]):
                 near.letters = self.with_letters_of(equation, near.letters)
                 edit = near.of_motion(right_node, letter, equation)
-                # In another part, a number may be different.
-                return edit if same_part or edit is None or edit.kind in (*DISTINCT, "factor") else None
+                return edit if edit is not None and self.may_change(edit, claim, self.claims[number]) else None
         return None
+
+    def may_change(self, edit: Edit, claim: Claim, motion: Claim) -> bool:
+        """Whether a change that an equation of motion suggests is probably right; in another part, a number may be
+        different."""
+        return self.belongs_to(claim, motion) or edit.kind in (*DISTINCT, "factor")
 
     def with_letters_of(self, equation: Expr, letters: Sequence[Letter]) -> list[Letter]:
         """Return the given letters and the letters of an equation, without those that have dots."""
@@ -921,6 +961,86 @@ class _Auditor:
         """Whether an earlier row is in the same part as a claim, or the sentence of the claim refers to its label."""
         block = claim.row.block
         return earlier.row.block.part == block.part or earlier.row.label in _REFERENCE.findall(block.sentence)
+
+    def blame_common_rows(self) -> None:
+        """If several rows differ, and all of them would follow after the same change of an earlier value, blame the row
+        of this value."""
+        differing = [
+            each
+            for each in self.claims
+            if each.values
+            and each.verdict
+            and each.row.block.display
+            and each.verdict.outcome is Outcome.DIFFERS
+            and each.verdict.inherits is None
+        ]
+        for suspect in [each for each in self.claims if each.row.block.display and self.may_be_changed(each)]:
+            scope = scope_of(self.document, suspect.row)
+            later = [each for each in differing if each.number > suspect.number]
+            later = [each for each in later if scope_of(self.document, each.row) == scope]
+            if len(later) < 2 or not all(self.may_use(each, suspect) for each in later):
+                continue
+            with suppress(*GIVEN_UP), time_limited(SECONDS_OF_SEARCH):
+                edit = self.common_edit(suspect, later)
+                if edit is not None:
+                    self.blame(suspect, [Fix(each, suspect, edit) for each in later])
+                    self.fixes = [fix for fix in self.fixes if fix.claim not in later]
+                    return
+
+    def may_use(self, claim: Claim, earlier: Claim) -> bool:
+        """Whether a claim may depend on an earlier value: it contains the letter, or the value is an energy."""
+        assert earlier.values is not None
+        letter = earlier.values[0].as_base_exp()[0]
+        named = self.meaning.symbols.get(letter)
+        return letter in self.letters_behind(claim) or (named is not None and named.base in ENERGIES)
+
+    def common_edit(self, suspect: Claim, later: Sequence[Claim]) -> Edit | None:
+        """Return the cheapest change of the right side of a row after which all these later rows follow, or None."""
+        assert suspect.values is not None and suspect.right is not None
+        self.scope = self.meaning.scope = scope_of(self.document, suspect.row)
+        letter, node = suspect.values[0], readings(suspect.right, self.facts)[0][0]
+        states = [self.known_without(suspect, each, before=True) for each in later]
+        near = Nearness(self.meaning, states[0], letters_in(suspect.right), self.shown, written=True, terms=[])
+        for edit in near.edits(node):
+            value = self.meaning.of(edit.node)
+            new = Definition(letter, value, suspect.number)
+            changed = [
+                replace(
+                    known,
+                    definitions={**known.definitions, letter: [new, *known.definitions.get(letter, ())]},
+                    equations=[*known.equations, (letter - value, suspect.number)],
+                    kept={},
+                )
+                for known in states
+            ]
+            if all(map(self.follows, later, changed)):
+                return edit
+        return None
+
+    def follows(self, claim: Claim, known: Known) -> bool:
+        """Whether a claim follows from the given knowledge, or no change of it would follow."""
+        if claim.values is None:
+            return False
+        kept, self.known = self.known, known
+        try:
+            verdict = Decision(claim, *claim.values, self.meaning, known, claim.row.block.cues).verdict()
+            defines = verdict.outcome is Outcome.DEFINES
+            return self.near_edit(claim, known) is None if defines else verdict.outcome in GOOD
+        finally:
+            self.known = kept
+
+    def blame(self, earlier: Claim, fixes: Sequence[Fix]) -> None:
+        """Report an earlier row as wrong, because later rows would follow after one change of this row."""
+        lines = ", ".join(str(fix.claim.row.line) for fix in fixes)
+        where = f"line{'s' * (len(fixes) > 1)} {lines}"
+        edit = fixes[0].edit
+        earlier.verdict = Verdict(
+            Outcome.DIFFERS, f"{where} would follow after one change here", suggestion=suggestion_of(edit),
+            why_plausible=WHY[edit.kind], span=edit.span,
+        )  # fmt: skip
+        for claim in [each for fix in fixes for each in (fix.claim, *self.followers(fix.claim))]:
+            because = "it follows from a row that is probably wrong"
+            claim.verdict = Verdict(Outcome.HOLDS, because, inherits=earlier.number)
 
     def blame_earlier_rows(self) -> None:
         explained: dict[int, Claim] = {}  # the blamed row, by the number of a claim that follows after its change
@@ -934,16 +1054,9 @@ class _Auditor:
                 continue
             alone = all(fix.claim.verdict is None or not fix.claim.verdict.suggestion for fix in fixes)
             if len(fixes) > 1 or alone or any(self.followers(fix.claim) for fix in fixes):
-                lines = ", ".join(str(fix.claim.row.line) for fix in fixes)
-                where = f"line{'s' * (len(fixes) > 1)} {lines}"
-                earlier.verdict = Verdict(
-                    Outcome.DIFFERS, f"{where} would follow after one change here", suggestion=meant,
-                    why_plausible=WHY[fixes[0].edit.kind], span=fixes[0].edit.span,
-                )  # fmt: skip
-                for claim in [each for fix in fixes for each in (fix.claim, *self.followers(fix.claim))]:
-                    because = "it follows from a row that is probably wrong"
-                    claim.verdict = Verdict(Outcome.HOLDS, because, inherits=earlier.number)
-                    explained[claim.number] = earlier
+                claims = [each for fix in fixes for each in (fix.claim, *self.followers(fix.claim))]
+                explained.update((each.number, earlier) for each in claims)
+                self.blame(earlier, fixes)
                 continue
             for fix in fixes:
                 if fix.claim.verdict is not None and fix.claim.verdict.outcome is Outcome.DIFFERS:
@@ -1394,7 +1507,8 @@ def indices_of(letter: Letter) -> list[str]:
 def same_letters(side: Node | None) -> Node | None:
     """Return a sum with the same term twice, or a fraction such as l/l or w/(2 w); None if there is neither."""
     if isinstance(side, Frac):
-        below = [factor for _, factor in side.bottom.factors] if isinstance(side.bottom, Mul) else [side.bottom]
+        bottom = side.bottom.inner if isinstance(side.bottom, Group) else side.bottom
+        below = [factor for _, factor in bottom.factors] if isinstance(bottom, Mul) else [bottom]
         last = below[-1]
         if isinstance(side.top, Letter) and isinstance(last, Letter) and all(isinstance(e, Num) for e in below[:-1]):
             if (last.identity, last.dots) == (side.top.identity, side.top.dots):

@@ -374,7 +374,7 @@ class _Reading:
                 continue
             cells = [self.begun_side(block, cells) + cells[0], *cells[1:]]
             flat = [token for cell in cells for token in cell]
-            rest = self.rest_of_side(block, cells)
+            rest, after = self.rest_of_side(block, cells)
             solid = without_spaces(flat)
             if not any(map(_is_relation, solid)) and _is_mark_in_text(solid):
                 continue
@@ -382,8 +382,9 @@ class _Reading:
             row.tag, row.label = tag or row.tag, label or row.label
             if rest is not None:
                 row.latex += " " + self.text[flat[0].span.start : flat[-1].span.end]
-                continue
-            for statement in statements_of(cells, row, self.main if block.display and block.rows[:-1] else None):
+                cells = [after]
+            before = self.main if block.display and (rest is not None or block.rows[:-1]) else None
+            for statement in statements_of(cells, row, before):
                 row.statements.append(statement)
                 self.last = statement
             self.main = _main(row.statements) or self.main
@@ -411,9 +412,9 @@ class _Reading:
             self.last = None
         return begun
 
-    def rest_of_side(self, block: Block, cells: list[list[Token]]) -> Row | None:
-        """Add the tokens to the last side of the previous row if they continue it, and return the row; otherwise return
-        None."""
+    def rest_of_side(self, block: Block, cells: list[list[Token]]) -> tuple[Row | None, list[Token]]:
+        """Add the tokens before the first relation to the last side of the previous row if they continue it. Return
+        this row and the other tokens, or None and no tokens."""
         tokens = without_spaces([token for cell in cells for token in cell])
         while tokens and tokens[0].is_command(
             "quad", "qquad", ",", ";", " ", "!", ":", "hspace", "phantom", "hphantom"
@@ -421,23 +422,34 @@ class _Reading:
             skip = argument_at(tokens, 1)[1] if tokens[0].text in ("hspace", "phantom", "hphantom") else 1
             tokens = tokens[skip:]
         if not block.rows or not block.rows[-1].statements or self.last is None or not tokens:
-            return None
-        last = self.last.sides[-1]
+            return None, []
+        row, last = block.rows[-1], self.last.sides[-1]
         written = [each for each in last.tokens if not each.is_command(*WIDE, ",", ";", " ", "!", ":")]
         open_end = bool(written) and (
             written[-1].is_mark("+", "-", "*", "/") or written[-1].is_command("cdot", "times", "pm", "mp")
         )
         open_end = open_end or _is_open(last.tokens) or not last.tokens
         begins = tokens[0].is_mark("+", "-") or tokens[0].is_command("times", "cdot", "pm", "mp")
-        if not open_end and not (begins and len(cells) > 1 and not without_spaces(cells[0])):
-            return None
-        if not _is_open(last.tokens) and any(map(_is_relation, _outside_brackets(tokens))):
-            return None
+        second_cell = len(cells) > 1 and not without_spaces(cells[0])
+        one_formula = block.environment.startswith("multline")
+        if not open_end and not (begins and (second_cell or one_formula)):
+            return None, []
+        after: list[Token] = []
+        outside = [] if _is_open(last.tokens) else _outside_brackets(tokens)
+        relation = next((each for each in outside if _is_relation(each)), None)
+        if relation is not None:
+            aligned = (
+                self.text[: row.span.start].rstrip().endswith("&")
+            )  # then the row before begins in its second cell
+            if not self.last.relations or not begins or aligned or row.latex.endswith((",", ".", ";")):
+                return None, []
+            at = tokens.index(relation)
+            tokens, after = tokens[:at], tokens[at:]
         start = last.span.start if last.tokens else tokens[0].span.start
         joined = Side((*last.tokens, *tokens), Span(start, tokens[-1].span.end))
         self.last.sides[-1] = joined
         self.last.span = Span(self.last.span.start, joined.span.end)
-        return block.rows[-1]
+        return row, after
 
 
 def _is_mark_in_text(tokens: list[Token]) -> bool:

@@ -612,3 +612,52 @@ def test_a_place_in_the_same_sentence_is_put_in_and_the_rate_does_not_vanish() -
     assert str(audit(text).claims[-1].verdict.outcome) == "holds"  # type: ignore[union-attr]
     slip = text.replace("+ \\frac12 k", "+ \\frac13 k")
     assert str(audit(slip).claims[-1].verdict.outcome) != "holds"  # type: ignore[union-attr]
+
+
+COUPLED = (
+    "(a) For small angles the equations of motion are\n"
+    "$$ m l \\ddot\\theta + m g \\theta + k l (\\theta - \\phi) = 0 $$\n"
+    "$$ m l \\ddot\\phi + m g \\phi + k l (\\phi - \\theta) = 0 $$\n\n"
+    "(b) The frequencies are\n$$ \\omega_1 = \\sqrt{\\frac{g}{l}} $$\n"
+    "$$ \\omega_2 = \\sqrt{\\frac{g}{l} + \\frac{2 k}{m}} $$\n\n"
+    "With a weak spring, $\\omega_2^2 = g/l + 2 k/m$ is close to $\\omega_1^2$."
+)
+SLIDES = (
+    "The equation of motion is\n$$ \\ddot x = - \\mu g $$\n\n(b) So the velocity is\n$$ \\dot x = v_0 - \\mu g t $$\n"
+    "With the constraint $\\dot x + R \\dot\\phi = 0$ the wheel has the rate\n$$ \\dot\\phi = -\\frac{\\dot x}{R} $$"
+)
+WEDGE = (
+    "The block leaves at the place $s = h/\\sin\\alpha$. Lagrange's equations are\n"
+    "$$ (M + m) \\ddot x + m \\ddot s \\cos\\alpha = 0 $$\n"
+    "$$ m (\\ddot x \\cos\\alpha + \\ddot s - g \\sin\\alpha) = 0 $$\nand therefore\n"
+    "$$ \\ddot x = -\\frac{m g \\sin\\alpha \\cos\\alpha}{M + m \\sin^2\\alpha} $$"
+)
+PRECESSES = (
+    "Euler's equations are\n$$ \\dot\\omega_x = -\\Omega \\omega_y \\qquad \\dot\\omega_y = \\Omega \\omega_x $$\n"
+    "so $\\omega_x = a \\cos \\Omega t$ and $\\omega_y = a \\sin \\Omega t$."
+)
+ENERGIES_OF_PENDULUM = (
+    "Lagrange's method needs\n$$ T = \\frac12 m l^2 \\dot\\theta^2 $$\n$$ U = -m g l \\cos\\theta $$\n"
+    "$$ L = \\frac12 m l^2 \\dot\\theta^2 + m g l \\cos\\theta $$\nThe momentum is\n$$ p_\\theta = m l^2 \\dot\\theta $$\n"
+    "and the Hamiltonian\n$$ H = \\frac{p_\\theta^2}{2 m l^2} - m g l \\cos\\theta $$"
+)
+
+
+@pytest.mark.parametrize(
+    ("right", "written", "slip", "line"),
+    [
+        (COUPLED, "{l} + \\frac", "{l} - \\frac", 7),
+        (COUPLED, "g/l + 2 k/m", "g/l - 2 k/m", 9),
+        (SLIDES, "v_0 - \\mu g t", "v_0 - g t", 5),
+        (SLIDES, "-\\frac{\\dot x}{R}", "\\frac{\\dot x}{R}", 7),
+        (WEDGE, "\\sin\\alpha \\cos\\alpha}{M", "\\sin\\alpha \\sin\\alpha}{M", 5),
+        (PRECESSES, "a \\sin", "a \\cos", 3),
+        (ENERGIES_OF_PENDULUM, "T = \\frac12", "T = \\frac32", 2),
+        ("The density is $\\lambda = M/l$, and $b = a/(2 c)$.", "M/l", "l/l", 1),
+        ("The density is $\\lambda = M/l$, and $b = a/(2 c)$.", "a/(2", "c/(2", 1),
+        ("Since $w = 1/u$, $w + w^3 u^2 = w^3 (u^2 + u^2)$.", "w^3 (", "w^2 (", 1),
+    ],
+)
+def test_one_change_makes_a_row_follow(right: str, written: str, slip: str, line: int) -> None:
+    assert right.count(written) == 1 and wrong(right) == []
+    assert [each.row.line for each in wrong(right.replace(written, slip))] == [line]
