@@ -1013,19 +1013,25 @@ class _Auditor:
                 )
                 for known in states
             ]
-            if all(map(self.follows, later, changed)):
+            if all(
+                self.follows(claim, known, surely=claim is later[0])
+                for claim, known in zip(later, changed, strict=True)
+            ):
                 return edit
         return None
 
-    def follows(self, claim: Claim, known: Known) -> bool:
-        """Whether a claim follows from the given knowledge, or no change of it would follow."""
+    def follows(self, claim: Claim, known: Known, surely: bool) -> bool:
+        """Whether a claim follows from the given knowledge; unless `surely` is true, also if no change of the claim
+        would follow."""
         if claim.values is None:
             return False
         kept, self.known = self.known, known
         try:
             verdict = Decision(claim, *claim.values, self.meaning, known, claim.row.block.cues).verdict()
             defines = verdict.outcome is Outcome.DEFINES
-            return self.near_edit(claim, known) is None if defines else verdict.outcome in GOOD
+            if defines:
+                return not surely and self.near_edit(claim, known) is None
+            return verdict.outcome in GOOD
         finally:
             self.known = kept
 

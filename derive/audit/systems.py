@@ -96,6 +96,8 @@ def _equations_of(known: Known, meaning: Meaning, without: Symbol | None, sure: 
         at_instant = known.here & set(each.claims) or any(map(known.has_no_rate, each.claims))
         if sympy.count_ops(each.value) > LARGEST_CONSTRAINT or at_instant:
             continue  # an equation that holds at one instant only cannot be differentiated
+        if without in each.value.free_symbols and not _may_be_constant(without, meaning):
+            continue
         for rate in rates(each.value, meaning, known):
             add(rate, each.claims, OF_RATES)
     return found[: 2 * MOST_EQUATIONS]
@@ -129,6 +131,12 @@ def expanded(
             break
         value = new
     return value, tuple(dict.fromkeys(used))
+
+
+def _may_be_constant(letter: Symbol | None, meaning: Meaning) -> bool:
+    """Whether a letter whose value is not known may be constant: an energy is, a Lagrangian is not."""
+    named = meaning.symbols.get(letter)
+    return named is None or named.base not in ("L", "T", "U", "V", "K") or bool(named.sub)
 
 
 def _is_solution(symbol: Symbol, value: Expr, known: Known) -> bool:
