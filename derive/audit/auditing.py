@@ -15,7 +15,7 @@ from sympy import Expr, MatrixBase, Symbol
 
 from derive.audit.assumptions import Assumed
 from derive.audit.claims import Claim, Definition, Outcome, Verdict
-from derive.audit.deciding import Decision, counterexample, degree, entries_of, order_of_error, same
+from derive.audit.deciding import Decision, degree, entries_of, order_of_error, same
 from derive.audit.dimensions import odd_claims
 from derive.audit.expected import Compared, Expected, compared
 from derive.audit.knowledge import ASSUMED, Known
@@ -588,10 +588,6 @@ class _Auditor:
                 return
         if edit is None and isinstance(claim.values[0], Symbol) and not claim.is_step:
             edit = self.change_at_instant(claim)
-        if edit is None:
-            if verdict.outcome is Outcome.UNDECIDED:
-                self.accuse_if_letters_agree(claim, verdict)
-            return
         self.accuse(claim, verdict, edit)
 
     def holds_at_place(self, claim: Claim) -> bool:
@@ -673,15 +669,16 @@ class _Auditor:
         return not self.is_general(claim)
 
     def restates(self, claim: Claim) -> bool:
-        """Whether a claim gives a letter, or a power of it, a value with the same letters as its earlier value.
-
-        A special case has fewer letters, but it may have other numbers.
+        """Whether a claim gives a letter with an index, or a power of it, a value with the same letters as its earlier
+        value, so that it is probably not the value at another place. A letter without an index, as in N = m v^2/r + m g
+        at the bottom and N = m v^2/r - m g at the top, often has two values.
         """
         if claim.values is None or claim.is_step or any(isinstance(each, MatrixBase) for each in claim.values):
             return False
         letter, value = claim.values[0].as_base_exp()[0], claim.values[1]
         earlier = self.known.surely(letter) if isinstance(letter, Symbol) else None
-        if earlier is None or len(value.free_symbols) < 2 or moving_letters({letter}, self.meaning):
+        named = self.meaning.symbols.get(letter)
+        if earlier is None or named is None or named.dots or named.sub in ("", "0") or len(value.free_symbols) < 2:
             return False
         one, other = (expanded(self.known, each, letter, sure=True)[0] for each in (earlier.value, value))
         return set(one.free_symbols) == set(other.free_symbols)
@@ -775,27 +772,6 @@ class _Auditor:
         found = [replace(each, dots=dots) for each in letters_in(claim.left, claim.right) for dots in range(each.dots)]
         found += [self.meaning.symbols[each] for each in sorted(behind, key=str) if each in self.meaning.symbols]
         return [each for each in found if (each.identity, each.dots) not in known][:MOST_LOST]
-
-    def accuse_if_letters_agree(self, claim: Claim, verdict: Verdict) -> None:
-        rows = claim.row.block.rows
-        at = rows.index(claim.row)
-        if claim.is_step or claim.values is None or at == 0 or claim.row.statements[0] is not claim.statement:
-            return
-        before = [each for each in self.claims[: claim.number] if each.row is rows[at - 1]]
-        if len(before) != 1 or before[0].values is None or before[0].relation != "=" or before[0].verdict is None:
-            return
-        if before[0].verdict.outcome is Outcome.DIFFERS or claim.values[1] != 0 or before[0].values[1] != 0:
-            return
-        one, other = (expanded(self.known, each.values[0], sure=True)[0] for each in (before[0], claim) if each.values)
-        if isinstance(one, MatrixBase) or isinstance(other, MatrixBase):
-            return
-        alike = other.free_symbols == one.free_symbols or any(
-            (letter := self.meaning.symbols.get(each)) is not None and letter.dots >= 2
-            for each in one.free_symbols & other.free_symbols
-        )
-        if alike and other.free_symbols <= one.free_symbols and (example := counterexample(one, other)):
-            verdict.outcome, verdict.given = Outcome.DIFFERS, (before[0].number,)
-            verdict.because, verdict.counterexample = "it does not follow from the row above it", example
 
     def fixes_before(self, claim: Claim) -> list[Fix]:
         if claim.values is None:

@@ -109,12 +109,13 @@ class Nearness:
         if len(points) < 2:
             return None
         functions = all(any(isinstance(each, Fun) for each in side.walk()) for side in (left, right))
-        may_be_identity = is_step or functions
 
         def holds(one: Node, other: Node) -> bool:
             with suppress(*FAULTS, NoNumber, Meaningless):
                 if all(holds_at(p, one, other) for p in points):
-                    return may_be_identity or not close(self.bare.of_node(one), self.bare.of_node(other))
+                    identity = close(self.bare.of_node(one), self.bare.of_node(other))
+                    # cosh(a + d) = cosh(a - d) is an equation for d, and no identity with a slip.
+                    return is_step or not identity or (functions and self.meaning.of(one) != self.meaning.of(other))
             return False
 
         if holds(left, right):
