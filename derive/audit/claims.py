@@ -8,6 +8,7 @@ from itertools import pairwise
 
 from sympy import Expr, Symbol
 
+from derive.audit.slips import Edit
 from derive.documents.choices import Choice
 from derive.documents.layout import Row, Statement
 from derive.documents.meaning import Value
@@ -41,6 +42,9 @@ class Outcome(StrEnum):
     UNREADABLE = "unreadable"
 
 
+GOOD = (Outcome.HOLDS, Outcome.APPROXIMATES, Outcome.DEFINES)
+
+
 @dataclass
 class Verdict:
     """The verdict on a claim, its reason, the earlier claims used, and the probable correction of a wrong claim."""
@@ -57,6 +61,10 @@ class Verdict:
     repeated: Definition | None = None  # the earlier value that this row claims to repeat
     contradicts: int | None = None  # the number of an earlier claim that gives a different value
     or_lines: tuple[int, ...] = ()  # lines of earlier rows that may contain the slip instead
+
+    def suggest(self, edit: Edit) -> None:
+        """Suggest a change after which the claim would follow."""
+        self.suggestion, self.why_plausible, self.span = edit.suggestion, edit.why, edit.span
 
 
 @dataclass

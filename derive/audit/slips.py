@@ -14,19 +14,6 @@ MOST_EDITS = 1500
 OTHER_FUNCTION = {"sin": "cos", "cos": "sin", "sinh": "cosh", "cosh": "sinh", "tan": "sin"}
 
 
-@dataclass(frozen=True)
-class Edit:
-    """One change of a side. `node` is the side after the change, `was` is the text at `span`, and `meant` is the text
-    that would be right."""
-
-    node: Node
-    span: Span
-    was: str
-    meant: str
-    kind: str
-    cost: float
-
-
 WHY = {
     "number": "a number was mistyped",
     "sign": "a sign was lost or reversed",
@@ -42,6 +29,27 @@ WHY = {
     "dots": "a dot was lost or added",
     "fraction": "numerator and denominator were exchanged",
 }
+
+
+@dataclass(frozen=True)
+class Edit:
+    """One change of a side. `node` is the side after the change, `was` is the text at `span`, and `meant` is the text
+    that would be right."""
+
+    node: Node
+    span: Span
+    was: str
+    meant: str
+    kind: str
+    cost: float
+
+    @property
+    def suggestion(self) -> str:
+        return f"{self.meant} instead of {self.was}" if self.meant else f"without {self.was}"
+
+    @property
+    def why(self) -> str:
+        return WHY[self.kind]
 
 
 def nearest_edit(

@@ -1,0 +1,292 @@
+"""The earlier row that is probably wrong, if later rows do not follow."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from contextlib import suppress
+from dataclasses import dataclass, replace
+
+from sympy import MatrixBase, Symbol
+
+from derive.audit.changes import SECONDS_OF_SEARCH, Changes
+from derive.audit.claims import GOOD, Claim, Definition, Outcome, Verdict
+from derive.audit.deciding import Decision, entries_of
+from derive.audit.dimensions import odd_claims
+from derive.audit.knowledge import Known
+from derive.audit.memory import GIVEN_UP, Memory, WithMemory
+from derive.audit.named_quantities import named_quantities
+from derive.audit.nearest_change import Nearness, letters_in, terms_in
+from derive.audit.reading import scope_of
+from derive.audit.slips import WHY, Edit
+from derive.audit.systems import (
+    expanded,
+)
+from derive.audit.time_limit import time_limited
+from derive.documents.syntax import (
+    Node,
+)
+
+MOST_FIXED = 5  # at most this many earlier rows are searched for a slip other than a lost term
+ENERGIES = ("L", "T", "K", "U", "V", "H")
+
+
+@dataclass(frozen=True)
+class Fix:
+    """A change of an earlier row after which `claim` would follow."""
+
+    claim: Claim
+    earlier: Claim
+    edit: Edit
+
+
+class Blame(WithMemory):
+    """The search for the earlier row that makes later rows wrong."""
+
+    def __init__(self, memory: Memory, changes: Changes):
+        super().__init__(memory)
+        self.changes = changes
+        self.fixes: list[Fix] = []
+
+    def blame_all(self) -> None:
+        self.blame_common_rows()
+        self.blame_earlier_rows()
+        self.blame_formulas()
+        self.blame_odd_dimensions()
+
+    def fixes_before(self, claim: Claim) -> list[Fix]:
+        if claim.values is None:
+            return []
+        found: list[Fix] = []
+        wanted = self.letters_behind(claim)
+        undecided = claim.verdict is not None and claim.verdict.outcome is not Outcome.DIFFERS
+        tried = 0
+        for earlier in reversed(self.claims[: claim.number]):
+            if self.memory.scope_of(earlier) != self.memory.scope or tried == MOST_FIXED:
+                break
+            if not self.may_be_changed(earlier) or earlier.statement is claim.statement:
+                continue
+            if not self.letters_behind(earlier) & wanted:
+                continue
+            if not claim.row.block.display and not earlier.row.block.display:
+                continue  # two formulas in sentences may be about different cases
+            if undecided and not self.changes.belongs_to(claim, earlier) and not self.changes.is_motion(earlier):
+                continue  # a later part may be about another case
+            tried += 1
+            edit = self.changes.near_edit(earlier, self.memory.known_without(earlier, claim))
+            found += [Fix(claim, earlier, edit)] if edit is not None else []
+        return found or self.lost_before(claim)
+
+    def lost_before(self, claim: Claim) -> list[Fix]:
+        """Return the change that adds a lost term to the earlier value of a letter on the left side of a step. The term
+        is on the right side of the step. The list is empty if there is no such change."""
+        assert claim.values is not None
+        if not claim.is_step or claim.right is None:
+            return []
+        terms = terms_in([claim.right], self.memory.shown)
+        for earlier in reversed(self.claims[: claim.number]):
+            if not self.may_be_changed(earlier) or earlier.statement is claim.statement or earlier.values is None:
+                continue
+            letter = earlier.values[0].as_base_exp()[0]
+            if self.memory.scope_of(earlier) == self.memory.scope and letter in claim.values[0].free_symbols:
+                edit = self.changes.near_edit(earlier, self.memory.known_without(earlier, claim), terms)
+                if edit is not None:
+                    return [Fix(claim, earlier, edit)]
+        return []
+
+    def may_be_changed(self, claim: Claim) -> bool:
+        if claim.verdict is None or claim.verdict.outcome not in (Outcome.DEFINES, Outcome.UNDECIDED) or claim.is_step:
+            return False
+        if claim.relation not in ("=", ":=") or claim.left is None or claim.right is None or claim.values is None:
+            return False
+        return not any(isinstance(each, MatrixBase) for each in claim.values)
+
+    def letters_behind(self, claim: Claim) -> set[Symbol]:
+        assert claim.values is not None
+        found: set[Symbol] = set()
+        for value in entries_of(claim.values[0]) + entries_of(claim.values[1]):
+            found |= value.free_symbols | expanded(self.known, value, sure=True)[0].free_symbols
+        return found
+
+    def blame_common_rows(self) -> None:
+        """If several rows differ, and all of them would follow after the same change of an earlier value, blame the row
+        of this value."""
+        differing = [
+            each
+            for each in self.claims
+            if each.values
+            and each.verdict
+            and each.row.block.display
+            and each.verdict.outcome is Outcome.DIFFERS
+            and each.verdict.inherits is None
+        ]
+        for suspect in [each for each in self.claims if each.row.block.display and self.may_be_changed(each)]:
+            scope = self.memory.scope_of(suspect)
+            later = [each for each in differing if each.number > suspect.number]
+            later = [each for each in later if self.memory.scope_of(each) == scope]
+            if len(later) < 2 or not all(self.may_use(each, suspect) for each in later):
+                continue
+            with suppress(*GIVEN_UP), time_limited(SECONDS_OF_SEARCH):
+                edit = self.common_edit(suspect, later)
+                if edit is not None:
+                    self.blame(suspect, [Fix(each, suspect, edit) for each in later])
+                    self.fixes = [fix for fix in self.fixes if fix.claim not in later]
+                    return
+
+    def may_use(self, claim: Claim, earlier: Claim) -> bool:
+        """Whether a claim may depend on an earlier value: it contains the letter, or the value is an energy."""
+        assert earlier.values is not None
+        letter = earlier.values[0].as_base_exp()[0]
+        named = self.meaning.symbols.get(letter)
+        return letter in self.letters_behind(claim) or (named is not None and named.base in ENERGIES)
+
+    def common_edit(self, suspect: Claim, later: Sequence[Claim]) -> Edit | None:
+        """Return the cheapest change of the right side of a row after which all these later rows follow, or None."""
+        assert suspect.values is not None and suspect.right is not None
+        self.memory.scope = self.memory.meaning.scope = self.memory.scope_of(suspect)
+        letter, node = suspect.values[0], self.memory.reading(suspect.right)
+        states = [self.memory.known_without(suspect, each, before=True) for each in later]
+        near = Nearness(self.meaning, states[0], letters_in(suspect.right), self.memory.shown, written=True, terms=[])
+        for edit in near.edits(node):
+            value = self.meaning.of(edit.node)
+            new = Definition(letter, value, suspect.number)
+            changed = [
+                replace(
+                    known,
+                    definitions={**known.definitions, letter: [new, *known.definitions.get(letter, ())]},
+                    equations=[*known.equations, (letter - value, suspect.number)],
+                    kept={},
+                )
+                for known in states
+            ]
+            if all(
+                self.follows(claim, known, surely=claim is later[0])
+                for claim, known in zip(later, changed, strict=True)
+            ):
+                return edit
+        return None
+
+    def follows(self, claim: Claim, known: Known, surely: bool) -> bool:
+        """Whether a claim follows from the given knowledge; unless `surely` is true, also if no change of the claim
+        would follow."""
+        if claim.values is None:
+            return False
+        kept, self.memory.known = self.known, known
+        try:
+            verdict = Decision(claim, *claim.values, self.meaning, known, claim.row.block.cues).verdict()
+            defines = verdict.outcome is Outcome.DEFINES
+            if defines:
+                return not surely and self.changes.near_edit(claim, known) is None
+            return verdict.outcome in GOOD
+        finally:
+            self.memory.known = kept
+
+    def blame(self, earlier: Claim, fixes: Sequence[Fix]) -> None:
+        """Report an earlier row as wrong, because later rows would follow after one change of this row."""
+        lines = ", ".join(str(fix.claim.row.line) for fix in fixes)
+        where = f"line{'s' * (len(fixes) > 1)} {lines}"
+        edit = fixes[0].edit
+        earlier.verdict = Verdict(
+            Outcome.DIFFERS, f"{where} would follow after one change here", suggestion=edit.suggestion,
+            why_plausible=WHY[edit.kind], span=edit.span,
+        )  # fmt: skip
+        for claim in [each for fix in fixes for each in (fix.claim, *self.followers(fix.claim))]:
+            because = "it follows from a row that is probably wrong"
+            claim.verdict = Verdict(Outcome.HOLDS, because, inherits=earlier.number)
+
+    def blame_earlier_rows(self) -> None:
+        explained: dict[int, Claim] = {}  # the blamed row, by the number of a claim that follows after its change
+        for fixes in self.fixes_by_row():
+            earlier, meant = fixes[0].earlier, fixes[0].edit.suggestion
+            if all(fix.claim.number in explained for fix in fixes):
+                for blamed in {explained[fix.claim.number].number for fix in fixes}:
+                    verdict = self.claims[blamed].verdict
+                    assert verdict is not None
+                    verdict.or_lines += (earlier.row.line,)
+                continue
+            alone = all(fix.claim.verdict is None or not fix.claim.verdict.suggestion for fix in fixes)
+            if len(fixes) > 1 or alone or any(self.followers(fix.claim) for fix in fixes):
+                claims = [each for fix in fixes for each in (fix.claim, *self.followers(fix.claim))]
+                explained.update((each.number, earlier) for each in claims)
+                self.blame(earlier, fixes)
+                continue
+            for fix in fixes:
+                if fix.claim.verdict is not None and fix.claim.verdict.outcome is Outcome.DIFFERS:
+                    fix.claim.verdict.or_lines += (earlier.row.line,)
+                    fix.claim.verdict.because += f"; or the slip is in line {earlier.row.line}: {meant}"
+
+    def fixes_by_row(self) -> list[list[Fix]]:
+        """Return the fixes with the most frequent change of each earlier row. Rows after whose change the most later
+        rows follow come first."""
+        found = []
+        for earlier in {fix.earlier.number: fix.earlier for fix in self.fixes}.values():
+            of_row = [fix for fix in self.fixes if fix.earlier is earlier]
+            edits = Counter((fix.edit.was, fix.edit.meant) for fix in of_row)
+            chosen, _count = edits.most_common(1)[0]
+            found.append([fix for fix in of_row if (fix.edit.was, fix.edit.meant) == chosen])
+        return sorted(found, key=lambda fixes: (-len(fixes), fixes[0].edit.cost, fixes[0].earlier.number))
+
+    def followers(self, claim: Claim) -> list[Claim]:
+        """Return the later claims that follow only from a wrong claim: they show that this claim may be right."""
+        return [each for each in self.claims if each.verdict is not None and each.verdict.inherits == claim.number]
+
+    def blame_formulas(self) -> None:
+        """If two rows give different values of a letter, blame the first if later rows follow only from the second."""
+        for claim in self.claims:
+            verdict = claim.verdict
+            if verdict is None or verdict.outcome is not Outcome.DIFFERS or verdict.contradicts is None:
+                continue
+            formula, line = self.claims[verdict.contradicts], self.claims[verdict.contradicts].row.line
+            if formula.verdict is None or formula.verdict.outcome is Outcome.DIFFERS:
+                continue
+            later = self.followers(claim)
+            between = self.claims[formula.number + 1 : claim.number]
+            used = any(each.verdict and formula.number in each.verdict.given for each in between)
+            of_same = formula.values is not None and claim.values is not None and formula.values[0] == claim.values[0]
+            if used or not of_same or formula.verdict.outcome is Outcome.HOLDS:
+                later = []
+            if later:
+                self.blame_formula(formula, claim)
+                claim.verdict = Verdict(Outcome.HOLDS, "later rows follow from this value")
+                for each in later:
+                    each.verdict = Verdict(Outcome.HOLDS, "it follows from an earlier row", (claim.number,))
+            elif line not in (claim.row.line, *verdict.or_lines):
+                verdict.or_lines += (line,)
+                verdict.because += f"; or the slip is in line {line}"
+
+    def blame_formula(self, formula: Claim, claim: Claim) -> None:
+        """Blame a formula that contradicts the value in `claim`, or else the earlier value of one of its letters, if
+        one change of this value, but no change of the formula, gives the value in `claim`."""
+        assert claim.verdict is not None
+        because = f"line {claim.row.line} contradicts this row, and later rows follow only from line {claim.row.line}"
+        letters = self.letters_behind(formula)
+        behind = [each for each in self.claims[: claim.number] if each.values and each.values[0] in letters]
+        suspects = [formula, *(each for each in reversed(behind) if each is not formula and self.may_be_changed(each))]
+        self.memory.scope = self.memory.meaning.scope = self.memory.scope_of(claim)
+        edits: list[tuple[Claim, Edit]] = []
+        for suspect in suspects:
+            with suppress(*GIVEN_UP), time_limited(SECONDS_OF_SEARCH):
+                lost: list[Node] | None = [*letters_in(suspect.right, claim.right)] if suspect is not formula else None
+                edit = self.changes.near_edit(suspect, self.memory.known_without(suspect, claim), lost)
+                edits += [(suspect, edit)] if edit is not None else []
+        verdict = replace(claim.verdict, because=because, suggestion="", span=None)
+        blamed = formula
+        if edits:
+            blamed, edit = edits[0]
+            verdict.suggest(edit)
+        verdict.or_lines = (claim.row.line, *(each.row.line for each, _ in edits[1:]))
+        blamed.verdict = verdict
+
+    def blame_odd_dimensions(self) -> None:
+        """Report the row, if any, whose terms contradict the dimensions that all other rows of its problem or section
+        give."""
+        named = named_quantities(self.memory.document, lambda row: scope_of(self.memory.document, row))
+        by_scope: dict[int, list[Claim]] = {}
+        for claim in self.claims:
+            by_scope.setdefault(self.memory.scope_of(claim), []).append(claim)
+        for scope, claims in by_scope.items():
+            odd = odd_claims(claims, self.meaning, named.get(scope, {}))
+            if odd:
+                others = tuple(dict.fromkeys(each.row.line for each in odd[1:]))
+                because = "the dimensions of its terms contradict the other rows"
+                odd[0].verdict = Verdict(Outcome.DIFFERS, because, or_lines=others)
