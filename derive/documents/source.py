@@ -130,7 +130,7 @@ def read_source(path: Path, shown: str | None = None) -> Source:
     try:
         if path.stat().st_size > 4 * LARGEST:
             raise Rejected(Complaint("too-large", f"`{name}` is larger than {4 * LARGEST // 1_000_000} million bytes"))
-        text = path.read_bytes().decode("utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")
+        text = _file_text(path.read_bytes(), kind).replace("\r\n", "\n").replace("\r", "\n")
     except OSError as error:
         raise Misused(Complaint("unreadable", f"`{name}` cannot be read: {error.strerror}")) from error
     except UnicodeDecodeError as error:
@@ -140,6 +140,28 @@ def read_source(path: Path, shown: str | None = None) -> Source:
     if kind is Format.TEX:
         source.included = "\n".join(_included(text, *_main_document(text, path.resolve()), {path.resolve()}))
     return source
+
+
+_INPUTENC = re.compile(rb"\\usepackage\s*\[\s*(\w+)\s*\]\s*\{inputenc\}")
+_ENCODINGS = {
+    b"latin1": "latin-1",
+    b"latin2": "latin2",
+    b"latin9": "iso8859-15",
+    b"applemac": "mac-roman",
+    b"cp850": "cp850",
+}
+
+
+def _file_text(content: bytes, kind: Format) -> str:
+    """Return the text of a file. An old LaTeX file that is not in UTF-8 has the encoding that it declares, or that of
+    Windows; other files must be in UTF-8."""
+    try:
+        return content.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        if kind is not Format.TEX or b"\0" in content or content[:2] in (b"\xff\xfe", b"\xfe\xff"):
+            raise
+    declared = _INPUTENC.search(content)
+    return content.decode(_ENCODINGS.get(declared[1] if declared else b"", "cp1252"), errors="replace")
 
 
 _INCLUSION = re.compile(

@@ -57,6 +57,16 @@ def test_a_file_that_cannot_be_read_is_refused_with_a_reason(tmp_path: Path, nam
         read_source(tmp_path / name)
 
 
+@pytest.mark.parametrize(
+    ("declared", "encoding"),
+    [("", "latin-1"), ("[latin1]", "latin-1"), ("[latin9]", "iso8859-15"), ("[applemac]", "mac-roman")],
+)
+def test_an_old_file_in_another_encoding_is_read(tmp_path: Path, declared: str, encoding: str) -> None:
+    text = f"\\usepackage{declared}{{inputenc}}\nThe work is for the mass, naïvely, $W = \\frac{{1}}{{2}} k x^2$.\n"
+    (tmp_path / "old.tex").write_bytes(text.encode(encoding))
+    assert read_source(tmp_path / "old.tex").text == text
+
+
 def test_macros_of_included_files_in_the_folder_are_read(tmp_path: Path) -> None:
     from derive.documents.layout import read_document
 
