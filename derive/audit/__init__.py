@@ -12,6 +12,11 @@ deciding        the verdict on one claim
 nearest_change  whether a row that does not follow would follow after one change
 slips           the nearest change that would make a wrong row right
 expected        the comparison of a document with the results of a derivation
+reading         the claims of a document, in their order
+memory          what the audit remembers of the claims before the current one
+changes         the small change after which a claim would follow
+blame           the earlier row that makes later rows wrong
+copied_rows     a row that was copied from a similar row, with one index unchanged
 auditing        the audit of a whole document
 report          the verdicts as text, JSON and HTML
 time_limit      the limit of processor time for one claim

@@ -6,11 +6,13 @@ from collections import Counter
 from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 from sympy import MatrixBase, Symbol
 
 from derive.audit.changes import SECONDS_OF_SEARCH, Changes
 from derive.audit.claims import GOOD, Claim, Definition, Outcome, Verdict
+from derive.audit.copied_rows import unchanged_index
 from derive.audit.deciding import Decision, entries_of
 from derive.audit.dimensions import odd_claims
 from derive.audit.knowledge import Known
@@ -53,6 +55,7 @@ class Blame(WithMemory):
         self.blame_earlier_rows()
         self.blame_formulas()
         self.blame_odd_dimensions()
+        self.blame_copied_rows()
 
     def fixes_before(self, claim: Claim) -> list[Fix]:
         if claim.values is None:
@@ -276,6 +279,19 @@ class Blame(WithMemory):
             verdict.suggest(edit)
         verdict.or_lines = (claim.row.line, *(each.row.line for each, _ in edits[1:]))
         blamed.verdict = verdict
+
+    def blame_copied_rows(self) -> None:
+        """Blame a law that was copied from the display before it, or after it, with one index unchanged."""
+        stated = [each for each in self.claims if each.row.block.display and self.may_be_changed(each)]
+        for before, after in pairwise(stated):
+            if self.memory.scope_of(before) != self.memory.scope_of(after):
+                continue
+            for copy, original in ((after, before), (before, after)):
+                edit = unchanged_index(copy, original)
+                if edit is not None and copy.verdict is not None and copy.verdict.outcome is Outcome.DEFINES:
+                    because = f"all other indices differ from those in line {original.row.line}"
+                    copy.verdict = Verdict(Outcome.DIFFERS, because)
+                    copy.verdict.suggest(edit)
 
     def blame_odd_dimensions(self) -> None:
         """Report the row, if any, whose terms contradict the dimensions that all other rows of its problem or section
