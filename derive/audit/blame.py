@@ -25,9 +25,7 @@ from derive.audit.systems import (
     expanded,
 )
 from derive.audit.time_limit import time_limited
-from derive.documents.syntax import (
-    Node,
-)
+from derive.documents.syntax import Node, Sum
 
 MOST_FIXED = 5  # at most this many earlier rows are searched for a slip other than a lost term
 ENERGIES = ("L", "T", "K", "U", "V", "H")
@@ -58,8 +56,10 @@ class Blame(WithMemory):
         self.blame_copied_rows()
 
     def fixes_before(self, claim: Claim) -> list[Fix]:
-        if claim.values is None:
-            return []
+        """Return changes of earlier rows, each of which would make a claim follow."""
+        sides = [side for side in (claim.left, claim.right) if side is not None]
+        if claim.values is None or any(isinstance(node, Sum) for side in sides for node in side.walk()):
+            return []  # the letters with an index in a sum are not the letters of other rows
         found: list[Fix] = []
         wanted = self.letters_behind(claim)
         undecided = claim.verdict is not None and claim.verdict.outcome is not Outcome.DIFFERS
@@ -76,7 +76,8 @@ class Blame(WithMemory):
             if undecided and not self.changes.belongs_to(claim, earlier) and not self.changes.is_motion(earlier):
                 continue  # a later part may be about another case
             tried += 1
-            edit = self.changes.near_edit(earlier, self.memory.known_without(earlier, claim))
+            letters: list[Node] = [*letters_in(claim.left, claim.right)]
+            edit = self.changes.near_edit(earlier, self.memory.known_without(earlier, claim), letters)
             found += [Fix(claim, earlier, edit)] if edit is not None else []
         return found or self.lost_before(claim)
 

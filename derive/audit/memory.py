@@ -336,6 +336,8 @@ class Memory:
                 return False
         if isinstance(claim.values[1], MatrixBase):
             return False
+        if any(map(self.known.is_rate, claim.values[0].free_symbols | claim.values[1].free_symbols)):
+            return False
         value, _ = expanded(self.known, claim.values[0] - claim.values[1], sure=True)
         changing = moving_letters(value.free_symbols, self.meaning)
         if len(changing) != 1 or self.meaning.symbols[changing[0]].dots:
