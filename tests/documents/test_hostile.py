@@ -94,7 +94,7 @@ def test_no_other_file_is_opened(name: str, tmp_path: Path, monkeypatch: pytest.
 
 
 def test_bytes_that_are_not_utf_8_are_refused_with_their_position(tmp_path: Path) -> None:
-    file = tmp_path / "worked.tex"
+    file = tmp_path / "worked.md"
     file.write_bytes(b"$x = 1$ \xff\xfe $y = 2$")
     with pytest.raises(DeriveError, match="position 8"):
         read_source(file)
