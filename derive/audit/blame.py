@@ -21,9 +21,6 @@ from derive.audit.named_quantities import named_quantities
 from derive.audit.nearest_change import Nearness, letters_in, terms_in
 from derive.audit.reading import scope_of
 from derive.audit.slips import WHY, Edit
-from derive.audit.systems import (
-    expanded,
-)
 from derive.audit.time_limit import time_limited
 from derive.documents.syntax import Node, Sum
 
@@ -103,13 +100,25 @@ class Blame(WithMemory):
             return False
         if claim.relation not in ("=", ":=") or claim.left is None or claim.right is None or claim.values is None:
             return False
-        return not any(isinstance(each, MatrixBase) for each in claim.values)
+        return not any(isinstance(each, MatrixBase) for each in claim.values) and not self.is_lagrangian(claim)
+
+    def is_lagrangian(self, claim: Claim) -> bool:
+        """Whether a claim is L = T - U, the definition of the Lagrangian."""
+        assert claim.values is not None
+        names = [self.meaning.symbols.get(each) for value in claim.values for each in value.free_symbols]
+        bases = {each.base for each in names if each is not None}
+        left, right = claim.values
+        return len(names) == 3 and left.is_Symbol and right.is_Add and bases in ({"L", "T", "U"}, {"L", "T", "V"})
 
     def letters_behind(self, claim: Claim) -> set[Symbol]:
+        """Return the letters of a claim, and the letters from which their values are computed."""
         assert claim.values is not None
         found: set[Symbol] = set()
-        for value in entries_of(claim.values[0]) + entries_of(claim.values[1]):
-            found |= value.free_symbols | expanded(self.known, value, sure=True)[0].free_symbols
+        waiting: set[Symbol] = set().union(*(value.free_symbols for side in claim.values for value in entries_of(side)))
+        while waiting:
+            found |= waiting
+            values = [self.known.surely(each) for each in waiting]
+            waiting = set().union(*(each.value.free_symbols for each in values if each is not None)) - found
         return found
 
     def blame_common_rows(self) -> None:
@@ -147,7 +156,7 @@ class Blame(WithMemory):
     def common_edit(self, suspect: Claim, later: Sequence[Claim]) -> Edit | None:
         """Return the cheapest change of the right side of a row after which all these later rows follow, or None."""
         assert suspect.values is not None and suspect.right is not None
-        self.memory.scope = self.memory.meaning.scope = self.memory.scope_of(suspect)
+        self.memory.return_to(suspect)
         letter, node = suspect.values[0], self.memory.reading(suspect.right)
         states = [self.memory.known_without(suspect, each, before=True) for each in later]
         near = Nearness(self.meaning, states[0], letters_in(suspect.right), self.memory.shown, written=True, terms=[])
@@ -262,11 +271,12 @@ class Blame(WithMemory):
         """Blame a formula that contradicts the value in `claim`, or else the earlier value of one of its letters, if
         one change of this value, but no change of the formula, gives the value in `claim`."""
         assert claim.verdict is not None
+        self.memory.return_to(claim)
         because = f"line {claim.row.line} contradicts this row, and later rows follow only from line {claim.row.line}"
         letters = self.letters_behind(formula)
         behind = [each for each in self.claims[: claim.number] if each.values and each.values[0] in letters]
-        suspects = [formula, *(each for each in reversed(behind) if each is not formula and self.may_be_changed(each))]
-        self.memory.scope = self.memory.meaning.scope = self.memory.scope_of(claim)
+        suspects = [each for each in reversed(behind) if each is not formula and self.may_be_changed(each)]
+        suspects = [formula, *suspects] if not self.is_lagrangian(formula) else suspects
         edits: list[tuple[Claim, Edit]] = []
         for suspect in suspects:
             with suppress(*GIVEN_UP), time_limited(SECONDS_OF_SEARCH):

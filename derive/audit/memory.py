@@ -67,6 +67,11 @@ class Memory:
         self.meaning.scope = scope
         self.known = self.scopes[scope] = self.assumptions()
 
+    def return_to(self, claim: Claim) -> None:
+        """Return to the problem or section of a claim, with what is known at its end."""
+        self.scope = self.meaning.scope = self.scope_of(claim)
+        self.known = self.scopes[self.scope]
+
     def assumptions(self) -> Known:
         known = Known(self.meaning)
         for each in self.assumed:

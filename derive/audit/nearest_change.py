@@ -65,7 +65,8 @@ class Nearness:
             surface = Surface(equations, self.meaning).find(POINTS)
             # A row that later rows contradict is reported as wrong only if all other rows agree with each other.
             agree = [*surface.kept, *surface.special]
-            refused = [each for each in equations if each not in agree and each.name != OF_RATES]
+            places = set(self.known.instants)  # `x = x_0` may hold at the beginning only
+            refused = [e for e in equations if e not in agree and e.name != OF_RATES and not places & set(e.claims)]
             self.known.kept[state] = [] if self.written and refused else surface.points
         return [
             Numbers(self.meaning, self.defined(letter), point, fixed)

@@ -28,7 +28,7 @@ DAMPING = 1e-9  # the relative increase of the diagonal of the linear system
 SMALLEST = 1e-3  # the smallest absolute value of a letter
 LARGEST = 1e3  # the largest absolute value of a letter
 OF_EITHER_SIGN = ("E", "H", "L", "U", "V")  # names of energies and Lagrangians
-WEIGHTS = (0.05, 0.3, 1.0)  # the weights in changes: of constants, of letters that change with time, of rates
+WEIGHTS = (0.05, 0.3, 1.0)  # the weights in changes: of constants, of coordinates, of rates and energies
 
 Numbers = dict[Symbol, complex]
 
@@ -111,6 +111,8 @@ class Surface:
             return 0.0
         if letter is None:
             return WEIGHTS[1]
+        if letter.base in OF_EITHER_SIGN:
+            return WEIGHTS[2]
         return WEIGHTS[2 if letter.dots else 1 if self.meaning.facts.changes(letter) else 0]
 
     def moved(self, start: Numbers, equations: Sequence[Equation], vanishing: bool = False) -> Numbers | None:
