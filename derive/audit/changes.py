@@ -190,9 +190,12 @@ class Changes(WithMemory):
         near.linear = Cue.APPROXIMATE in claim.row.block.cues or self.is_linear(claim)
         edit = near.of_claim(left_node, right_node, letter, claim.is_step)
         if edit is None and known is self.known and claim.row.block.display and not claim.is_step:
-            near.known = replace(known, here=known.here | self.constraints_of_part(claim), kept={})
-            if near.known.here - known.here:
+            constraints = self.constraints_of_part(claim)
+            kept = {each for each in constraints if self.is_constraint(self.claims[each])}
+            if kept - known.here:
+                near.known = replace(known, here=known.here | kept, kept={})
                 edit = near.of_claim(left_node, right_node, letter, claim.is_step)
+            near.known = replace(known, here=known.here | constraints, kept={})
             edit = edit or near.of_first_integral(left_node, right_node)
         return None if edit is not None and claim.is_step and self.repeats_a_side(claim, edit.node) else edit
 
@@ -210,6 +213,17 @@ class Changes(WithMemory):
             if constant and moving_letters({letter}, self.meaning) and not moving_letters({value}, self.meaning):
                 found.append(each.number)
         return frozenset(found)
+
+    def is_constraint(self, claim: Claim) -> bool:
+        """Whether a claim `r = l` is a constraint, because its part also states that a rate of r is zero."""
+        assert claim.values is not None
+        coordinate = self.meaning.symbols[claim.values[0]]
+        rates = {self.meaning.symbol(replace(coordinate, dots=dots)) for dots in (1, 2)}
+        return any(
+            each.values is not None and each.values[0] in rates and each.values[1] == 0
+            for each in self.claims
+            if each.row.block.part == claim.row.block.part
+        )
 
     def near_motion(self, claim: Claim, near: Nearness, right_node: Node, letter: Symbol) -> Edit | None:
         """Return one change after which a frequency, a period or a motion would follow from an equation of motion, or

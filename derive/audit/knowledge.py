@@ -41,6 +41,7 @@ class Known:
     instants: dict[int, Identity] = field(default_factory=dict)  # claims `x = a` in sentences, with the coordinate x
     places: set[int] = field(default_factory=set)  # claims `s = h/sin(alpha)` with several letters
     moving: frozenset[Identity] = frozenset()  # coordinates whose rates are in the current row
+    forced: set[str] = field(default_factory=set)  # coordinates, without index, whose Lagrange's equations have forces
     named: set[Symbol] = field(default_factory=set)  # letters to which a display gave a value
     kept: dict[object, Any] = field(default_factory=dict)  # results that were computed from this knowledge
 
@@ -216,6 +217,16 @@ class Known:
         if letter is None or letter.base not in ("q", "p") and letter.sub not in INDICES_OF_COORDINATES:
             return False
         return all(letters[each].base != letter.base for each in value.free_symbols if each in letters)
+
+    def forced_coordinates(self, value: Expr) -> set[str]:
+        """Return the names, without index, of the coordinates of Lagrange's equations with a force, such as
+        d/dt (dL/dx') - dL/dx = F; `q` stands for all coordinates."""
+        found = [self.meaning.derivatives[each] for each in value.free_symbols if each in self.meaning.derivatives]
+        variables = [[self.meaning.symbols.get(each) for each, _ in by] for of, by, _ in found if of.base == "L"]
+        momenta = {by[0].base for by in variables if len(by) == 2 and by[0] is not None and by[0].dots}
+        places = {by[0].base for by in variables if len(by) == 1 and by[0] is not None and not by[0].dots}
+        has_force = any(not each.free_symbols & self.meaning.derivatives.keys() for each in sympy.Add.make_args(value))
+        return momenta & places if has_force else set()
 
     def is_rate(self, symbol: Symbol) -> bool:
         letter = self.meaning.symbols.get(symbol)

@@ -413,7 +413,9 @@ class Memory:
             return  # an identity gives nothing new
         if not claim.row.block.display and isinstance(left, Symbol) and right.is_number and right != 0:
             return  # a number in a sentence, such as `m = 2` for a drawing, is not used as an equation
-        self.known.state(sympy.expand(left - right) if sympy.count_ops(left - right) < 600 else left - right, number)
+        difference = sympy.expand(left - right) if sympy.count_ops(left - right) < 600 else left - right
+        self.known.forced |= self.known.forced_coordinates(difference)
+        self.known.state(difference, number)
 
 
 class WithMemory:

@@ -318,6 +318,9 @@ def _lagrange_equations(value: Expr, meaning: Meaning) -> Iterator[tuple[Symbol,
 def motion(known: Known, meaning: Meaning) -> Iterator[tuple[Expr, tuple[int, ...], str]]:
     """Yield Lagrange's equations of each Lagrangian, and Hamilton's equations of each Hamiltonian."""
     for place, equation, number in lagrange_equations(known):
+        named = meaning.symbols.get(place)
+        if "q" in known.forced or (named is not None and named.base in known.forced):
+            continue
         yield equation, (number,), f"Lagrange's equation for `{place}`"
     for symbol, definitions in list(known.definitions.items()):
         letter = meaning.symbols.get(symbol)
