@@ -712,7 +712,7 @@ class _Reader:
         raise Unreadable(f"`{token.text}` was not expected here", token.span)
 
     def bare_function(self) -> str:
-        """Return the name of a function that is written without a backslash and has an argument in brackets."""
+        """Return the name of a function without a backslash: `sin(x)`, `sin^2 x`, or `sin` before a Greek letter."""
         run: list[Token] = []
         for token in self.tokens[self.at :]:
             if token.kind is not Kind.LETTER or (run and run[-1].span.end != token.span.start):
@@ -721,7 +721,7 @@ class _Reader:
         before = self.peek(-1) if self.at else None
         joined = before is not None and before.kind is Kind.LETTER and before.span.end == run[0].span.start
         word, after = "".join(each.text for each in run), self.peek(len(run))
-        opens = after is not None and (after.is_mark("(") or after.is_command("left"))
+        opens = after is not None and (after.is_mark("(") or after.text == "^" or after.is_command("left", *GREEK))
         return word if word in BARE_FUNCTIONS and opens and not joined else ""
 
     def braced(self, token: Token) -> Node:

@@ -128,6 +128,7 @@ def test_every_row_of_cases_is_read() -> None:
         ("a = 15 \\text{ rad/s}^2", ("a", "15")),
         ("v = -30 b \\text{ in/s}", ("v", "-381*b/500")),
         ("a = g/l \\sin\\theta", ("a", "g*sin(theta)/l")),
+        ("a = b^2 sin^2(c t) + cos \\theta", ("a", "b**2*sin(c*t)**2 + cos(theta)")),
         ("\\sum F_x = m a", ("sum F_x", "a*m")),
         ("b = a\\Bigl(c + \\sin\\theta\\Bigr)\\notag", ("b", "a*(c + sin(theta))")),
         ("\\sin(arccos(x)) = b", ("sqrt(1 - x**2)", "b")),
