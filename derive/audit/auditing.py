@@ -346,7 +346,8 @@ class _Auditor(WithMemory):
             self.blame.fixes += self.blame.fixes_before(claim)  # probably the other claim with this letter is wrong
             return
         if edit is None and not claim.is_step and claim.row.block.display and not self.memory.may_be_special(claim):
-            near = Nearness(self.meaning, self.known, [], self.memory.shown, terms=[])
+            linear = Cue.APPROXIMATE in claim.row.block.cues or self.changes.is_linear(claim)
+            near = Nearness(self.meaning, self.known, [], self.memory.shown, linear=linear, terms=[])
             if (lost := near.lost_term(claim.values[0] - claim.values[1])) is not None:
                 verdict.outcome, verdict.why_plausible = Outcome.DIFFERS, WHY["lost term"]
                 verdict.because = "it does not follow from earlier rows, but would with one more term"

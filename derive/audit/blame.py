@@ -13,16 +13,18 @@ from sympy import MatrixBase, Symbol
 from derive.audit.changes import SECONDS_OF_SEARCH, Changes
 from derive.audit.claims import GOOD, Claim, Definition, Outcome, Verdict
 from derive.audit.copied_rows import unchanged_index
-from derive.audit.deciding import Decision, entries_of
+from derive.audit.deciding import Decision, entries_of, same
 from derive.audit.dimensions import odd_claims
 from derive.audit.knowledge import Known
 from derive.audit.memory import GIVEN_UP, Memory, WithMemory
 from derive.audit.named_quantities import named_quantities
 from derive.audit.nearest_change import Nearness, letters_in, terms_in
+from derive.audit.numeric import Numbers
 from derive.audit.reading import scope_of
-from derive.audit.slips import WHY, Edit
+from derive.audit.slips import WHY, Edit, edits_of_side
 from derive.audit.time_limit import time_limited
-from derive.documents.syntax import Node, Sum
+from derive.documents.source import Span
+from derive.documents.syntax import Letter, Node, Sum
 
 MOST_FIXED = 5  # at most this many earlier rows are searched for a slip other than a lost term
 ENERGIES = ("L", "T", "K", "U", "V", "H")
@@ -51,6 +53,7 @@ class Blame(WithMemory):
         self.blame_formulas()
         self.blame_odd_dimensions()
         self.blame_copied_rows()
+        self.blame_equal_roots()
 
     def fixes_before(self, claim: Claim) -> list[Fix]:
         """Return changes of earlier rows, each of which would make a claim follow."""
@@ -303,6 +306,53 @@ class Blame(WithMemory):
                     because = f"all other indices differ from those in line {original.row.line}"
                     copy.verdict = Verdict(Outcome.DIFFERS, because)
                     copy.verdict.suggest(edit)
+
+    def blame_equal_roots(self) -> None:
+        """If two rows of a display give w_1 and w_2 the same root of an equation, blame the row in which another sign
+        gives another root: the greater root is w_2, by convention."""
+        found = [
+            each
+            for each in self.claims
+            if each.values and each.row.block.display and not each.is_step and each.values[0].is_Symbol
+            and each.verdict is not None and each.verdict.outcome is Outcome.HOLDS
+        ]  # fmt: skip
+        for first, second in pairwise(found):
+            if first.row.block is not second.row.block or not self.have_one_value(first, second):
+                continue
+            with suppress(*GIVEN_UP), time_limited(SECONDS_OF_SEARCH):
+                self.memory.return_to(second)
+                for claim, is_greater in ((first, False), (second, True)):
+                    edit = self.other_root(claim, is_greater)
+                    if edit is not None and claim.verdict is not None:
+                        other = second if claim is first else first
+                        because = f"it has the same value as the letter in line {other.row.line}"
+                        claim.verdict = Verdict(Outcome.DIFFERS, because, or_lines=(other.row.line,))
+                        claim.verdict.suggest(edit)
+
+    def have_one_value(self, first: Claim, second: Claim) -> bool:
+        """Whether two letters with the indices 1 and 2, or 2 and 3, and so on, have the same value."""
+        assert first.values is not None and second.values is not None
+        names = [self.meaning.symbols.get(each.values[0]) for each in (first, second) if each.values]
+        one, other = (each or Letter(Span(0, 0), "") for each in names)
+        follows = one.sub.isdigit() and other.sub.isdigit() and int(one.sub) + 1 == int(other.sub)
+        return follows and one.base == other.base and same(first.values[1], second.values[1])
+
+    def other_root(self, claim: Claim, is_greater: bool) -> Edit | None:
+        """Return the sign with which a row gives another root of an earlier equation that is greater, or smaller."""
+        assert claim.values is not None and claim.right is not None
+        known = self.memory.known_without(claim, claim, before=True)
+        node = self.memory.reading(claim.right)
+        for edit in edits_of_side(node, [], self.memory.shown):
+            if edit.kind != "sign":
+                continue
+            value = self.meaning.of(edit.node)
+            numbers = Numbers(self.meaning, lambda symbol: symbol, 0)
+            new, old = numbers.of(value).real, numbers.of(claim.values[1]).real
+            if new > 0 and (new > old if is_greater else new < old):
+                is_root = Decision(claim, claim.values[0], value, self.meaning, known, frozenset()).verdict()
+                if is_root.outcome is Outcome.HOLDS:
+                    return edit
+        return None
 
     def blame_odd_dimensions(self) -> None:
         """Report the row, if any, whose terms contradict the dimensions that all other rows of its problem or section

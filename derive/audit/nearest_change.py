@@ -155,7 +155,8 @@ class Nearness:
         if count < 2:
             return None
         rates = any(map(self.known.is_rate, difference.free_symbols))
-        for each in equations_of(self.known, self.meaning, sure=True, written=self.written):
+        equations = equations_of(self.known, self.meaning, sure=True, written=self.written)
+        for each in linearised(equations, self.meaning) if self.linear else equations:
             terms = Add_.make_args(expand(each.value))
             if len(terms) != count + 1 or len(terms) > MOST_TERMS_OF_EQUATION:
                 continue

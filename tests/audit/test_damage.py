@@ -644,6 +644,23 @@ ENERGIES_OF_PENDULUM = (
 )
 
 
+ROOTS = (
+    "For small angles\n$$ 2 \\ddot\\theta + \\ddot\\phi + 2 b^2 \\theta = 0 $$\n"
+    "$$ \\ddot\\theta + \\ddot\\phi + b^2 \\phi = 0 $$ The frequencies are "
+    "$$\\begin{aligned}\n\\omega_1 &= \\sqrt{2 - \\sqrt 2}\\, b \\\\\n"
+    "\\omega_2 &= \\sqrt{2 + \\sqrt 2}\\, b\n\\end{aligned}$$"
+)
+STRINGS = (
+    "The masses hang on two strings.\n$$ m_1 \\ddot x = m_1 g - S_1 $$\n$$ m_2 \\ddot y = m_2 g - S_2 $$\n"
+    "For one string, the tensions are equal."
+)
+ENERGY_FIRST = (
+    "Lagrange's equation follows from\n$$ T = \\frac12 m l^2 \\dot\\theta^2 $$\n$$ U = - m g l \\cos\\theta $$\n"
+    "$$ L = T - U = \\frac12 m l^2 \\dot\\theta^2 + m g l \\cos\\theta $$\n"
+    "It is\n$$ m l^2 \\ddot\\theta + m g l \\sin\\theta = 0 $$"
+)
+
+
 @pytest.mark.parametrize(
     ("right", "written", "slip", "line"),
     [
@@ -654,6 +671,11 @@ ENERGIES_OF_PENDULUM = (
         (WEDGE, "\\sin\\alpha \\cos\\alpha}{M", "\\sin\\alpha \\sin\\alpha}{M", 5),
         (PRECESSES, "a \\sin", "a \\cos", 3),
         (ENERGIES_OF_PENDULUM, "T = \\frac12", "T = \\frac32", 2),
+        (ROOTS, "{2 - \\sqrt", "{2 + \\sqrt", 4),
+        (ROOTS, "{2 + \\sqrt", "{2 - \\sqrt", 5),
+        (STRINGS, "m_2 \\ddot y", "m_1 \\ddot y", 3),
+        (STRINGS, "m_1 \\ddot x", "m_2 \\ddot x", 2),
+        (ENERGY_FIRST, "- m g l \\cos", "m g l \\cos", 3),
         ("The density is $\\lambda = M/l$, and $b = a/(2 c)$.", "M/l", "l/l", 1),
         ("The density is $\\lambda = M/l$, and $b = a/(2 c)$.", "a/(2", "c/(2", 1),
         ("Since $w = 1/u$, $w + w^3 u^2 = w^3 (u^2 + u^2)$.", "w^3 (", "w^2 (", 1),
