@@ -444,7 +444,8 @@ class _Auditor(WithMemory):
         if believed is not None:
             again = Decision(claim, left, right, meaning, believed, cues, thorough).verdict()
             slips = {each.claim for each in self.known.slips.values()}
-            if again.outcome in (Outcome.HOLDS, Outcome.APPROXIMATES):  # only the values of wrong rows make it hold
+            good = again.outcome is Outcome.HOLDS or (again.outcome is Outcome.APPROXIMATES and claim.relation == "=")
+            if good:  # only the values of wrong rows make it hold
                 again.inherits = min(slips & set(again.given), default=max(slips))
                 again.because = "it follows from a wrong row"
                 return again

@@ -107,9 +107,9 @@ class Nearness:
         """Return the cheapest change of a side after which a claim would follow; None if it already follows, or if no
         change is found."""
         points = self.points(letter)
-        written = [self.meaning.symbol(each) for each in letters_in(left, right)]
+        written = moving_letters({self.meaning.symbol(each) for each in letters_in(left, right)}, self.meaning)
         if len(points) < 2 or any(points[0].fixed.get(each) == 0 for each in written):
-            return None  # if a letter of the claim vanishes, too many changes are possible
+            return None  # if a coordinate of the claim vanishes, too many changes are possible
         functions = all(any(isinstance(each, Fun) for each in side.walk()) for side in (left, right))
 
         def holds(one: Node, other: Node) -> bool:
