@@ -108,57 +108,57 @@ class _Auditor(WithMemory):
         self.late = 0.0  # seconds used beyond the usual time
 
     def decide(self, claim: Claim) -> None:
-        self.claims.append(claim)
-        scope = self.memory.scope_of(claim)
-        if scope != self.memory.scope:
-            self.memory.begin(scope)
-        self.memory.explain(claim)
-        self.known.sentence = self.memory.claims_of_sentence(claim)
-        self.known.here = self.memory.conditions_here(claim)
-        written = letters_in(claim.left, claim.right)
-        self.known.moving = frozenset(each.identity for each in written if each.dots)
-        self.memory.state_lagrangian(claim)
-        if claim.right is None or (claim.left is None and claim.before is None):
-            claim.verdict = Verdict(Outcome.UNREADABLE, claim.fault or "this is not read")
-            return
-        if claim.relation in ("to", "in"):
-            what = "a limit" if claim.relation == "to" else "a range"
-            claim.verdict = Verdict(Outcome.UNDECIDED, f"{what} is not checked") if claim.is_step else Verdict(
-                Outcome.DEFINES, f"{what} is stated"
-            )  # fmt: skip
-            return
-        if _CONSTANT.match(word_of(claim.right)):
-            claim.verdict = self.of_constant(claim)
+        """Give a claim its verdict, and remember what the claim states for later claims."""
+        self.memory.enter(claim)
+        claim.verdict = self.without_comparison(claim)
+        if claim.verdict is not None:
             return
         seconds, begun = max(LEAST_SECONDS, SECONDS - self.late * SECONDS / MOST_LATE), process_time()
-        too_long = False
-        try:
-            with time_limited(seconds):
-                claim.verdict = self.best(claim)
-        except LimitReached:
-            claim.verdict, too_long = Verdict(Outcome.UNDECIDED, f"this takes more than {seconds:.1g} seconds"), True
-        except RecursionError:
-            claim.verdict = Verdict(Outcome.UNDECIDED, "this formula is nested too deeply")
-        except FAULTS as error:
-            claim.verdict = Verdict(Outcome.UNDECIDED, f"SymPy cannot handle it: {error}")
-        search = min(seconds, SECONDS_OF_SEARCH)
-        undecided = claim.verdict.outcome is Outcome.UNDECIDED and not too_long
-        display = claim.row.block.display
-        if undecided and not display:
-            with suppress(*GIVEN_UP), time_limited(search):
-                display = self.memory.is_general(claim)
-        if claim.verdict.outcome is Outcome.DEFINES or (undecided and (display or claim.relation == "~")):
-            with suppress(*GIVEN_UP), time_limited(search):
-                self.accuse_if_near(claim, claim.verdict)
-        failed = claim.verdict.outcome is Outcome.DIFFERS and claim.verdict.inherits is None
-        contradicts = claim.verdict.outcome is Outcome.DEFINES and claim.verdict.contradicts is not None
-        if failed or ((undecided or contradicts) and display and not self.memory.may_be_special(claim)):
-            with suppress(*GIVEN_UP), time_limited(search):
-                self.blame.fixes += self.blame.fixes_before(claim)
+        claim.verdict = self.timed(claim, seconds)
+        self.search(claim, claim.verdict, min(seconds, SECONDS_OF_SEARCH))
         with suppress(*GIVEN_UP), time_limited(seconds):
             self.remark(claim, claim.verdict)
             self.memory.remember(claim)
         self.late += max(0.0, process_time() - begun - USUAL_SECONDS)
+
+    def without_comparison(self, claim: Claim) -> Verdict | None:
+        """Return the verdict on a claim whose sides are not compared; None for other claims."""
+        if claim.right is None or (claim.left is None and claim.before is None):
+            return Verdict(Outcome.UNREADABLE, claim.fault or "this is not read")
+        if claim.relation in ("to", "in"):
+            what = "a limit" if claim.relation == "to" else "a range"
+            if claim.is_step:
+                return Verdict(Outcome.UNDECIDED, f"{what} is not checked")
+            return Verdict(Outcome.DEFINES, f"{what} is stated")
+        return self.of_constant(claim) if _CONSTANT.match(word_of(claim.right)) else None
+
+    def timed(self, claim: Claim, seconds: float) -> Verdict:
+        """Return the verdict on a claim, or the reason why it takes too long."""
+        try:
+            with time_limited(seconds):
+                return self.best(claim)
+        except LimitReached:
+            return Verdict(Outcome.UNDECIDED, f"this takes more than {seconds:.1g} seconds", too_long=True)
+        except RecursionError:
+            return Verdict(Outcome.UNDECIDED, "this formula is nested too deeply")
+        except FAULTS as error:
+            return Verdict(Outcome.UNDECIDED, f"SymPy cannot handle it: {error}")
+
+    def search(self, claim: Claim, verdict: Verdict, seconds: float) -> None:
+        """Search for the change of this claim, and for the changes of earlier rows, after which it would follow."""
+        undecided = verdict.outcome is Outcome.UNDECIDED and not verdict.too_long
+        general = claim.row.block.display
+        if undecided and not general:
+            with suppress(*GIVEN_UP), time_limited(seconds):
+                general = self.memory.is_general(claim)
+        if verdict.outcome is Outcome.DEFINES or (undecided and (general or claim.relation == "~")):
+            with suppress(*GIVEN_UP), time_limited(seconds):
+                self.accuse_if_near(claim, verdict)
+        failed = verdict.outcome is Outcome.DIFFERS and verdict.inherits is None
+        contradicts = verdict.outcome is Outcome.DEFINES and verdict.contradicts is not None
+        if failed or ((undecided or contradicts) and general and not self.memory.may_be_special(claim)):
+            with suppress(*GIVEN_UP), time_limited(seconds):
+                self.blame.fixes += self.blame.fixes_before(claim)
 
     def of_constant(self, claim: Claim) -> Verdict:
         """Return the verdict on `v = const`; the row is wrong if only the length of a vector is constant."""

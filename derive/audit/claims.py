@@ -60,6 +60,7 @@ class Verdict:
     span: Span | None = None
     repeated: Definition | None = None  # the earlier value that this row claims to repeat
     contradicts: int | None = None  # the number of an earlier claim that gives a different value
+    too_long: bool = False  # whether the time limit was reached
     or_lines: tuple[int, ...] = ()  # lines of earlier rows that may contain the slip instead
 
     def suggest(self, edit: Edit) -> None:

@@ -53,6 +53,18 @@ class Memory:
         self.general: dict[int, bool] = {}  # whether a claim in a sentence always holds
         self.explained: set[int] = set()  # the numbers of claims that explain letters of the display before them
 
+    def enter(self, claim: Claim) -> None:
+        """Come to the next claim: find out which earlier claims are valid in its row."""
+        self.claims.append(claim)
+        scope = self.scope_of(claim)
+        if scope != self.scope:
+            self.begin(scope)
+        self.explain(claim)
+        self.known.sentence = self.claims_of_sentence(claim)
+        self.known.here = self.conditions_here(claim)
+        self.known.moving = frozenset(each.identity for each in letters_in(claim.left, claim.right) if each.dots)
+        self.state_lagrangian(claim)
+
     def scope_of(self, claim: Claim) -> int:
         """Return the number of the heading that begins the problem or section of a claim."""
         return scope_of(self.document, claim.row)
