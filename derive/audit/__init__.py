@@ -16,6 +16,7 @@ reading         the claims of a document, in their order
 memory          what the audit remembers of the claims before the current one
 changes         the small change after which a claim would follow
 blame           the earlier row that makes later rows wrong
+accusing        the rows that do not follow, but would follow after one small change
 copied_rows     a row that was copied from a similar row, with one index unchanged
 auditing        the audit of a whole document
 report          the verdicts as text, JSON and HTML

@@ -13,20 +13,17 @@ from time import process_time
 import sympy
 from sympy import MatrixBase, Symbol
 
+from derive.audit.accusing import Accuser, has_implied_sum
 from derive.audit.assumptions import Assumed
 from derive.audit.blame import Blame
-from derive.audit.changes import DISTINCT, PLAIN, REFERENCE, SECONDS_OF_SEARCH, Changes
+from derive.audit.changes import PLAIN, SECONDS_OF_SEARCH, Changes
 from derive.audit.claims import GOOD, Claim, Outcome, Verdict
 from derive.audit.deciding import Decision, same
 from derive.audit.expected import Compared, Expected, compared
 from derive.audit.memory import GIVEN_UP, LEAST_SECONDS, Memory, WithMemory
-from derive.audit.nearest_change import TOO_EASY, Nearness, letters_in
+from derive.audit.nearest_change import letters_in
 from derive.audit.reading import claims_of, explanations, scope_of
-from derive.audit.slips import WHY, Edit
-from derive.audit.systems import (
-    motion_of,
-    values_at_place,
-)
+from derive.audit.slips import WHY
 from derive.audit.time_limit import FAULTS, LimitReached, time_limited
 from derive.documents.choices import readings
 from derive.documents.facts import Facts, Identity
@@ -47,7 +44,6 @@ from derive.documents.syntax import (
     Num,
     Open,
     Sign,
-    Sum,
     Text,
 )
 
@@ -105,6 +101,7 @@ class _Auditor(WithMemory):
     def __init__(self, memory: Memory, changes: Changes, blame: Blame):
         super().__init__(memory)
         self.changes, self.blame = changes, blame
+        self.accuser = Accuser(memory, changes, blame)
         self.late = 0.0  # seconds used beyond the usual time
 
     def decide(self, claim: Claim) -> None:
@@ -153,7 +150,7 @@ class _Auditor(WithMemory):
                 general = self.memory.is_general(claim)
         if verdict.outcome is Outcome.DEFINES or (undecided and (general or claim.relation == "~")):
             with suppress(*GIVEN_UP), time_limited(seconds):
-                self.accuse_if_near(claim, verdict)
+                self.accuser.accuse_if_near(claim, verdict)
         failed = verdict.outcome is Outcome.DIFFERS and verdict.inherits is None
         contradicts = verdict.outcome is Outcome.DEFINES and verdict.contradicts is not None
         if failed or ((undecided or contradicts) and general and not self.memory.may_be_special(claim)):
@@ -298,110 +295,6 @@ class _Auditor(WithMemory):
             verdict.outcome = Outcome.DIFFERS
             verdict.because = "the row repeats an earlier result with a change"
 
-    def accuse_if_near(self, claim: Claim, verdict: Verdict) -> None:
-        """Report a row that does not follow, but would follow after one small change."""
-        if claim.values is not None and claim.relation == "~":
-            self.accuse(claim, verdict, self.changes.change_of_approximation(claim))
-        if claim.values is None or claim.relation not in ("=", ":="):
-            return
-        if self.holds_at_place(claim):
-            verdict.outcome, verdict.given = Outcome.HOLDS, tuple(sorted(self.known.sentence))
-            verdict.because = "the two sides are equal at the place that the sentence names"
-            return
-        if Cue.INCORRECT in claim.row.block.cues or (Cue.APPROXIMATE in claim.row.block.cues and claim.is_step):
-            return
-        if claim.values[0] in self.meaning.evaluations:
-            return  # the value at one place says nothing about another place
-        if any(isinstance(each, MatrixBase) for each in claim.values):
-            return
-        sides = [side for side in (claim.left, claim.right) if side is not None]
-        if has_implied_sum(*sides):
-            return
-        if any(isinstance(each, Int) for side in sides for each in side.walk()):
-            return  # a letter of an integrand may depend on the variable of integration
-        in_sentence = not claim.is_step and not claim.row.block.display and not self.memory.is_general(claim)
-        if verdict.outcome is Outcome.DEFINES and self.may_have_other_value(claim):
-            edit = self.changes.change_of_value(claim)
-            if edit is not None and edit.kind in DISTINCT and self.memory.restates(claim):
-                self.accuse(claim, verdict, edit)
-                return
-            self.doubt(verdict, edit)  # the letter may have a different value in another part or case
-            if verdict.outcome is Outcome.DEFINES and claim.row.block.display:
-                value = self.known.definitions[claim.values[0]][-1].value
-                there = [each for _, _, each in values_at_place(value, claim.values[1], self.meaning)]
-                edits = [self.changes.change_to(claim, each) for each in there]
-                self.accuse(claim, verdict, next((e for e in edits if e is not None and e.kind in DISTINCT), None))
-            return
-        strange = self.changes.strange_letters(claim) if in_sentence else set()
-        if in_sentence and not strange and claim.values[1].is_Atom:
-            return
-        edit = self.changes.near_edit(claim, self.known)
-        if edit is not None and edit.was not in strange and self.may_be_right(claim, edit):
-            self.doubt(verdict, edit)
-            return
-        if edit is not None and edit.kind in TOO_EASY and self.may_add_something(claim):
-            return
-        rare = self.changes.letters_of_one_claim() if edit is not None and edit.kind == "letter" else set()
-        if edit is not None and edit.meant in rare and edit.was not in rare:
-            self.blame.fixes += self.blame.fixes_before(claim)  # probably the other claim with this letter is wrong
-            return
-        if edit is None and not claim.is_step and claim.row.block.display and not self.memory.may_be_special(claim):
-            linear = Cue.APPROXIMATE in claim.row.block.cues or self.changes.is_linear(claim)
-            near = Nearness(self.meaning, self.known, [], self.memory.shown, linear=linear, terms=[])
-            if (lost := near.lost_term(claim.values[0] - claim.values[1])) is not None:
-                verdict.outcome, verdict.why_plausible = Outcome.DIFFERS, WHY["lost term"]
-                verdict.because = "it does not follow from earlier rows, but would with one more term"
-                verdict.suggestion = f"with the term {lost}"
-                return
-        if edit is None and isinstance(claim.values[0], Symbol) and not claim.is_step:
-            edit = self.changes.change_at_instant(claim)
-        self.accuse(claim, verdict, edit)
-
-    def holds_at_place(self, claim: Claim) -> bool:
-        """Whether two sides are equal for the values that the sentence of a display gives: `At x = a, E = ...`."""
-        assert claim.values is not None
-        named = [self.claims[each].values for each in self.known.sentence]
-        put_in = {each[0]: each[1] for each in named if each is not None and isinstance(each[0], Symbol)}
-        left, right = (self.memory.expanded(each) for each in claim.values)
-        return left.free_symbols & put_in.keys() != set() and same(left.xreplace(put_in), right)
-
-    def may_add_something(self, claim: Claim) -> bool:
-        """Whether a row has a new letter or begins a part, so that it may have more terms than earlier rows."""
-        assert claim.values is not None
-        symbols = claim.values[0].free_symbols | claim.values[1].free_symbols
-        before = [each for each in self.claims[: claim.number] if each.row.block.part == claim.row.block.part]
-        return bool(self.known.new_letters(symbols)) or not any(each.row.block.display for each in before)
-
-    def accuse(self, claim: Claim, verdict: Verdict, edit: Edit | None) -> None:
-        """Report a row that would follow after the given change, if there is one."""
-        if edit is None:
-            return
-        verdict.outcome = Outcome.DIFFERS
-        because = "the side before it" if claim.is_step else "earlier rows"
-        verdict.because = f"it does not follow from {because}, but would with one change"
-        verdict.suggest(edit)
-
-    def may_be_right(self, claim: Claim, edit: Edit) -> bool:
-        """Whether a claim may be right without a change, because a sentence states it for a special case."""
-        if claim.is_step or claim.row.block.display or claim.values is None:
-            return False
-        if self.memory.restates(claim) or motion_of(*claim.values, self.meaning):
-            return edit.kind not in DISTINCT
-        return not self.memory.is_general(claim)
-
-    def doubt(self, verdict: Verdict, edit: Edit | None) -> None:
-        """Leave a row undecided if one change would make it follow: it contains a slip or is a special case."""
-        if edit is not None:
-            verdict.outcome = Outcome.UNDECIDED
-            verdict.because = f"it would follow from earlier rows with {edit.suggestion}, but may be a special case"
-
-    def may_have_other_value(self, claim: Claim) -> bool:
-        """Whether a letter has an earlier value, and the sentence does not refer to the row of this value."""
-        assert claim.values is not None
-        found = self.known.definitions.get(claim.values[0], [])
-        row = found[-1].row if found else None
-        return bool(found) and (row is None or row.label not in REFERENCE.findall(claim.row.block.sentence))
-
     def loses_letters(self, claim: Claim) -> bool:
         assert claim.values is not None
         left, right = (self.memory.expanded(each) for each in claim.values)
@@ -481,26 +374,6 @@ def lacks_differential(side: Node) -> bool:
             if 0 < len(of) < len(signs) and single and all(sign.lower is not None for sign in signs):
                 return True
     return False
-
-
-def has_implied_sum(*sides: Node) -> bool:
-    """Whether two factors of a product have the same index, as in a_i b_i: a sum over this index may be implied."""
-    for side in sides:
-        summed = {each.index.base for each in side.walk() if isinstance(each, Sum) and isinstance(each.index, Letter)}
-        for node in side.walk():
-            if isinstance(node, Mul):
-                found: Counter[str] = Counter()
-                for _, factor in node.factors:
-                    letters = [each for each in factor.walk() if isinstance(each, Letter)]
-                    found.update({index for each in letters for index in indices_of(each)} - summed)
-                if any(count > 1 for count in found.values()):
-                    return True
-    return False
-
-
-def indices_of(letter: Letter) -> list[str]:
-    written = re.findall(r"mu|nu|rho|sigma|alpha|beta|lambda|[a-z]", f"{letter.sub},{letter.label}")
-    return [each for each in written if len(each) > 1 or each in "ijkl"] if len(letter.sub) < 12 else []
 
 
 def same_letters(side: Node | None) -> Node | None:
