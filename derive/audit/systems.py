@@ -317,11 +317,10 @@ def _lagrange_equations(value: Expr, meaning: Meaning) -> Iterator[tuple[Symbol,
 
 def motion(known: Known, meaning: Meaning) -> Iterator[tuple[Expr, tuple[int, ...], str]]:
     """Yield Lagrange's equations of each Lagrangian, and Hamilton's equations of each Hamiltonian."""
-    for place, equation, number in lagrange_equations(known):
-        named = meaning.symbols.get(place)
-        if "q" in known.forced or (named is not None and named.base in known.forced):
-            continue
-        yield equation, (number,), f"Lagrange's equation for `{place}`"
+    of_lagrange = lagrange_equations(known)
+    for place, equation, number in of_lagrange:
+        if not _has_force(place, equation, known, [each for _, each, _ in of_lagrange]):
+            yield equation, (number,), f"Lagrange's equation for `{place}`"
     for symbol, definitions in list(known.definitions.items()):
         letter = meaning.symbols.get(symbol)
         if letter is None or letter.dots or letter.base != "H":
@@ -339,6 +338,26 @@ def motion(known: Known, meaning: Meaning) -> Iterator[tuple[Expr, tuple[int, ..
             rate_of_p = meaning.symbol(replace(momentum, dots=1))
             yield rate_of_place - meaning.differentiated(value, p, True), claims, "Hamilton's equations"
             yield rate_of_p + meaning.differentiated(value, place, True), claims, "Hamilton's equations"
+
+
+def _has_force(place: Symbol, equation: Expr, known: Known, all_equations: Sequence[Expr]) -> bool:
+    """Whether the document states Lagrange's equation for a coordinate with a force, in general, or because an earlier
+    equation has the same acceleration and a term with a letter that no Lagrange's equation contains."""
+    named = known.meaning.symbols[place]
+    if {"q", named.base} & known.forced:
+        return True
+    acceleration = known.meaning.symbol(replace(named, dots=2))
+    slope = sympy.diff(equation, acceleration)
+    letters = set().union(*(each.free_symbols for each in all_equations))
+    for stated, number in known.equations[-LAST_EQUATIONS:]:
+        if number in known.conditions or acceleration not in stated.free_symbols or stated.has(Integral):
+            continue
+        value, _ = expanded(known, stated, sure=True)
+        if sympy.count_ops(value) < LARGEST_CONSTRAINT and slope != 0:
+            rest = sympy.expand(value - sympy.diff(value, acceleration) / slope * equation)
+            if rest.free_symbols - letters:
+                return True
+    return False
 
 
 def motion_of(place: Value, value: Value, meaning: Meaning) -> dict[Symbol, Expr]:

@@ -696,6 +696,13 @@ def test_one_change_makes_a_row_follow(right: str, written: str, slip: str, line
         " -w^2 A + (n^2 - w^2) B &= 0\n\\end{aligned}\n$$",
         "The curve through both points has\n$$ \\cosh\\left(\\frac{a}{c} + d\\right) = "
         "\\cosh\\left(-\\frac{a}{c} + d\\right) $$",
+        "Lagrange's equations with the friction $F$ follow from\n"
+        "$$ L = \\frac12 M \\dot s^2 + \\frac14 M R^2 \\dot\\phi^2 + M g s \\sin\\alpha $$\n"
+        "$$ M \\ddot s = M g \\sin\\alpha - F $$\n$$ \\frac12 M R^2 \\ddot\\phi = R F $$\n\n(b) Rolling means\n"
+        "$$ \\ddot s = R \\ddot\\phi $$\nand so $F = \\frac12 M \\ddot s$.",
+        "The equations with tensions are\n$$ \\frac{d}{dt} \\frac{\\partial L}{\\partial \\dot x_i} "
+        "- \\frac{\\partial L}{\\partial x_i} = S_i $$\n$$ L = \\frac12 m \\dot x_1^2 - m g x_1 $$\n"
+        "$$ m \\ddot x_1 + m g = S_1 $$",
         "Two terms:\n\\begin{multline*}\n \\ddot q + u \\dot q = a (b + c) \\\\\n + f = a (b + c) + f\\end{multline*}",
     ],
 )
