@@ -43,13 +43,13 @@ class Accuser(WithMemory):
             if self.holds_at_place(claim):
                 verdict.outcome, verdict.given = Outcome.HOLDS, tuple(sorted(self.known.sentence))
                 verdict.because = "the two sides are equal at the place that the sentence names"
-            elif not self.is_beyond_doubt(claim):
+            elif not self.is_left_alone(claim):
                 if verdict.outcome is Outcome.DEFINES and self.may_have_other_value(claim):
                     self.accuse_value(claim, verdict)
                 else:
                     self.accuse_equation(claim, verdict)
 
-    def is_beyond_doubt(self, claim: Claim) -> bool:
+    def is_left_alone(self, claim: Claim) -> bool:
         """Whether no change of a claim is sought, because the document gives too little information about it."""
         assert claim.values is not None
         cues = claim.row.block.cues

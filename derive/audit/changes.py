@@ -158,13 +158,9 @@ class Changes(WithMemory):
         left_side = self.memory.last_good_side(claim)
         if claim.right is None or left_side is None or claim.values is None:
             return None
-        right_node, left_node = (
-            self.memory.reading(claim.right),
-            self.memory.reading(left_side),
-        )
-        places = [each for each in (left_node, right_node) if isinstance(each, Letter) and not each.dots]
-        if len(places) == 2:  # "at theta = theta_1" names a place
-            return None
+        right_node, left_node = self.memory.reading(claim.right), self.memory.reading(left_side)
+        if all(isinstance(each, Letter) and not each.dots for each in (left_node, right_node)):
+            return None  # "at theta = theta_1" names a place
         letter = claim.values[0] if isinstance(claim.values[0], Symbol) and not claim.is_step else None
         letters = self.with_other_indices(letters_in(left_node, right_node))
         letters += self.lost_letters(claim, letters) if known is self.known else []
@@ -180,24 +176,36 @@ class Changes(WithMemory):
             letters = self.with_letters_of(equation, near.letters)
             near.letters = [each for each in letters if self.meaning.symbol(each) != unknown]
             return near.of_root(right_node, unknown, equation)
-        if letter is not None and Cue.ZERO in claim.row.block.cues and known is self.known:
-            if (at_zero := zeros_in_time(letter, self.meaning, known)) is not None:
-                edit = near.of_root(right_node, at_zero[0], at_zero[1])
-                if edit is not None and edit.kind in DISTINCT:
-                    return edit
-        if letter is not None and (edit := self.near_motion(claim, near, right_node, letter)):
-            return edit
+        edit = None
+        if letter is not None:
+            edit = self.near_zero(claim, near, right_node, letter) or self.near_motion(claim, near, right_node, letter)
+        edit = edit or self.near_equation(claim, near, left_node, right_node, letter)
+        return None if edit is not None and claim.is_step and self.repeats_a_side(claim, edit.node) else edit
+
+    def near_zero(self, claim: Claim, near: Nearness, right_node: Node, letter: Symbol) -> Edit | None:
+        """Return one change after which an earlier function of time would vanish at the time t_1 of a claim."""
+        if Cue.ZERO not in claim.row.block.cues or near.written:
+            return None
+        at_zero = zeros_in_time(letter, self.meaning, near.known)
+        edit = near.of_root(right_node, at_zero[0], at_zero[1]) if at_zero is not None else None
+        return edit if edit is not None and edit.kind in DISTINCT else None
+
+    def near_equation(
+        self, claim: Claim, near: Nearness, left_node: Node, right_node: Node, letter: Symbol | None
+    ) -> Edit | None:
+        """Return one change after which a claim would follow from earlier equations, also with the constraints of its
+        part, or after which it would be a first integral."""
         near.linear = Cue.APPROXIMATE in claim.row.block.cues or self.is_linear(claim)
         edit = near.of_claim(left_node, right_node, letter, claim.is_step)
-        if edit is None and known is self.known and claim.row.block.display and not claim.is_step:
-            constraints = self.constraints_of_part(claim)
-            kept = {each for each in constraints if self.is_constraint(self.claims[each])}
-            if kept - known.here:
-                near.known = replace(known, here=known.here | kept, kept={})
-                edit = near.of_claim(left_node, right_node, letter, claim.is_step)
+        if edit is not None or near.written or not claim.row.block.display or claim.is_step:
+            return edit
+        known, constant = near.known, self.constraints_of_part(claim)
+        constraints = {each for each in constant if self.is_constraint(self.claims[each])}
+        if constraints - known.here:
             near.known = replace(known, here=known.here | constraints, kept={})
-            edit = edit or near.of_first_integral(left_node, right_node)
-        return None if edit is not None and claim.is_step and self.repeats_a_side(claim, edit.node) else edit
+            edit = near.of_claim(left_node, right_node, letter, claim.is_step)
+        near.known = replace(known, here=known.here | constant, kept={})
+        return edit or near.of_first_integral(left_node, right_node)
 
     def constraints_of_part(self, claim: Claim) -> frozenset[int]:
         """Return the conditions in sentences of the same part that give a constant value to a coordinate: `r = l`, or
