@@ -30,7 +30,7 @@ from derive.audit.systems import (
     zeros_in_time,
 )
 from derive.audit.time_limit import FAULTS
-from derive.documents.facts import Identity
+from derive.documents.facts import ANGLES, Identity
 from derive.documents.layout import Cue
 from derive.documents.meaning import Meaningless, Value
 from derive.documents.syntax import (
@@ -87,27 +87,35 @@ class Changes(WithMemory):
         value = self.known.definitions[claim.values[0]][-1].value
         return self.change_to(claim, value)
 
-    def change_to(self, claim: Claim, value: Expr) -> Edit | None:
+    def change_to(self, claim: Claim, value: Expr, fewest: int = FEWEST_OPERATIONS) -> Edit | None:
         """Return one change of the right side after which it would have the given value."""
         assert claim.right is not None
-        if sympy.count_ops(value) < FEWEST_OPERATIONS:
+        if sympy.count_ops(value) < fewest:
             return None  # each short value is one change away from other values
         right_node = self.memory.reading(claim.right)
         return Nearness(self.meaning, self.known, letters_in(right_node), self.memory.shown).of_value(right_node, value)
 
     def change_at_instant(self, claim: Claim) -> Edit | None:
-        """Return one change of the right side after which a letter such as v_1 would have the value at t_1 of a letter
-        to whose row the sentence refers."""
+        """Return one change of the right side after which a letter such as v_1 would have the value at t_1 of v, of a
+        velocity x', or of a letter to whose row the sentence refers."""
         assert claim.values is not None
         for earlier, _ in values_at_instant(claim.values[0], self.meaning, self.known):
             label = earlier.row.label if earlier.row is not None else ""
-            named = [self.meaning.symbols.get(each) for each in (earlier.symbol, claim.values[0])]
-            same_letter = len({each.base for each in named if each is not None}) == 1
-            if same_letter or (label and label in REFERENCE.findall(claim.row.block.sentence)):
-                edit = self.change_to(claim, expanded(self.known, earlier.value)[0])
+            if self.may_be_values_of_one(claim.values[0], earlier.symbol) or (
+                label and label in REFERENCE.findall(claim.row.block.sentence)
+            ):
+                edit = self.change_to(claim, expanded(self.known, earlier.value)[0], fewest=2)
                 if edit is not None:
                     return edit
         return None
+
+    def may_be_values_of_one(self, value: Symbol, function: Symbol) -> bool:
+        """Whether a letter is probably the value of a function of time at an instant: y_2 of y, v_1 of v or x'."""
+        named, of = self.meaning.symbols.get(value), self.meaning.symbols.get(function)
+        if named is None or of is None:
+            return False
+        velocity = named.base == ("omega" if of.base in ANGLES else "v")
+        return (velocity and of.dots == 1) or (named.base == of.base and named.dots == of.dots)
 
     def with_other_indices(self, letters: list[Letter]) -> list[Letter]:
         """Return the given letters and further letters of the document that differ from them only in the index."""

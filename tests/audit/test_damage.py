@@ -654,6 +654,10 @@ STRINGS = (
     "The masses hang on two strings.\n$$ m_1 \\ddot x = m_1 g - S_1 $$\n$$ m_2 \\ddot y = m_2 g - S_2 $$\n"
     "For one string, the tensions are equal."
 )
+SPEEDS = (
+    "The velocity of the ball is\n$$ \\dot x = v_0 - \\mu g t $$\nand at the time\n"
+    "$$ t_1 = \\frac{2 v_0}{7 \\mu g} $$\nit is\n$$ v_1 = \\frac{5}{7} v_0 $$"
+)
 ENERGY_FIRST = (
     "Lagrange's equation follows from\n$$ T = \\frac12 m l^2 \\dot\\theta^2 $$\n$$ U = - m g l \\cos\\theta $$\n"
     "$$ L = T - U = \\frac12 m l^2 \\dot\\theta^2 + m g l \\cos\\theta $$\n"
@@ -675,6 +679,7 @@ ENERGY_FIRST = (
         (ROOTS, "{2 + \\sqrt", "{2 - \\sqrt", 5),
         (STRINGS, "m_2 \\ddot y", "m_1 \\ddot y", 3),
         (STRINGS, "m_1 \\ddot x", "m_2 \\ddot x", 2),
+        (SPEEDS, "5}{7", "3}{7", 6),
         (ENERGY_FIRST, "- m g l \\cos", "m g l \\cos", 3),
         ("The density is $\\lambda = M/l$, and $b = a/(2 c)$.", "M/l", "l/l", 1),
         ("The density is $\\lambda = M/l$, and $b = a/(2 c)$.", "a/(2", "c/(2", 1),
