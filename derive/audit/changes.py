@@ -14,6 +14,7 @@ from sympy import Expr, MatrixBase, Symbol
 
 from derive.audit.claims import Claim, Verdict
 from derive.audit.deciding import degree, order_of_error, same
+from derive.audit.fingerprint import is_zero
 from derive.audit.knowledge import Known
 from derive.audit.memory import SPECIAL, Memory, WithMemory
 from derive.audit.nearest_change import Nearness, letters_in, terms_in
@@ -27,6 +28,7 @@ from derive.audit.systems import (
     moving_letters,
     root_equation,
     values_at_instant,
+    values_with,
     zeros_in_time,
 )
 from derive.audit.time_limit import FAULTS
@@ -187,6 +189,7 @@ class Changes(WithMemory):
         edit = None
         if letter is not None:
             edit = self.near_zero(claim, near, right_node, letter) or self.near_motion(claim, near, right_node, letter)
+        edit = edit or self.near_vanishing(claim, near, right_node)
         edit = edit or self.near_equation(claim, near, left_node, right_node, letter)
         return None if edit is not None and claim.is_step and self.repeats_a_side(claim, edit.node) else edit
 
@@ -197,6 +200,23 @@ class Changes(WithMemory):
         at_zero = zeros_in_time(letter, self.meaning, near.known)
         edit = near.of_root(right_node, at_zero[0], at_zero[1]) if at_zero is not None else None
         return edit if edit is not None and edit.kind in DISTINCT else None
+
+    def near_vanishing(self, claim: Claim, near: Nearness, right_node: Node) -> Edit | None:
+        """Return one change after which an earlier value would vanish at the place that a claim gives; None if an
+        earlier value vanishes at this place."""
+        assert claim.values is not None
+        if Cue.ZERO not in claim.row.block.cues or near.written or claim.is_step:
+            return None
+        left, right = claim.values
+        values = [each.value for each in values_with(left, self.meaning, near.known)]
+        if any(is_zero(value.xreplace({left: right})) for value in values):
+            return None
+        for edit in near.edits(right_node) if values else ():
+            with suppress(*FAULTS, Meaningless):
+                place = self.meaning.of(edit.node)
+                if any(is_zero(value.xreplace({left: place})) for value in values):
+                    return edit
+        return None
 
     def near_equation(
         self, claim: Claim, near: Nearness, left_node: Node, right_node: Node, letter: Symbol | None

@@ -18,7 +18,7 @@ from sympy import Abs, Expr, Integer, Integral, MatrixBase, Rational, Symbol
 
 from derive.algebra.equality import Grade, equal
 from derive.audit.claims import Claim, Definition, Outcome, Verdict
-from derive.audit.fingerprint import differ, fingerprint
+from derive.audit.fingerprint import differ, fingerprint, is_zero
 from derive.audit.knowledge import Known
 from derive.audit.systems import (
     System,
@@ -33,6 +33,7 @@ from derive.audit.systems import (
     root_equation,
     values_at_instant,
     values_at_place,
+    values_with,
     vanishes,
     with_small_factors,
     zeros_in_time,
@@ -98,6 +99,7 @@ class Decision:
             self.square,
             self.consequence,
             self.together,
+            self.vanishing,
             self.implied,
         ):
             if (found := test()) is not None:
@@ -497,10 +499,10 @@ class Decision:
             return found
         if Cue.ZERO in self.cues:
             for equation, number in list(reversed(recent))[:MOST_COMBINED]:
-                names = [
-                    each for each in equation.free_symbols if each in self.meaning.derivatives or not self.wants(each)
-                ]
-                for name in names:
+                # A mass would be a factor of several terms.
+                terms = [each.free_symbols for each in sympy.Add.make_args(sympy.expand(equation))]
+                names = [each for each in equation.free_symbols if sum(each in letters for letters in terms) == 1]
+                for name in [each for each in names if each in self.meaning.derivatives or not self.wants(each)]:
                     at_zero = equation.subs(name, 0)
                     if is_multiple(wanted, at_zero):
                         return Verdict(Outcome.HOLDS, f"{_word(name)} set to zero", (number,))
@@ -559,6 +561,17 @@ class Decision:
 
     def wants(self, symbol: Symbol) -> bool:
         return symbol in self.difference.free_symbols
+
+    def vanishing(self) -> Verdict | None:
+        """Judge the place where an earlier value vanishes: `The block leaves the sphere where cos(theta) = 2/3`."""
+        if Cue.ZERO not in self.cues or self.claim.is_step or self.claim.relation != "=":
+            return None
+        if isinstance(self.left, MatrixBase) or isinstance(self.right, MatrixBase):
+            return None
+        for each in values_with(self.left, self.meaning, self.known):
+            if is_zero(each.value.xreplace({self.left: self.right})):
+                return Verdict(Outcome.HOLDS, f"{_word(each.symbol)} vanishes there", (each.claim,))
+        return None
 
     def implied(self) -> Verdict | None:
         """Judge a step that introduces one letter with the help of a relation that the document does not state."""

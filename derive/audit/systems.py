@@ -29,6 +29,7 @@ LARGEST = 300  # an equation with at least this number of operations is left out
 LARGEST_LAGRANGIAN = 500
 LARGEST_CONSTRAINT = 60
 HIGHEST_POWER = 6
+MOST_VALUES = 3  # at most this many earlier values are compared with zero
 CONSERVED = ("E", "h", "H")
 PERIODS = ("tau", "T", "P")
 
@@ -457,6 +458,24 @@ def zeros_in_time(letter: Symbol, meaning: Meaning, known: Known) -> tuple[Symbo
     found = [each[-1] for each in known.definitions.values() if time in expanded(known, each[-1].value)[0].free_symbols]
     last = max(found, key=lambda each: each.claim, default=None)
     return (time, expanded(known, last.value)[0], last.claim) if last is not None else None
+
+
+def values_with(place: Expr, meaning: Meaning, known: Known) -> list[Definition]:
+    """Return the last earlier values that contain a constant letter, or a function of a letter such as cos(theta), and
+    that may vanish there: `cos(theta) = 2/3` where the force vanishes."""
+    if not (place.is_Symbol or (place.is_Function and len(place.args) == 1 and place.args[0].is_Symbol)):
+        return []
+    found = []
+    for symbol, definitions in known.definitions.items():
+        last = definitions[-1]
+        if symbol == place or last.claim in known.conditions - known.here or isinstance(last.value, MatrixBase):
+            continue
+        value, _ = expanded(known, last.value, place if place.is_Symbol else None, sure=True)
+        if isinstance(place, sympy.cos):
+            value = value.subs(sympy.sin(place.args[0]) ** 2, 1 - place**2)
+        if value.has(place) and len(sympy.Add.make_args(sympy.expand(value))) > 1:
+            found.append(replace(last, value=value))
+    return sorted(found, key=lambda each: -each.claim)[:MOST_VALUES]
 
 
 def frequency_equations(letter: Symbol, meaning: Meaning, known: Known) -> list[tuple[Expr, int]]:

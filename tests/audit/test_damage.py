@@ -654,6 +654,10 @@ STRINGS = (
     "The masses hang on two strings.\n$$ m_1 \\ddot x = m_1 g - S_1 $$\n$$ m_2 \\ddot y = m_2 g - S_2 $$\n"
     "For one string, the tensions are equal."
 )
+LEAVES = (
+    "The normal force on the sphere is\n$$ N = m g (3 \\cos\\theta - 2) $$\nThe block leaves the sphere where\n"
+    "$$ \\cos\\theta = \\frac{2}{3} $$"
+)
 SPEEDS = (
     "The velocity of the ball is\n$$ \\dot x = v_0 - \\mu g t $$\nand at the time\n"
     "$$ t_1 = \\frac{2 v_0}{7 \\mu g} $$\nit is\n$$ v_1 = \\frac{5}{7} v_0 $$"
@@ -679,6 +683,7 @@ ENERGY_FIRST = (
         (ROOTS, "{2 + \\sqrt", "{2 - \\sqrt", 5),
         (STRINGS, "m_2 \\ddot y", "m_1 \\ddot y", 3),
         (STRINGS, "m_1 \\ddot x", "m_2 \\ddot x", 2),
+        (LEAVES, "2}{3", "5}{3", 4),
         (SPEEDS, "5}{7", "3}{7", 6),
         (ENERGY_FIRST, "- m g l \\cos", "m g l \\cos", 3),
         ("The density is $\\lambda = M/l$, and $b = a/(2 c)$.", "M/l", "l/l", 1),
