@@ -282,7 +282,10 @@ class Decision:
         if not self.thorough or self.claim.relation not in ("=", ":=") or isinstance(self.difference, MatrixBase):
             return None
         letter = next((each for each in (self.left, self.right) if isinstance(each, Symbol)), None)
-        equations = equations_of(self.known, self.meaning, letter, sure)
+        named = self.meaning.symbols.get(letter)
+        # The equations of motion follow from a Lagrangian, and not the Lagrangian from them.
+        from_motion = named is None or named.base not in ("L", "U")
+        equations = equations_of(self.known, self.meaning, letter, sure, written=not from_motion)
         if linear:
             equations = with_small_factors(linearised(equations, self.meaning), self.meaning)
         wanted, _ = expanded(self.known, self.difference, letter, sure)

@@ -268,14 +268,21 @@ def _before(claim: int, known: Known) -> Known:
 
 
 def _lagrangians(known: Known, last: int) -> list[tuple[Expr, int]]:
-    """Return the last values of each letter L, or T - U if the document states no L."""
+    """Return the last values of each letter L, or T - U if the document states no L. A value such as q B x y' is only a
+    part of a Lagrangian."""
     found = []
     for symbol, definitions in list(known.definitions.items()):
         letter = known.meaning.symbols.get(symbol)
         if letter is not None and letter.base == "L" and not letter.dots and not letter.primes:
-            found += [(each.value, each.claim) for each in reversed(definitions[-last:])]
+            whole = [each for each in definitions if not _is_linear_in_rates(each.value, known)]
+            found += [(each.value, each.claim) for each in reversed(whole[-last:])]
     difference = difference_of_energies(known)
     return found or ([difference] if difference is not None else [])
+
+
+def _is_linear_in_rates(value: Expr, known: Known) -> bool:
+    rates = list(filter(known.is_rate, value.free_symbols))
+    return bool(rates) and not any(sympy.diff(value, each).free_symbols & set(rates) for each in rates)
 
 
 def difference_of_energies(known: Known) -> tuple[Expr, int] | None:
