@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
-from sympy import MatrixBase, Symbol
+from sympy import Expr, MatrixBase, Symbol
 
 from derive.audit.changes import SECONDS_OF_SEARCH, Changes
 from derive.audit.claims import GOOD, Claim, Definition, Outcome, Verdict
@@ -103,15 +103,20 @@ class Blame(WithMemory):
             return False
         if claim.relation not in ("=", ":=") or claim.left is None or claim.right is None or claim.values is None:
             return False
-        return not any(isinstance(each, MatrixBase) for each in claim.values) and not self.is_lagrangian(claim)
+        return not any(isinstance(each, MatrixBase) for each in claim.values) and not self.defines_energy(claim)
 
-    def is_lagrangian(self, claim: Claim) -> bool:
-        """Whether a claim is L = T - U, the definition of the Lagrangian."""
+    def defines_energy(self, claim: Claim) -> bool:
+        """Whether a claim is L = T - U or H = p x' - L, which define the Lagrangian and the Hamiltonian."""
         assert claim.values is not None
-        names = [self.meaning.symbols.get(each) for value in claim.values for each in value.free_symbols]
-        bases = {each.base for each in names if each is not None}
         left, right = claim.values
-        return len(names) == 3 and left.is_Symbol and right.is_Add and bases in ({"L", "T", "U"}, {"L", "T", "V"})
+        if not left.is_Symbol or not right.is_Add:
+            return False
+        named = {self.meaning.symbols[each].base: each for each in right.free_symbols if each in self.meaning.symbols}
+        letter = self.meaning.symbols.get(left)
+        base = letter.base if letter is not None else ""
+        if base == "L":
+            return set(named) in ({"T", "U"}, {"T", "V"}) and len(right.free_symbols) == 2
+        return base in ("H", "h") and {"p", "L"} <= set(named) and right.coeff(named["L"]) == -1
 
     def letters_behind(self, claim: Claim) -> set[Symbol]:
         """Return the letters of a claim, and the letters from which their values are computed."""
@@ -150,11 +155,13 @@ class Blame(WithMemory):
                     return
 
     def may_use(self, claim: Claim, earlier: Claim) -> bool:
-        """Whether a claim may depend on an earlier value: it contains the letter, or the value is an energy."""
-        assert earlier.values is not None
+        """Whether a claim may depend on an earlier value: it contains the letter, or it has rates and the value is an
+        energy."""
+        assert earlier.values is not None and claim.values is not None
         letter = earlier.values[0].as_base_exp()[0]
         named = self.meaning.symbols.get(letter)
-        return letter in self.letters_behind(claim) or (named is not None and named.base in ENERGIES)
+        moves = any(map(self.known.is_rate, claim.values[0].free_symbols | claim.values[1].free_symbols))
+        return letter in self.letters_behind(claim) or (moves and named is not None and named.base in ENERGIES)
 
     def common_edit(self, suspect: Claim, later: Sequence[Claim]) -> Edit | None:
         """Return the cheapest change of the right side of a row after which all these later rows follow, or None."""
@@ -162,25 +169,20 @@ class Blame(WithMemory):
         self.memory.return_to(suspect)
         letter, node = suspect.values[0], self.memory.reading(suspect.right)
         states = [self.memory.known_without(suspect, each, before=True) for each in later]
-        near = Nearness(self.meaning, states[0], letters_in(suspect.right), self.memory.shown, written=True, terms=[])
-        for edit in near.edits(node):
-            value = self.meaning.of(edit.node)
+
+        def follow(value: Expr) -> Iterator[bool]:
             new = Definition(letter, value, suspect.number)
-            changed = [
-                replace(
-                    known,
-                    definitions={**known.definitions, letter: [new, *known.definitions.get(letter, ())]},
-                    equations=[*known.equations, (letter - value, suspect.number)],
-                    kept={},
-                )
-                for known in states
-            ]
-            if all(
-                self.follows(claim, known, surely=claim is later[0])
-                for claim, known in zip(later, changed, strict=True)
-            ):
-                return edit
-        return None
+            for claim, known in zip(later, states, strict=True):
+                definitions = {**known.definitions, letter: [new, *known.definitions.get(letter, ())]}
+                equations = [*known.equations, (letter - value, suspect.number)]
+                changed = replace(known, definitions=definitions, equations=equations, kept={})
+                yield self.follows(claim, changed, surely=claim is later[0])
+
+        if next(follow(suspect.values[1])):
+            return None  # the first of these rows does not depend on this value
+        letters = letters_in(suspect.right, *(each.right for each in later))
+        near = Nearness(self.meaning, states[0], letters, self.memory.shown, written=True, terms=[])
+        return next((each for each in near.edits(node) if all(follow(self.meaning.of(each.node)))), None)
 
     def follows(self, claim: Claim, known: Known, surely: bool) -> bool:
         """Whether a claim follows from the given knowledge; unless `surely` is true, also if no change of the claim
@@ -279,7 +281,7 @@ class Blame(WithMemory):
         letters = self.letters_behind(formula)
         behind = [each for each in self.claims[: claim.number] if each.values and each.values[0] in letters]
         suspects = [each for each in reversed(behind) if each is not formula and self.may_be_changed(each)]
-        suspects = [formula, *suspects] if not self.is_lagrangian(formula) else suspects
+        suspects = [formula, *suspects] if not self.defines_energy(formula) else suspects
         edits: list[tuple[Claim, Edit]] = []
         for suspect in suspects:
             with suppress(*GIVEN_UP), time_limited(SECONDS_OF_SEARCH):
