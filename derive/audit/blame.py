@@ -76,7 +76,7 @@ class Blame(WithMemory):
             if undecided and not self.changes.belongs_to(claim, earlier) and not self.changes.is_motion(earlier):
                 continue  # a later part may be about another case
             tried += 1
-            letters: list[Node] = [*letters_in(claim.left, claim.right)]
+            letters: list[Node] = [*letters_in(claim.left, claim.right)] if not undecided else []
             edit = self.changes.near_edit(earlier, self.memory.known_without(earlier, claim), letters)
             found += [Fix(claim, earlier, edit)] if edit is not None else []
         return found or self.lost_before(claim)
@@ -181,7 +181,7 @@ class Blame(WithMemory):
         if next(follow(suspect.values[1])):
             return None  # the first of these rows does not depend on this value
         letters = letters_in(suspect.right, *(each.right for each in later))
-        near = Nearness(self.meaning, states[0], letters, self.memory.shown, written=True, terms=[])
+        near = Nearness(self.meaning, states[0], letters, self.memory.shown, written=True)
         return next((each for each in near.edits(node) if all(follow(self.meaning.of(each.node)))), None)
 
     def follows(self, claim: Claim, known: Known, surely: bool) -> bool:

@@ -32,6 +32,7 @@ class Known:
     numbers: dict[Symbol, list[Definition]] = field(default_factory=dict)  # values without letters
     equations: list[tuple[Expr, int]] = field(default_factory=list)
     bounds: list[tuple[Symbol, str, Expr, int]] = field(default_factory=list)  # letter, relation, number, claim
+    special: dict[Symbol, list[Definition]] = field(default_factory=dict)  # values in one case, `if R = a/2`
     slips: dict[Symbol, Definition] = field(default_factory=dict)  # the values that wrong rows give
     seen: set[Symbol] = field(default_factory=set)  # the letters of earlier claims
     conditions: set[int] = field(default_factory=set)  # claims that may hold in one case or at one instant only
@@ -161,7 +162,7 @@ class Known:
         """Return a definition of a letter that is valid in the current row, or None."""
         found = self.latest(symbol)
         if found is None or found.claim in self.conditions:
-            at = [*self.numbers.get(symbol, ()), *self.definitions.get(symbol, ())]
+            at = [*self.special.get(symbol, ()), *self.numbers.get(symbol, ()), *self.definitions.get(symbol, ())]
             return next((each for each in reversed(at) if each.claim in self.here), None)
         return found
 

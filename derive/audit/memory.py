@@ -378,6 +378,9 @@ class Memory:
         if claim.values is None or claim.verdict is None:
             return
         if self.is_special_case(claim):
+            letter, value = claim.values
+            self.known.conditions.add(claim.number)
+            self.known.special.setdefault(letter, []).append(Definition(letter, value, claim.number))
             return
         if self.is_condition(claim, claim.verdict, believed):
             self.known.conditions.add(claim.number)
