@@ -713,6 +713,9 @@ def test_one_change_makes_a_row_follow(right: str, written: str, slip: str, line
         "The equations with tensions are\n$$ \\frac{d}{dt} \\frac{\\partial L}{\\partial \\dot x_i} "
         "- \\frac{\\partial L}{\\partial x_i} = S_i $$\n$$ L = \\frac12 m \\dot x_1^2 - m g x_1 $$\n"
         "$$ m \\ddot x_1 + m g = S_1 $$",
+        "The energy equation is\n$$ \\frac12 m \\dot r^2 - \\frac12 m r^2 \\Omega^2 = E. $$\n"
+        "With the initial conditions $r = a$ and $\\dot r = 0$ when $t = 0$ we get\n"
+        "$$ E = -\\frac12 m a^2 \\Omega^2 $$",
         "Two terms:\n\\begin{multline*}\n \\ddot q + u \\dot q = a (b + c) \\\\\n + f = a (b + c) + f\\end{multline*}",
     ],
 )
