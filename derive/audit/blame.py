@@ -130,29 +130,35 @@ class Blame(WithMemory):
         return found
 
     def blame_common_rows(self) -> None:
-        """If several rows differ, and all of them would follow after the same change of an earlier value, blame the row
-        of this value."""
-        differing = [
-            each
-            for each in self.claims
-            if each.values
-            and each.verdict
-            and each.row.block.display
-            and each.verdict.outcome is Outcome.DIFFERS
-            and each.verdict.inherits is None
-        ]
-        for suspect in [each for each in self.claims if each.row.block.display and self.may_be_changed(each)]:
-            scope = self.memory.scope_of(suspect)
-            later = [each for each in differing if each.number > suspect.number]
-            later = [each for each in later if self.memory.scope_of(each) == scope]
-            if len(later) < 2 or not all(self.may_use(each, suspect) for each in later):
-                continue
-            with suppress(*GIVEN_UP), time_limited(SECONDS_OF_SEARCH):
-                edit = self.common_edit(suspect, later)
-                if edit is not None:
-                    self.blame(suspect, [Fix(each, suspect, edit) for each in later])
-                    self.fixes = [fix for fix in self.fixes if fix.claim not in later]
-                    return
+        """If several rows of a problem differ, and all of them would follow after the same change of an earlier value,
+        blame the row of this value."""
+        by_scope: dict[int, list[Claim]] = {}
+        for each in self.claims:
+            if each.values and each.verdict and each.row.block.display:
+                if each.verdict.outcome is Outcome.DIFFERS and each.verdict.inherits is None:
+                    by_scope.setdefault(self.memory.scope_of(each), []).append(each)
+        for differing in by_scope.values():
+            self.memory.return_to(differing[0])
+            suspects = [each for each in self.claims[: differing[-1].number] if self.is_common(each, differing)]
+            for suspect in suspects[-MOST_FIXED:]:
+                if self.blame_common_row(suspect, [each for each in differing if each.number > suspect.number]):
+                    break
+
+    def is_common(self, suspect: Claim, differing: Sequence[Claim]) -> bool:
+        """Whether an earlier value may be used in at least two of these rows, and in all of them that are after it."""
+        if not suspect.row.block.display or self.memory.scope_of(suspect) != self.memory.scope:
+            return False
+        later = [each for each in differing if each.number > suspect.number]
+        return len(later) > 1 and self.may_be_changed(suspect) and all(self.may_use(each, suspect) for each in later)
+
+    def blame_common_row(self, suspect: Claim, later: Sequence[Claim]) -> bool:
+        with suppress(*GIVEN_UP), time_limited(SECONDS_OF_SEARCH):
+            edit = self.common_edit(suspect, later)
+            if edit is not None:
+                self.blame(suspect, [Fix(each, suspect, edit) for each in later])
+                self.fixes = [fix for fix in self.fixes if fix.claim not in later]
+                return True
+        return False
 
     def may_use(self, claim: Claim, earlier: Claim) -> bool:
         """Whether a claim may depend on an earlier value: it contains the letter, or it has rates and the value is an
@@ -166,7 +172,6 @@ class Blame(WithMemory):
     def common_edit(self, suspect: Claim, later: Sequence[Claim]) -> Edit | None:
         """Return the cheapest change of the right side of a row after which all these later rows follow, or None."""
         assert suspect.values is not None and suspect.right is not None
-        self.memory.return_to(suspect)
         letter, node = suspect.values[0], self.memory.reading(suspect.right)
         states = [self.memory.known_without(suspect, each, before=True) for each in later]
 
