@@ -160,9 +160,12 @@ class Known:
 
     def surely(self, symbol: Symbol) -> Definition | None:
         """Return a definition of a letter that is valid in the current row, or None."""
+        special = next((each for each in self.special.get(symbol, ()) if each.claim in self.here), None)
+        if special is not None:
+            return special
         found = self.latest(symbol)
         if found is None or found.claim in self.conditions:
-            at = [*self.special.get(symbol, ()), *self.numbers.get(symbol, ()), *self.definitions.get(symbol, ())]
+            at = [*self.numbers.get(symbol, ()), *self.definitions.get(symbol, ())]
             return next((each for each in reversed(at) if each.claim in self.here), None)
         return found
 

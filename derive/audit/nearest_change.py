@@ -18,7 +18,7 @@ from sympy import Expr, Integral, Symbol, expand
 from derive.audit.fingerprint import is_zero
 from derive.audit.knowledge import Known
 from derive.audit.numeric import NoNumber, Numbers, at, close
-from derive.audit.points import Surface
+from derive.audit.points import OF_EITHER_SIGN, Surface
 from derive.audit.slips import Edit, edits_of_side, with_term
 from derive.audit.systems import (
     OF_RATES,
@@ -107,9 +107,9 @@ class Nearness:
         """Return the cheapest change of a side after which a claim would follow; None if it already follows, or if no
         change is found."""
         points = self.points(letter)
-        written = moving_letters({self.meaning.symbol(each) for each in letters_in(left, right)}, self.meaning)
+        written = [self.meaning.symbol(each) for each in letters_in(left, right) if each.base not in OF_EITHER_SIGN]
         if len(points) < 2 or any(points[0].fixed.get(each) == 0 for each in written):
-            return None  # if a coordinate of the claim vanishes, too many changes are possible
+            return None  # if a letter of the claim vanishes, too many changes are possible
         functions = all(any(isinstance(each, Fun) for each in side.walk()) for side in (left, right))
 
         def holds(one: Node, other: Node) -> bool:
