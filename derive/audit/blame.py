@@ -24,7 +24,7 @@ from derive.audit.reading import scope_of
 from derive.audit.slips import WHY, Edit, edits_of_side
 from derive.audit.time_limit import time_limited
 from derive.documents.source import Span
-from derive.documents.syntax import Letter, Node, Sum
+from derive.documents.syntax import Fun, Letter, Node, Sum
 
 MOST_FIXED = 5  # at most this many earlier rows are searched for a slip other than a lost term
 ENERGIES = ("L", "T", "K", "U", "V", "H")
@@ -103,6 +103,8 @@ class Blame(WithMemory):
             return False
         if claim.relation not in ("=", ":=") or claim.left is None or claim.right is None or claim.values is None:
             return False
+        if any(isinstance(each, Fun) and each.name == "order" for each in claim.right.walk()):
+            return False  # O(x^2) has no value
         return not any(isinstance(each, MatrixBase) for each in claim.values) and not self.defines_energy(claim)
 
     def defines_energy(self, claim: Claim) -> bool:
