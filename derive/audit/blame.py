@@ -168,8 +168,9 @@ class Blame(WithMemory):
         assert earlier.values is not None and claim.values is not None
         letter = earlier.values[0].as_base_exp()[0]
         named = self.meaning.symbols.get(letter)
-        moves = any(map(self.known.is_rate, claim.values[0].free_symbols | claim.values[1].free_symbols))
-        return letter in self.letters_behind(claim) or (moves and named is not None and named.base in ENERGIES)
+        behind = self.letters_behind(claim)
+        moves = any(map(self.known.is_rate, behind))
+        return letter in behind or (moves and named is not None and named.base in ENERGIES)
 
     def common_edit(self, suspect: Claim, later: Sequence[Claim]) -> Edit | None:
         """Return the cheapest change of the right side of a row after which all these later rows follow, or None."""
