@@ -25,6 +25,7 @@ from derive.audit.systems import (
     expanded,
     frequency_equations,
     is_linear,
+    motion_of,
     moving_letters,
     root_equation,
     values_at_instant,
@@ -205,9 +206,14 @@ class Changes(WithMemory):
         """Return one change after which an earlier value would vanish at the place that a claim gives; None if an
         earlier value vanishes at this place."""
         assert claim.values is not None
-        if Cue.ZERO not in claim.row.block.cues or near.written or claim.is_step:
-            return None
         left, right = claim.values
+        if (
+            Cue.ZERO not in claim.row.block.cues
+            or near.written
+            or claim.is_step
+            or motion_of(left, right, self.meaning)
+        ):
+            return None
         values = [each.value for each in values_with(left, self.meaning, near.known)]
         if any(is_zero(value.xreplace({left: right})) for value in values):
             return None
@@ -228,7 +234,7 @@ class Changes(WithMemory):
         if edit is not None or near.written or not claim.row.block.display or claim.is_step:
             return edit
         known, constant = near.known, self.constraints_of_part(claim)
-        constraints = {each for each in constant if self.is_constraint(self.claims[each])}
+        constraints = {each for each in constant if self.is_constraint(self.claims[each], claim)}
         if constraints - known.here:
             near.known = replace(known, here=known.here | constraints, kept={})
             edit = near.of_claim(left_node, right_node, letter, claim.is_step)
@@ -250,10 +256,13 @@ class Changes(WithMemory):
                 found.append(each.number)
         return frozenset(found)
 
-    def is_constraint(self, claim: Claim) -> bool:
-        """Whether a claim `r = l` is a constraint, because its part also states that a rate of r is zero."""
+    def is_constraint(self, claim: Claim, later: Claim) -> bool:
+        """Whether a claim `r = l` is a constraint for a later claim: its part also states that a rate of r is zero, and
+        the later claim does not contain r."""
         assert claim.values is not None
         coordinate = self.meaning.symbols[claim.values[0]]
+        if any(each.identity == coordinate.identity for each in letters_in(later.left, later.right)):
+            return False
         rates = {self.meaning.symbol(replace(coordinate, dots=dots)) for dots in (1, 2)}
         return any(
             each.values is not None and each.values[0] in rates and each.values[1] == 0

@@ -191,7 +191,7 @@ class Memory:
             return True
         if claim.values is None or claim.is_step or claim.row.block.display or claim.row.block.cues & SPECIAL:
             return False
-        if any(isinstance(each, MatrixBase) for each in claim.values):
+        if any(isinstance(each, MatrixBase) for each in claim.values) or self.has_special_case(claim):
             return False
         left, right = claim.values
         is_value = left.as_base_exp()[0].is_Symbol or right.is_number
@@ -215,6 +215,13 @@ class Memory:
             return False
         one, other = (expanded(self.known, each, letter, sure=True)[0] for each in (earlier.value, value))
         return set(one.free_symbols) == set(other.free_symbols)
+
+    def has_special_case(self, claim: Claim) -> bool:
+        """Whether the sentence of a claim begins with a value of a letter in one case: `With w_y = w, ...`."""
+        block = claim.row.block
+        earlier = [self.claims[each] for each in self.known.conditions if each < claim.number]
+        here = [e for e in earlier if e.row.block.sentence == block.sentence and e.row.block.part == block.part]
+        return any(each.values is not None and isinstance(each.values[0], Symbol) for each in here)
 
     def may_hold_specially(self, claim: Claim) -> bool:
         """Whether a claim may hold in the special cases that sentences of its part name; only numbers refute it."""

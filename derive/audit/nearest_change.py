@@ -35,6 +35,7 @@ from derive.documents.syntax import Add, Der, Fun, Letter, Node, Num, Root
 
 POINTS = 3
 SMALL = 1e-7  # the greatest relative error of an equation that holds
+LEAST_TERM = 1e-4  # the size of the smallest term of a changed row, relative to the greatest
 SMALLEST = 1e-6  # sides whose terms are smaller than this are not compared
 MOST_CHANGES = 4000
 MOST_TERMS = 60
@@ -130,7 +131,8 @@ class Nearness:
             one | other <= set(points[0].fixed)
         )  # fmt: skip
         for edit, first in self.edits_of_both(left, right, complete):
-            if holds(edit.node, right) if first else holds(left, edit.node):
+            sides = (edit.node, right) if first else (left, edit.node)
+            if holds(*sides) and any(shows_terms(point, *sides) for point in points):
                 # A later row shows which of two roots is right.
                 return None if not self.written and is_other_root(edit, left, right) else edit
         return None
@@ -297,6 +299,12 @@ def holds_at(point: Numbers, left: Node, right: Node) -> bool:
     """Whether two sides are equal at a point; False if all their terms are very small."""
     size = sum(abs(point.of_node(term)) for each in (left, right) for term in terms_of(each))
     return size >= SMALLEST and abs(point.of_node(left) - point.of_node(right)) <= SMALL * size
+
+
+def shows_terms(point: Numbers, left: Node, right: Node) -> bool:
+    """Whether each term of two sides is large enough at a point to be compared: x'^8 may be too small."""
+    sizes = [abs(point.of_node(term)) for each in (left, right) for term in terms_of(each)]
+    return all(each >= LEAST_TERM * max(sizes) for each in sizes if each)
 
 
 def terms_of(side: Node) -> list[Node]:
