@@ -208,13 +208,14 @@ class Changes(WithMemory):
         assert claim.values is not None
         left, right = claim.values
         if (
-            Cue.ZERO not in claim.row.block.cues
+            not claim.row.block.cues & {Cue.ZERO, Cue.LEAVES}
             or near.written
             or claim.is_step
             or motion_of(left, right, self.meaning)
         ):
             return None
-        values = [each.value for each in values_with(left, self.meaning, near.known)]
+        rates = Cue.ZERO in claim.row.block.cues
+        values = [each.value for each in values_with(left, self.meaning, near.known, rates)]
         if any(is_zero(value.xreplace({left: right})) for value in values):
             return None
         for edit in near.edits(right_node) if values else ():

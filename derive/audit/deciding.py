@@ -500,11 +500,13 @@ class Decision:
                 return Verdict(Outcome.HOLDS, "an earlier equation times a factor", (number,))
         if (found := self.solution(recent) or self.lagrange(wanted)) is not None:
             return found
-        if Cue.ZERO in self.cues:
+        if self.cues & {Cue.ZERO, Cue.LEAVES}:
             for equation, number in list(reversed(recent))[:MOST_COMBINED]:
                 # A mass would be a factor of several terms.
                 terms = [each.free_symbols for each in sympy.Add.make_args(sympy.expand(equation))]
                 names = [each for each in equation.free_symbols if sum(each in letters for letters in terms) == 1]
+                if Cue.ZERO not in self.cues:  # a body leaves a surface where a force vanishes, and not a rate
+                    names = [each for each in names if not self.known.is_rate(each)]
                 for name in [each for each in names if each in self.meaning.derivatives or not self.wants(each)]:
                     at_zero = equation.subs(name, 0)
                     if is_multiple(wanted, at_zero):
@@ -567,11 +569,11 @@ class Decision:
 
     def vanishing(self) -> Verdict | None:
         """Judge the place where an earlier value vanishes: `The block leaves the sphere where cos(theta) = 2/3`."""
-        if Cue.ZERO not in self.cues or self.claim.is_step or self.claim.relation != "=":
+        if not self.cues & {Cue.ZERO, Cue.LEAVES} or self.claim.is_step or self.claim.relation != "=":
             return None
         if isinstance(self.left, MatrixBase) or isinstance(self.right, MatrixBase):
             return None
-        for each in values_with(self.left, self.meaning, self.known):
+        for each in values_with(self.left, self.meaning, self.known, Cue.ZERO in self.cues):
             if is_zero(each.value.xreplace({self.left: self.right})):
                 return Verdict(Outcome.HOLDS, f"{_word(each.symbol)} vanishes there", (each.claim,))
         return None

@@ -467,14 +467,19 @@ def zeros_in_time(letter: Symbol, meaning: Meaning, known: Known) -> tuple[Symbo
     return (time, expanded(known, last.value)[0], last.claim) if last is not None else None
 
 
-def values_with(place: Expr, meaning: Meaning, known: Known) -> list[Definition]:
+def values_with(place: Expr, meaning: Meaning, known: Known, rates: bool) -> list[Definition]:
     """Return the last earlier values that contain a constant letter, or a function of a letter such as cos(theta), and
-    that may vanish there: `cos(theta) = 2/3` where the force vanishes."""
+    that may vanish there: `cos(theta) = 2/3` where the force vanishes.
+
+    rates   whether the value of a rate may vanish, too
+    """
     if not (place.is_Symbol or (place.is_Function and len(place.args) == 1 and place.args[0].is_Symbol)):
         return []
     found = []
     for symbol, definitions in known.definitions.items():
         last = definitions[-1]
+        if not rates and known.is_rate(symbol):
+            continue
         if symbol == place or last.claim in known.conditions - known.here or isinstance(last.value, MatrixBase):
             continue
         value, _ = expanded(known, last.value, place if place.is_Symbol else None, sure=True)

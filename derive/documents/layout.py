@@ -84,6 +84,7 @@ class Cue(StrEnum):
     CONSTANT = "constant"
     INCORRECT = "not"
     ZERO = "set to zero"
+    LEAVES = "a force vanishes"
     LAW = "law"
     REPEATED = "repeated"
 
@@ -99,8 +100,8 @@ CUES = {
     Cue.USING: r"\busing\b|\bwith\b|\bwhere\b|\bfrom\b|\bby\b|\buse\b|\bfollow\w*",
     Cue.PUT_IN: r"\bsubstitut\w+|\bplug\w*|\binsert\w*|\breplac\w+|\bput\b",
     Cue.CONSTANT: r"\bconstant\b|\bconst\b",
-    Cue.ZERO: r"\bleaves\b|\bloses contact\b|\blifts off\b|\bslack\b|\bzero\b|\bvanish\w*|\bstationary\b"
-    r"|\bextrem\w+|\bminimum\b",
+    Cue.ZERO: r"\bzero\b|\bvanish\w*|\bstationary\b|\bextrem\w+|\bminimum\b",
+    Cue.LEAVES: r"\bleaves\b|\bloses contact\b|\blifts off\b|\bslack\b",
     Cue.LAW: r"\blaws?\b|\bprinciples?\b|\btheorem\b|\bdefinition\b|\bconserv\w+|\bconstrain\w+|\bansatz\b"
     r"|\bequations? of motion\b"
     r"|\bconditions?\b|\bNewton\w*|\bLagrange\w*|\bHamilton\w*|\bEuler\w*|\bidentit\w+|\btry\b|\bformula\b|\bmodel\w*",
@@ -167,7 +168,9 @@ class Block:
         return frozenset(
             cue
             for cue, pattern in _CUES.items()
-            if pattern.search(near if cue in (Cue.APPROXIMATE, Cue.ZERO) and self.display else self.sentence)
+            if pattern.search(
+                near if cue in (Cue.APPROXIMATE, Cue.ZERO, Cue.LEAVES) and self.display else self.sentence
+            )
         )
 
 

@@ -655,7 +655,8 @@ STRINGS = (
     "For one string, the tensions are equal."
 )
 LEAVES = (
-    "The normal force on the sphere is\n$$ N = m g (3 \\cos\\theta - 2) $$\nThe block leaves the sphere where\n"
+    "The particle slides down with\n$$ \\dot\\theta^2 = \\frac{2 g (1 - \\cos\\theta)}{R} $$\n"
+    "and the normal force on the sphere is\n$$ N = m g (3 \\cos\\theta - 2) $$\nThe particle leaves the sphere where\n"
     "$$ \\cos\\theta = \\frac{2}{3} $$"
 )
 SPEEDS = (
@@ -683,7 +684,8 @@ ENERGY_FIRST = (
         (ROOTS, "{2 + \\sqrt", "{2 - \\sqrt", 5),
         (STRINGS, "m_2 \\ddot y", "m_1 \\ddot y", 3),
         (STRINGS, "m_1 \\ddot x", "m_2 \\ddot x", 2),
-        (LEAVES, "2}{3", "5}{3", 4),
+        (LEAVES, "2}{3", "5}{3", 6),
+        (LEAVES, "2}{3", "3}{3", 6),
         (SPEEDS, "5}{7", "3}{7", 6),
         (ENERGY_FIRST, "- m g l \\cos", "m g l \\cos", 3),
         ("The density is $\\lambda = M/l$, and $b = a/(2 c)$.", "M/l", "l/l", 1),
