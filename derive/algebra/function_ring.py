@@ -13,6 +13,7 @@ Source: Cox, Little, O'Shea, *Ideals, Varieties, and Algorithms*, ch. 2 (normal 
 
 from __future__ import annotations
 
+from contextlib import suppress
 from functools import lru_cache
 from math import gcd
 from typing import Any
@@ -152,6 +153,8 @@ class FunctionRing(TrigRing):
         except Outside:
             found = self._angles.get(angle)
             if found is None:
+                with suppress(Outside):
+                    self.form(angle)  # so that the angles inside this angle are known before it is compared
                 alike = (known for known in list(self._angles.values()) if self._are_equal(known, angle))
                 found = self._angles[angle] = next(alike, angle)
             return found

@@ -47,6 +47,11 @@ z = Symbol("z")
 f, q = Function("f"), Function("q")(t)
 
 EQUAL = [
+    # functions of functions, with roots inside
+    (
+        sin(a * sin(t * sqrt(g)) + b * cos(t * sqrt(g))),
+        sin(a * sin(t * sqrt(g))) * cos(b * cos(t * sqrt(g))) + cos(a * sin(t * sqrt(g))) * sin(b * cos(t * sqrt(g))),
+    ),
     (sgn(x - a), (x - a) / Abs(x - a)),
     (sgn(x - a) ** 3, -sgn(a - x)),
     # roots
