@@ -19,8 +19,9 @@ from derive.audit.blame import Blame
 from derive.audit.changes import PLAIN, SECONDS_OF_SEARCH, Changes
 from derive.audit.claims import GOOD, Claim, Outcome, Verdict
 from derive.audit.deciding import Decision, same
-from derive.audit.expected import Compared, Expected, compared
+from derive.audit.expected import Compared, Comparison, Expected
 from derive.audit.memory import GIVEN_UP, LEAST_SECONDS, Memory, WithMemory
+from derive.audit.near_derivation import NearDerivation
 from derive.audit.nearest_change import letters_in
 from derive.audit.reading import claims_of, explanations, scope_of
 from derive.audit.slips import WHY
@@ -91,10 +92,13 @@ def audited(
         if progress is not None:
             progress(claim.row.line, len(claims) - done)
         auditor.decide(claim)
-    blame.blame_all()
     scopes = [scope_of(document, claim.row) for claim in claims]
-    found = compared(claims, scopes, memory.scopes, facts, memory.meaning_of, expected) if expected else []
-    return Audit(document, facts, claims, unread, found)
+    comparison = Comparison(claims, scopes, memory.scopes, facts, memory.meaning_of, expected)
+    derivation = NearDerivation(memory, auditor.accuser)
+    for section in comparison.sections:
+        derivation.examine(section)
+    blame.blame_all(derivation.confirmed, derivation.accused)
+    return Audit(document, facts, claims, unread, comparison.answers())
 
 
 class _Auditor(WithMemory):

@@ -46,8 +46,19 @@ class Blame(WithMemory):
         super().__init__(memory)
         self.changes = changes
         self.fixes: list[Fix] = []
+        self.confirmed: set[int] = set()
+        self.accused: set[int] = set()
 
-    def blame_all(self) -> None:
+    def blame_all(self, confirmed: set[int], accused: set[int]) -> None:
+        """Blame the earlier rows that make later rows wrong.
+
+        confirmed   the numbers of claims that agree with a derivation, so that they are not blamed
+        accused     the numbers of claims that contradict a derivation, so that no other row is blamed instead
+        """
+        self.confirmed, self.accused = confirmed, accused
+        self.fixes = [
+            fix for fix in self.fixes if fix.earlier.number not in confirmed and fix.claim.number not in accused
+        ]
         self.blame_common_rows()
         self.blame_earlier_rows()
         self.blame_formulas()
@@ -100,6 +111,8 @@ class Blame(WithMemory):
 
     def may_be_changed(self, claim: Claim) -> bool:
         if claim.verdict is None or claim.verdict.outcome not in (Outcome.DEFINES, Outcome.UNDECIDED) or claim.is_step:
+            return False
+        if claim.number in self.confirmed:
             return False
         if claim.relation not in ("=", ":=") or claim.left is None or claim.right is None or claim.values is None:
             return False
@@ -263,7 +276,7 @@ class Blame(WithMemory):
             if verdict is None or verdict.outcome is not Outcome.DIFFERS or verdict.contradicts is None:
                 continue
             formula, line = self.claims[verdict.contradicts], self.claims[verdict.contradicts].row.line
-            if formula.verdict is None or formula.verdict.outcome is Outcome.DIFFERS:
+            if formula.verdict is None or formula.verdict.outcome is Outcome.DIFFERS or claim.number in self.accused:
                 continue
             later = self.followers(claim)
             between = self.claims[formula.number + 1 : claim.number]

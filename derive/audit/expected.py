@@ -8,6 +8,7 @@ that state steps of it; see `LEAST_SCORE`.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -61,12 +62,19 @@ class Compared:
 
 
 @dataclass(frozen=True)
-class _Result:
-    """A result in the letters of the document: the value of `name`, or an equation or condition without a name."""
+class Result:
+    """A result in the letters of the document: the value of `name`, or an equation or condition without a name.
+
+    node     the right side
+    symbol   the name as a letter, if it has one value; otherwise None
+    left     the left side of a result without a name
+    """
 
     expected: Expected
     name: Node
+    node: Node
     relation: str
+    symbol: Symbol | None
     left: Value
     right: Value
 
@@ -87,57 +95,75 @@ class _Result:
         return [each for each in dict.fromkeys(self.right) if each.free_symbols]
 
 
-def compared(
-    claims: Sequence[Claim],
-    scopes: Sequence[int],
-    known: dict[int, Known],
-    facts: Facts,
-    meaning_of: Callable[[int], Meaning],
-    expected: Iterable[Expected],
-) -> list[Compared]:
-    """Return, for each answer, whether the document contains it. The verdict on a claim that contradicts an answer is
-    changed to "differs".
+class Comparison:
+    """The comparison of a document with the results of derivations, in the sections that state steps of them.
 
+    claims       all claims of the document
     scopes       the scope of each claim
     known        the definitions, equations and numbers that the rows of each scope give
     meaning_of   the meaning of letters in a scope
     """
-    problems: dict[str, list[Expected]] = {}
-    for each in expected:
-        problems.setdefault(each.problem, []).append(each)
-    found: list[Compared] = []
-    for results in problems.values():
-        sections = []
-        for scope in known:
-            here = [claim for claim, number in zip(claims, scopes, strict=True) if number == scope]
-            section = _Section(here, known[scope], [_read(each, facts, meaning_of(scope)) for each in results], facts)
-            sections.append((section.score(), section))
-        scores = [score for score, _ in sections]
-        best = scores.index(max(scores)) if scores else 0
-        near = [
-            section
-            for at, (score, section) in enumerate(sections)
-            if at == best or score >= LEAST_SCORE or (abs(at - best) == 1 and score > 0)
-        ]
-        found += [_of(each, near) for each in results if each.asked]
+
+    def __init__(
+        self,
+        claims: Sequence[Claim],
+        scopes: Sequence[int],
+        known: dict[int, Known],
+        facts: Facts,
+        meaning_of: Callable[[int], Meaning],
+        expected: Iterable[Expected],
+    ):
+        self.by_problem: list[tuple[list[Expected], list[Section]]] = []
+        problems: dict[str, list[Expected]] = {}
+        for each in expected:
+            problems.setdefault(each.problem, []).append(each)
+        for results in problems.values():
+            sections = []
+            for scope in known:
+                here = [claim for claim, number in zip(claims, scopes, strict=True) if number == scope]
+                read = [_read(each, facts, meaning_of(scope)) for each in results]
+                sections.append(Section(here, known[scope], read, facts))
+            self.by_problem.append((results, _near(sections)))
+
+    @property
+    def sections(self) -> list[Section]:
+        """The sections that state steps of a derivation, for each derivation."""
+        return [section for _, near in self.by_problem for section in near]
+
+    def answers(self) -> list[Compared]:
+        """Return, for each answer, whether the document contains it. The verdict on a claim that contradicts an answer
+        is changed to "differs"."""
+        return [_of(each, near) for results, near in self.by_problem for each in results if each.asked]
+
+
+def _near(sections: Sequence[Section]) -> list[Section]:
+    """Return the section that states the greatest number of steps of a derivation, and other sections that state steps
+    of it."""
+    scores = [section.score() for section in sections]
+    best = scores.index(max(scores)) if scores else 0
+    return [
+        section
+        for at, (score, section) in enumerate(zip(scores, sections, strict=True))
+        if at == best or score >= LEAST_SCORE or (abs(at - best) == 1 and score > 0)
+    ]
+
+
+def _of(expected: Expected, sections: list[Section]) -> Compared:
+    """Return whether the sections state an answer, and the claim that states or contradicts it. If no section states
+    the answer, report the last row of each section that gives its letter a different value."""
+    found = Compared(expected, Status.UNREAD)
+    try:
+        with time_limited(SECONDS):
+            for section in sections:
+                section.find(found)
+            for section in sections if found.status is Status.MISSING else ():
+                section.contradict(found)
+    except LimitReached:
+        found.status = Status.UNREAD if found.status is Status.MISSING else found.status
     return found
 
 
-def _of(expected: Expected, sections: list[_Section]) -> Compared:
-    """Return whether the sections state an answer, and the claim that states or contradicts it. Report the rows that
-    contradict it."""
-    found = Compared(expected, Status.UNREAD if all(expected.key not in each.results for each in sections) else
-                     Status.MISSING)  # fmt: skip
-    for section in sections:
-        try:
-            with time_limited(SECONDS):
-                section.compare(found)
-        except LimitReached:
-            found.status = Status.UNREAD if found.status is Status.MISSING else found.status
-    return found
-
-
-def _read(expected: Expected, facts: Facts, meaning: Meaning) -> _Result | None:
+def _read(expected: Expected, facts: Facts, meaning: Meaning) -> Result | None:
     document = read_document(source_of(f"$${expected.latex}$$", Format.TEX))
     statements = [statement for row in document.rows for statement in row.statements]
     if len(statements) != 1 or len(statements[0].sides) != 2:
@@ -150,23 +176,26 @@ def _read(expected: Expected, facts: Facts, meaning: Meaning) -> _Result | None:
         name = sympy.Integer(0) if is_named else meaning.of(left)
     except (Unreadable, Meaningless, *FAULTS):
         return None
-    return _Result(expected, left, relation, name, value)
+    symbol = None
+    with suppress(Meaningless, *FAULTS):
+        symbol = meaning.of(left) if is_named else None
+    return Result(expected, left, right, relation, symbol if isinstance(symbol, Symbol) else None, name, value)
 
 
-def _is_equal(result: _Result, claim: Claim) -> bool:
+def _is_equal(result: Result, claim: Claim) -> bool:
     if claim.values is None:
         return False
     return _states(result, claim, *claim.values, result.left, result.right)
 
 
-def _states(result: _Result, claim: Claim, left: Value, right: Value, name: Value, value: Value) -> bool:
+def _states(result: Result, claim: Claim, left: Value, right: Value, name: Value, value: Value) -> bool:
     try:
         if result.is_named:
             trivial = isinstance(value, Expr) and value.is_Integer
             if trivial and not _has_name(claim, result.name):
                 return False
-            return any(type(each) is type(value) or _both_scalar(each, value) for each in (left, right)) and (
-                any(_comparable(each, value) and same(each, value) for each in (left, right))
+            return any(_comparable(each, value) and same(each, value) for each in (left, right)) or (
+                claim.relation == "=" and is_solved_by(left, right, result.symbol, value)
             )
         if any(isinstance(each, MatrixBase) for each in (left, right, name, value)):
             return False
@@ -175,6 +204,17 @@ def _states(result: _Result, claim: Claim, left: Value, right: Value, name: Valu
         return _same_condition(claim.relation, left - right, result.relation, name - value)
     except FAULTS:
         return False
+
+
+def is_solved_by(left: Value, right: Value, symbol: Symbol | None, value: Value) -> bool:
+    """Whether an equation is linear in a letter, and its solution is this value."""
+    if symbol is None or any(isinstance(each, MatrixBase) for each in (left, right, value)):
+        return False
+    difference = left - right
+    slope = sympy.diff(difference, symbol)
+    if slope == 0 or slope.has(symbol) or left == symbol or right == symbol:
+        return False
+    return same(value * slope, symbol * slope - difference)
 
 
 def _both_scalar(one: Value, other: Value) -> bool:
@@ -207,10 +247,10 @@ def _has_name(claim: Claim, name: Node) -> bool:
     return (one.base, one.sub, one.dots, one.primes) == (other.base, other.sub, other.dots, other.primes)
 
 
-class _Section:
+class Section:
     """The claims of one scope, with which the results of one problem are compared."""
 
-    def __init__(self, claims: list[Claim], known: Known, results: list[_Result | None], facts: Facts):
+    def __init__(self, claims: list[Claim], known: Known, results: list[Result | None], facts: Facts):
         self.claims, self.known, self.facts = claims, known, facts
         self.results = {result.expected.key: result for result in results if result is not None}
         asked = [result.symbols for result in self.results.values() if result.expected.asked]
@@ -222,24 +262,27 @@ class _Section:
         """Return how many steps of the derivation the section states."""
         return sum(any(_is_equal(result, claim) for claim in self.claims) for result in self.results.values())
 
-    def compare(self, found: Compared) -> None:
+    def find(self, found: Compared) -> None:
+        """Find the claim that states an answer."""
         result = self.results.get(found.expected.key)
-        if result is None:
+        if result is None or found.status is Status.FOUND:
             return
         stated = next((claim for claim in self.claims if _is_equal(result, claim)), None)
         stated = stated or next((claim for claim in self.claims if self.states(result, claim)), None)
         stated = stated or self.entries_of(result)
-        if stated is not None and found.status is not Status.DIFFERS:
-            found.status, found.claim = Status.FOUND, stated.number
-        wrong = [] if not result.is_named else [
-            claim for claim in self.last
-            if _has_name(claim, result.name) and self.contradicts(result, claim, found.claim)
-        ]  # fmt: skip
-        for claim in wrong if found.claim is not None else wrong[-1:]:
-            self.blame(result, claim)
-            found.status, found.claim = Status.DIFFERS, claim.number
+        found.status = Status.MISSING if stated is None else Status.FOUND
+        found.claim = stated.number if stated is not None else None
 
-    def entries_of(self, result: _Result) -> Claim | None:
+    def contradict(self, found: Compared) -> None:
+        """Report the last claim that gives the letter of an answer a value, if this value contradicts the answer."""
+        result = self.results.get(found.expected.key)
+        if result is not None and result.is_named:
+            values = [claim for claim in self.last if _has_name(claim, result.name) and self.contradicts(result, claim)]
+            for claim in values[-1:]:
+                self.blame(result, claim)
+                found.status, found.claim = Status.DIFFERS, claim.number
+
+    def entries_of(self, result: Result) -> Claim | None:
         """Return the claim that states the last entry of a list or matrix, if each entry is stated by itself; otherwise
         None."""
         found = None
@@ -251,20 +294,20 @@ class _Section:
                 return None
         return found
 
-    def states(self, result: _Result, claim: Claim) -> bool:
+    def states(self, result: Result, claim: Claim) -> bool:
         if claim.values is None:
             return False
         if any(_states(result, claim, *values) for values in self.expanded(result, claim)):
             return True
         return result.is_named and self.is_rounded(result, claim)
 
-    def expanded(self, result: _Result, claim: Claim) -> Iterator[tuple[Value, Value, Value, Value]]:
+    def expanded(self, result: Result, claim: Claim) -> Iterator[tuple[Value, Value, Value, Value]]:
         assert claim.values is not None
         for values, _ in self.known.expanded(*claim.values, result.left, result.right):
             left, right, name, value = values
             yield left, right, name, value
 
-    def is_rounded(self, result: _Result, claim: Claim) -> bool:
+    def is_rounded(self, result: Result, claim: Claim) -> bool:
         assert claim.values is not None
         if not claim.decimals or not _comparable(claim.values[1], result.right):
             return False
@@ -272,27 +315,27 @@ class _Section:
         decision = Decision(claim, result.right, claim.values[1], meaning, self.known, frozenset())
         return decision.rounded() is not None
 
-    def contradicts(self, result: _Result, claim: Claim, stated: int | None) -> bool:
+    def contradicts(self, result: Result, claim: Claim) -> bool:
         """Whether the value that a claim gives contradicts the derived value."""
-        if claim.values is None or claim.relation not in ("=", "~") or (stated is not None and claim.number <= stated):
+        if claim.values is None or claim.relation not in ("=", "~"):
             return False
+        if result.relation == "~" and claim.relation == "=":
+            return False  # an approximation does not contradict an exact value
         value = claim.values[1]
-        if not _comparable(value, result.right) or _is_equal(result, claim) or self.states(result, claim):
+        if not _comparable(value, result.right):
             return False
         pairs = [(value, result.right), *((right, wanted) for _, right, _, wanted in self.expanded(result, claim))]
         written, wanted = pairs[-1]
         if bool(written.free_symbols) != bool(wanted.free_symbols):
             return False
-        if stated is not None and written.free_symbols < wanted.free_symbols:
-            return False  # perhaps a special case
         return any(one.free_symbols <= self.allowed for one, _ in pairs)
 
-    def blame(self, result: _Result, claim: Claim) -> None:
+    def blame(self, result: Result, claim: Claim) -> None:
         problem, latex = result.expected.problem, result.expected.latex
         because = f"the derivation of {problem} gives ${latex}$"
         before = claim.verdict
         if before is not None and before.outcome is Outcome.DIFFERS:
-            before.because += f"; {because}"
+            before.because += f"; {because}" if because not in before.because else ""
             return
         inherits = before.inherits if before is not None else None
         claim.verdict = Verdict(Outcome.DIFFERS, because, inherits=inherits, choices=before.choices if before else ())
@@ -305,4 +348,4 @@ class _Section:
                 claim.verdict.why_plausible = f"the row is {AbsoluteValue(ratio)} times the derived result"
 
 
-__all__ = ["Compared", "Expected", "Status", "compared"]
+__all__ = ["Compared", "Comparison", "Expected", "Result", "Section", "Status", "is_solved_by"]

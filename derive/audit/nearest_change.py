@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import islice
 
@@ -31,7 +31,7 @@ from derive.audit.systems import (
 )
 from derive.audit.time_limit import FAULTS
 from derive.documents.meaning import Meaning, Meaningless
-from derive.documents.syntax import Add, Der, Fun, Letter, Node, Num, Root
+from derive.documents.syntax import Add, Der, Frac, Fun, Group, Letter, Mul, Node, Num, Root
 
 POINTS = 3
 SMALL = 1e-7  # the greatest relative error of an equation that holds
@@ -308,7 +308,19 @@ def shows_terms(point: Numbers, left: Node, right: Node) -> bool:
 
 
 def terms_of(side: Node) -> list[Node]:
-    return [term for _, term in side.terms] if isinstance(side, Add) else [side]
+    """Return the terms of a sum, also of a sum that is a factor, as in m l (x'' + g x)."""
+    if isinstance(side, Group) and side.brackets != "|":
+        return terms_of(side.inner)
+    if isinstance(side, Add):
+        return [inner for _, term in side.terms for inner in terms_of(term)]
+    if isinstance(side, Frac):
+        return [replace(side, top=term) for term in terms_of(side.top)]
+    if isinstance(side, Mul):
+        for i, (sign, factor) in enumerate(side.factors):
+            inside = terms_of(factor)
+            if len(inside) > 1:
+                return [replace(side, factors=(*side.factors[:i], (sign, e), *side.factors[i + 1 :])) for e in inside]
+    return [side]
 
 
 def terms_in(sides: Sequence[Node], shown: Shown) -> list[Node]:

@@ -376,7 +376,9 @@ class _Reading:
             flat = [token for cell in cells for token in cell]
             if not without_spaces(flat):
                 continue
-            cells = [self.begun_side(block, cells) + cells[0], *cells[1:]]
+            if begun := self.begun_side(block, cells):
+                first, *others = filter(without_spaces, cells)
+                cells = [[*begun, *_without_indent(first)], *others]
             flat = [token for cell in cells for token in cell]
             rest, after = self.rest_of_side(block, cells)
             solid = without_spaces(flat)
@@ -402,7 +404,7 @@ class _Reading:
     def begun_side(self, block: Block, cells: list[list[Token]]) -> list[Token]:
         """Remove the previous rows in which the left side of a row begins, and return their tokens."""
         begun: list[Token] = []
-        tokens = without_spaces([token for cell in cells for token in cell])
+        tokens = _without_indent([token for cell in cells for token in cell])
         if not any(map(_is_relation, _outside_brackets(tokens))):
             return []
         while block.display and block.rows and len(block.rows[-1].statements) == 1:
@@ -419,12 +421,7 @@ class _Reading:
     def rest_of_side(self, block: Block, cells: list[list[Token]]) -> tuple[Row | None, list[Token]]:
         """Add the tokens before the first relation to the last side of the previous row if they continue it. Return
         this row and the other tokens, or None and no tokens."""
-        tokens = without_spaces([token for cell in cells for token in cell])
-        while tokens and tokens[0].is_command(
-            "quad", "qquad", ",", ";", " ", "!", ":", "hspace", "phantom", "hphantom"
-        ):
-            skip = argument_at(tokens, 1)[1] if tokens[0].text in ("hspace", "phantom", "hphantom") else 1
-            tokens = tokens[skip:]
+        tokens = _without_indent([token for cell in cells for token in cell])
         if not block.rows or not block.rows[-1].statements or self.last is None or not tokens:
             return None, []
         row, last = block.rows[-1], self.last.sides[-1]
@@ -454,6 +451,15 @@ class _Reading:
         self.last.sides[-1] = joined
         self.last.span = Span(self.last.span.start, joined.span.end)
         return row, after
+
+
+def _without_indent(tokens: list[Token]) -> list[Token]:
+    """Return the tokens of a row without the horizontal space at its beginning."""
+    tokens = without_spaces(tokens)
+    while tokens and tokens[0].is_command("quad", "qquad", ",", ";", " ", "!", ":", "hspace", "phantom", "hphantom"):
+        skip = argument_at(tokens, 1)[1] if tokens[0].text in ("hspace", "phantom", "hphantom") else 1
+        tokens = tokens[skip:]
+    return tokens
 
 
 def _is_mark_in_text(tokens: list[Token]) -> bool:

@@ -35,6 +35,7 @@ def test_a_wrong_method_with_correct_algebra_is_found() -> None:
     assert [each.status for each in found.compared] == [Status.DIFFERS, Status.DIFFERS]
     told = as_text(found, every=False)
     assert "the derivation of set/rod gives" in told and exit_code(found) == 1
+    assert "the row is 2 times the derived result" in told and "the row is 1/4 times the derived result" in told
     assert exit_code(audited(document(WRONG_METHOD))) == 0
 
 
@@ -81,7 +82,8 @@ def test_a_document_is_compared_with_a_problem(tmp_path: Path, capsys: pytest.Ca
     )
     assert main(["audit", str(file), "--problem", "library/atwood"]) == 1
     told = capsys.readouterr().out
-    assert "differs in line 3: S" in told and "1/2 times the derived result" in told
+    assert "differs in line 3: S" in told and "a factor was lost" in told
+    assert "found in line 1" not in told and "1 found, 1 differs" in told
 
 
 DENSITY = r"""

@@ -101,7 +101,11 @@ def test_a_list_in_braces_is_not_a_system() -> None:
     assert right == "Matrix([[a], [b]])"
 
 
-@pytest.mark.parametrize("second", ["- \\frac{1}{2} k x^2 &= E", "(1 + a) \\\\ - \\frac{1}{2} k x^2 &= E"])
+@pytest.mark.parametrize("second", [
+    "- \\frac{1}{2} k x^2 &= E",
+    "(1 + a) \\\\ - \\frac{1}{2} k x^2 &= E",
+    "&\\qquad + \\frac{1}{2} k x^2 = E",
+])  # fmt: skip
 def test_a_left_side_may_begin_in_rows_without_a_relation(second: str) -> None:
     text = "$$\n\\begin{aligned}\n\\frac{1}{2} m \\dot x^2 \\\\\n" + second + "\n\\end{aligned}\n$$"
     (row,) = read_document(source_of(text, Format.TEX, "a.tex")).rows

@@ -1,0 +1,174 @@
+"""The rows that agree with a derivation, and the rows that would agree with it after one small change.
+
+The value of a letter is compared with the results for this letter; an equation is compared with the equations of the
+derivation. A row that agrees with the derivation is right, also if it contradicts other rows.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, replace
+
+import sympy
+from sympy import Expr, MatrixBase, Symbol
+
+from derive.audit.accusing import Accuser
+from derive.audit.changes import SECONDS_OF_SEARCH
+from derive.audit.claims import Claim, Definition, Outcome, Verdict
+from derive.audit.deciding import is_multiple, same
+from derive.audit.expected import Result, Section, is_solved_by
+from derive.audit.knowledge import ASSUMED, Known
+from derive.audit.memory import GIVEN_UP, Memory, WithMemory
+from derive.audit.nearest_change import Nearness, letters_in
+from derive.audit.slips import WHY
+from derive.audit.time_limit import time_limited
+from derive.documents.syntax import Node
+
+FEWEST_OPERATIONS = 3  # a shorter result is one change away from too many other values
+
+
+@dataclass(frozen=True)
+class Row:
+    """The first and the last side of a chain up to one claim."""
+
+    claim: Claim
+    left: Node
+    right: Node
+    values: tuple[Expr, Expr]
+
+    @property
+    def difference(self) -> Expr:
+        return self.values[0] - self.values[1]
+
+
+class NearDerivation(WithMemory):
+    """The search for rows that a derivation confirms or contradicts."""
+
+    def __init__(self, memory: Memory, accuser: Accuser):
+        super().__init__(memory)
+        self.accuser = accuser
+        self.confirmed: set[int] = set()  # the numbers of claims that agree with a derivation
+        self.accused: set[int] = set()  # the numbers of claims that would agree with it after one change
+
+    def examine(self, section: Section) -> None:
+        """Report the rows of a section that would agree with a derivation after one change, and acquit the rows that
+        agree with it."""
+        for claim in section.claims:
+            if claim.values is None or claim.verdict is None or claim.relation not in ("=", ":="):
+                continue
+            with suppress(*GIVEN_UP), time_limited(SECONDS_OF_SEARCH):
+                self.memory.return_to(claim)
+                self.examine_claim(claim, claim.verdict, section)
+
+    def examine_claim(self, claim: Claim, verdict: Verdict, section: Section) -> None:
+        row = self.row_of(claim)
+        if row is None or verdict.outcome not in (Outcome.DEFINES, Outcome.UNDECIDED, Outcome.DIFFERS):
+            return
+        similar = list(self.similar_results(row, section))
+        if any(self.agrees(row, result, equation, known) for result, equation, known in similar):
+            self.confirmed.add(claim.number)
+            if verdict.outcome is Outcome.DIFFERS and not claim.is_step:
+                claim.verdict = Verdict(Outcome.HOLDS, "the derivation gives the same")
+        elif not self.accuser.is_left_alone(claim):
+            self.compare(row, verdict, similar)
+
+    def agrees(self, row: Row, result: Result, equation: Expr, known: Known) -> bool:
+        """Whether a row states a result, perhaps after the definitions of the document are substituted."""
+        if result.symbol is not None and is_solved_by(*row.values, result.symbol, result.right):
+            return True
+        if is_multiple(sympy.expand(row.difference), sympy.expand(equation)):
+            return True
+        if row.values[0] != result.symbol:
+            return False
+        return any(same(one, other) for (one, other), _ in known.expanded(row.values[1], result.right))
+
+    def row_of(self, claim: Claim) -> Row | None:
+        first = claim
+        while first.before is not None:
+            first = first.before
+        if first.values is None or first.left is None or claim.right is None or claim.values is None:
+            return None
+        values = first.values[0], claim.values[1]
+        if any(isinstance(each, MatrixBase) for each in values):
+            return None
+        return Row(claim, self.memory.reading(first.left), self.memory.reading(claim.right), values)
+
+    def compare(self, row: Row, verdict: Verdict, similar: Sequence[tuple[Result, Expr, Known]]) -> None:
+        """Report a row that would agree with one of these results after one change."""
+        for result, equation, known in similar:
+            known.state(equation, ASSUMED)
+            letters = {(e.identity, e.dots): e for e in letters_in(row.left, row.right, result.name, result.node)}
+            complete = row.claim.row.block.display and not self.memory.may_be_special(row.claim)
+            near = Nearness(
+                self.meaning, known, list(letters.values()), self.memory.shown, written=True,
+                terms=[] if complete else None,
+            )  # fmt: skip
+            edit = near.of_claim(row.left, row.right, None, is_step=False)
+            lost = near.lost_term(row.difference) if edit is None else None
+            if edit is not None and self.accuser.may_be_right(row.claim, edit):
+                continue
+            if edit is not None or lost is not None:
+                self.accused.add(row.claim.number)
+                verdict.outcome, verdict.inherits, verdict.counterexample = Outcome.DIFFERS, None, ""
+                verdict.because = f"the derivation of {result.expected.problem} gives ${result.expected.latex}$"
+                if edit is not None:
+                    verdict.suggest(edit)
+                else:
+                    verdict.suggestion, verdict.why_plausible = f"with the term {lost}", WHY["lost term"]
+                return
+
+    def similar_results(self, row: Row, section: Section) -> Iterator[tuple[Result, Expr, Known]]:
+        """Yield the results with which a row may be compared, each with its equation (left side minus right side) and
+        with the definitions of the document that the comparison needs."""
+        names_value = self.is_value(row.values[0])
+        for result in section.results.values():
+            if result.relation != "=" or isinstance(result.right, MatrixBase):
+                continue
+            left = self.meaning.of(result.name)
+            if isinstance(left, MatrixBase) or sympy.count_ops(left - result.right) < FEWEST_OPERATIONS:
+                continue
+            if left != row.values[0] and (names_value or self.is_value(left)):
+                continue
+            if isinstance(left, Symbol) and left not in row.difference.free_symbols:
+                continue
+            equation = left - result.right
+            if self.is_other_place(row.difference, equation):
+                continue
+            if have_similar_letters(row.difference, equation):
+                yield result, equation, Known(self.meaning)
+            elif left == row.values[0]:
+                known = self.definitions_for(row, section)
+                expanded = list(known.expanded(row.values[1], result.right))
+                if expanded and have_similar_letters(*expanded[-1][0]):
+                    yield result, equation, known
+
+    def is_value(self, left: Expr) -> bool:
+        """Whether a side is a letter without dots."""
+        return isinstance(left, Symbol) and left not in self.meaning.derivatives and not self.known.is_rate(left)
+
+    def is_other_place(self, one: Expr, other: Expr) -> bool:
+        """Whether two equations differ in one letter, such as v_0 and v_1: they are about different instants."""
+        letters = self.meaning.symbols
+        first = [letters[each].base for each in one.free_symbols - other.free_symbols if each in letters]
+        second = [letters[each].base for each in other.free_symbols - one.free_symbols if each in letters]
+        return len(first) == 1 and first == second
+
+    def definitions_for(self, row: Row, section: Section) -> Known:
+        """Return the definitions of the document, except those of the letter on the left side of a row, and with the
+        values of the derivation for the letters that it names once."""
+        named = Counter(result.symbol for result in section.results.values())
+        definitions = dict(self.known.definitions)
+        for result in section.results.values():
+            symbol = result.symbol
+            if symbol is not None and named[symbol] == 1 and self.is_value(symbol):
+                if result.relation == "=" and isinstance(result.right, Expr):
+                    definitions[symbol] = [Definition(symbol, result.right, ASSUMED)]
+        definitions.pop(row.values[0], None)
+        return replace(self.known, definitions=definitions, equations=[], slips={}, kept={})
+
+
+def have_similar_letters(one: Expr, other: Expr) -> bool:
+    """Whether each of two expressions contains at most one letter that the other one does not contain."""
+    return len(one.free_symbols - other.free_symbols) <= 1 and len(other.free_symbols - one.free_symbols) <= 1
