@@ -1,11 +1,12 @@
 r"""Break one row of a right document as people do: the audit must blame this row, and no other one.
 
-    python -P -m tests.damage 500 --seed 7
+    python -P -m tests.damage 500 --seed 7 [--derivation]
 
 The right documents are our own solutions, derived once into a temporary folder. The side of a claim is damaged only
 where the damage changes what the claim says. The table tells for each kind of damage and for each kind of claim how
 many rows are blamed at their place, named as the other possibility, blamed elsewhere, undecided, and passed silently.
-Damages that a document itself cannot show are counted apart; `can_be_seen` states the rule.
+Damages that a document itself cannot show are counted apart; `can_be_seen` states the rule. With `--derivation`, each
+document is also compared with the results of its problem, as by `derive audit --problem`.
 """
 
 from __future__ import annotations
@@ -19,16 +20,19 @@ import time
 from collections import Counter, defaultdict
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from typing import Any
 
 from derive.audit.auditing import Audit, audited
 from derive.audit.claims import Claim, Outcome
+from derive.audit.expected import Expected
 from derive.audit.fingerprint import differ, fingerprint
 from derive.audit.nearest_change import letters_in
 from derive.documents.layout import read_document
 from derive.documents.source import Format, source_of
 
+ROOT = Path(__file__).resolve().parent.parent
 FOLDER = Path(tempfile.gettempdir()) / "derive-documents"
 RESULTS = ("blamed", "named", "elsewhere", "undecided", "silent")
 
@@ -88,7 +92,7 @@ def damages_of(side: str, random_: random.Random) -> Iterator[Damage]:
 def documents(folder: Path = FOLDER, only: list[str] | None = None) -> dict[str, Path]:
     """Return the files of right documents by name; those that the folder lacks are derived."""
     folder.mkdir(parents=True, exist_ok=True)
-    sources = sorted(Path(__file__).resolve().parent.parent.glob("problems/library/*/*.yaml"))
+    sources = sorted(ROOT.glob("problems/library/*/*.yaml"))
     for source in sources if folder == FOLDER else []:
         file = folder / f"{source.stem}.tex"
         if (only is None or source.stem in only) and not file.exists():
@@ -100,8 +104,16 @@ def documents(folder: Path = FOLDER, only: list[str] | None = None) -> dict[str,
     return {name: file for name, file in found.items() if only is None or name in only}
 
 
-def read(text: str, name: str) -> Audit:
-    return audited(read_document(source_of(text, Format.TEX, f"{name}.tex")))
+def read(text: str, name: str, expected: Sequence[Expected] = ()) -> Audit:
+    return audited(read_document(source_of(text, Format.TEX, f"{name}.tex")), expected=expected)
+
+
+@cache
+def derived(name: str) -> tuple[Expected, ...]:
+    """The results of the derivation of a problem in the library."""
+    from derive.building.expected import expected_results
+
+    return tuple(expected_results(ROOT, f"library/{name}"))
 
 
 def kind_of(claim: Claim) -> str:
@@ -198,15 +210,19 @@ class Trial:
     visible: bool = True
 
 
-def trials(texts: dict[str, str], count: int, seed: int, each: int = 8) -> Iterator[Trial]:
-    """Yield the results of damages to documents in a random order."""
+def trials(texts: dict[str, str], count: int, seed: int, each: int = 8, derivation: bool = False) -> Iterator[Trial]:
+    """Yield the results of damages to documents in a random order.
+
+    derivation   whether the documents are compared with the results of their problems
+    """
     random_ = random.Random(seed)
     done = 0
     names = sorted(texts)
     while done < count:
         name = random_.choice(names)
         text = texts[name]
-        right = read(text, name)
+        expected = derived(name) if derivation else ()
+        right = read(text, name, expected)
         wrong_before = {c.number for c in right.claims if c.verdict and c.verdict.outcome is Outcome.DIFFERS}
         if wrong_before:
             names.remove(name)
@@ -225,7 +241,7 @@ def trials(texts: dict[str, str], count: int, seed: int, each: int = 8) -> Itera
                 (i for i, (a, b) in enumerate(zip(text[start:end], damage.text, strict=False)) if a != b),
                 min(end - start, len(damage.text)) - 1,
             )
-            audit = read(text[:start] + damage.text + text[end:], name)
+            audit = read(text[:start] + damage.text + text[end:], name, expected)
             result, found = judged(audit, place)
             if found is None or (found.verdict is not None and found.verdict.outcome is Outcome.UNREADABLE):
                 continue
@@ -258,12 +274,13 @@ def main(arguments: Any = None) -> None:
     parser.add_argument("count", type=int)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--documents", type=Path, default=FOLDER)
+    parser.add_argument("--derivation", action="store_true", help="compare each document with its problem")
     parser.add_argument("--show", nargs="*", default=[], help="results of which each row is printed")
     given = parser.parse_args(arguments)
     started = time.process_time()
     found = []
     texts = {name: file.read_text(encoding="utf-8") for name, file in documents(given.documents).items()}
-    for trial in trials(texts, given.count, given.seed):
+    for trial in trials(texts, given.count, given.seed, derivation=given.derivation):
         found.append(trial)
         if len(found) % 100 == 0:
             print(table(found, "kind"), flush=True)

@@ -129,7 +129,7 @@ class NearDerivation(WithMemory):
             left = self.meaning.of(result.name)
             if isinstance(left, MatrixBase) or sympy.count_ops(left - result.right) < FEWEST_OPERATIONS:
                 continue
-            if left != row.values[0] and (names_value or self.is_value(left)):
+            if left != row.values[0] and (self.is_value(left) or (names_value and not self.has_rates(result))):
                 continue
             if isinstance(left, Symbol) and left not in row.difference.free_symbols:
                 continue
@@ -143,6 +143,10 @@ class NearDerivation(WithMemory):
                 expanded = list(known.expanded(row.values[1], result.right))
                 if expanded and have_similar_letters(*expanded[-1][0]):
                     yield result, equation, known
+
+    def has_rates(self, result: Result) -> bool:
+        """Whether a result is an equation with rates, which a row may solve for a force."""
+        return not result.is_named and any(map(self.known.is_rate, result.symbols))
 
     def is_value(self, left: Expr) -> bool:
         """Whether a side is a letter without dots."""

@@ -116,3 +116,73 @@ def test_the_kinds_of_letters_are_declared(tmp_path: Path, capsys: pytest.Captur
     symbols.write_text("k: number\n", encoding="utf-8")
     assert main(["audit", str(file), "--symbols", str(symbols)]) == 2
     assert "not a kind" in capsys.readouterr().err
+
+
+STEPS = (
+    Expected("set/block", "motion", r"m\ddot{x}=mg\sin \alpha-F"),
+    Expected("set/block", "kinetic_energy", r"T=\frac{1}{2}\,m\,(\dot{x}^{2}+\omega^{2}x^{2})", asked=False),
+    Expected("set/block", "lagrangian", r"L=\frac{1}{2}\,m\,(\dot{x}^{2}+\omega^{2}x^{2})+mgx\sin \alpha", asked=False),
+    Expected("set/block", "speed", r"v_{1}=\sqrt{2gh-2\mu gl}"),
+    Expected("set/block", "friction", r"F\approx \mu mg", asked=False),
+)
+
+
+def outcomes(text: str, *expected: Expected) -> list[str]:
+    return [str(each.verdict.outcome) for each in compare(text, *expected).claims if each.verdict is not None]
+
+
+@pytest.mark.parametrize(
+    ("right", "slip"),
+    [
+        (r"m \ddot x = m g \sin\alpha - F", r"m \ddot x = m g \cos\alpha - F"),
+        (r"m \ddot x = m g \sin\alpha - F", r"m \ddot x = m g \sin\alpha + F"),
+        (r"m \ddot x = m g \sin\alpha - F", r"m \ddot x = m g \sin\alpha"),
+        (r"F = m (g \sin\alpha - \ddot x)", r"F = m (g \cos\alpha - \ddot x)"),
+        (r"T = \frac12 m \dot x^2 + \frac12 m \omega^2 x^2", r"T = \frac12 m \dot x^2 + \frac12 m \omega x^2"),
+        (r"L = T + m g x \sin\alpha", r"L = T - m g x \sin\alpha"),
+        (r"v_1 = \sqrt{2 g (h - \mu l)}", r"v_1 = \sqrt{2 g (h + \mu l)}"),
+    ],
+)
+def test_a_row_that_no_other_row_shows_is_compared_with_the_derivation(right: str, slip: str) -> None:
+    assert outcomes(f"$$ {right} $$", *STEPS)[0] != "differs"
+    assert outcomes(f"$$ {slip} $$")[0] != "differs"
+    found = compare(f"$$ {slip} $$", *STEPS)
+    verdict = found.claims[0].verdict
+    assert verdict is not None and verdict.outcome == "differs" and "the derivation of set/block" in verdict.because
+    assert verdict.suggestion
+
+
+@pytest.mark.parametrize(
+    "other",
+    [
+        r"$$ v_2 = \sqrt{2 g h + 2 \mu g l} $$",  # another instant
+        r"If there is no friction, $v_1 = \sqrt{2 g h}$ at the end.",
+        r"For $\mu = 0$ and $h = 0$, $T = \frac12 m \dot x^2$.",
+        r"$$ F = \mu m g \cos\alpha $$",  # the derivation gives an approximation only
+        r"$$ m \ddot x = m g \sin\alpha - F - c \dot x - k x $$",
+    ],
+)
+def test_a_row_about_something_else_does_not_contradict_a_derivation(other: str) -> None:
+    text = f"$$ v_1 = \\sqrt{{2 g (h - \\mu l)}} $$\n\n$$ m \\ddot x = m g \\sin\\alpha - F $$\n\n{other}"
+    assert "differs" not in outcomes(text, *STEPS)
+
+
+def test_a_row_that_agrees_with_the_derivation_is_not_suspected() -> None:
+    steps = (
+        Expected("set/wire", "speed", r"v^{2}=\dot{r}^{2}+\omega^{2}r^{2}", asked=False),
+        Expected("set/wire", "energy", r"T=\frac{1}{2}\,m\,(\dot{r}^{2}+\omega^{2}r^{2})", asked=False),
+        Expected("set/wire", "lagrangian", r"L=\frac{1}{2}\,m\,(\dot{r}^{2}+\omega^{2}r^{2})"),
+    )
+    text = r"""
+$$ v^2 = \dot r^2 + \omega^2 r^2 $$
+
+$$ T = \frac12 m v^2 $$
+
+$$ U = 0, \qquad L = T - U = \frac12 m \dot r^2 $$
+"""
+    (alone,) = (each.verdict for each in compare(text).claims if each.verdict and each.verdict.outcome == "differs")
+    assert "or the slip is in line 4" in alone.because
+    (known,) = (
+        each.verdict for each in compare(text, *steps).claims if each.verdict and each.verdict.outcome == "differs"
+    )
+    assert "or the slip" not in known.because
