@@ -149,14 +149,14 @@ def _near(sections: Sequence[Section]) -> list[Section]:
 
 
 def _of(expected: Expected, sections: list[Section]) -> Compared:
-    """Return whether the sections state an answer, and the claim that states or contradicts it. If no section states
-    the answer, report the last row of each section that gives its letter a different value."""
+    """Return whether the sections state an answer, and the claim that states or contradicts it. Report the rows that
+    contradict it."""
     found = Compared(expected, Status.UNREAD)
     try:
         with time_limited(SECONDS):
             for section in sections:
                 section.find(found)
-            for section in sections if found.status is Status.MISSING else ():
+            for section in sections:
                 section.contradict(found)
     except LimitReached:
         found.status = Status.UNREAD if found.status is Status.MISSING else found.status
@@ -274,13 +274,25 @@ class Section:
         found.claim = stated.number if stated is not None else None
 
     def contradict(self, found: Compared) -> None:
-        """Report the last claim that gives the letter of an answer a value, if this value contradicts the answer."""
+        """Report the last claim that gives the letter of an answer a different value. If the document states the
+        answer, report only a later display with the same letters, because other values may belong to other cases."""
         result = self.results.get(found.expected.key)
-        if result is not None and result.is_named:
-            values = [claim for claim in self.last if _has_name(claim, result.name) and self.contradicts(result, claim)]
-            for claim in values[-1:]:
-                self.blame(result, claim)
-                found.status, found.claim = Status.DIFFERS, claim.number
+        if result is None or not result.is_named:
+            return
+        values = [claim for claim in self.last if _has_name(claim, result.name) and self.contradicts(result, claim)]
+        stated = found.claim if found.status is Status.FOUND else None
+        if stated is not None:
+            values = [claim for claim in values if claim.number > stated and self.repeats(result, claim)]
+        for claim in values[-1:]:
+            self.blame(result, claim)
+            found.status, found.claim = Status.DIFFERS, claim.number
+
+    def repeats(self, result: Result, claim: Claim) -> bool:
+        """Whether a display gives the letter of an answer a value with the same letters, which is no other answer."""
+        assert claim.values is not None
+        same_letters = claim.values[1].free_symbols == result.right.free_symbols
+        others = [each for each in self.results.values() if each.is_named and each.symbol == result.symbol]
+        return bool(claim.row.block.display) and same_letters and not any(_is_equal(each, claim) for each in others)
 
     def entries_of(self, result: Result) -> Claim | None:
         """Return the claim that states the last entry of a list or matrix, if each entry is stated by itself; otherwise

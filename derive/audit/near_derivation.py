@@ -134,7 +134,7 @@ class NearDerivation(WithMemory):
             if isinstance(left, Symbol) and left not in row.difference.free_symbols:
                 continue
             equation = left - result.right
-            if self.is_other_place(row.difference, equation):
+            if not self.knows_letters(row, section) or self.is_other_place(row.difference, equation):
                 continue
             if have_similar_letters(row.difference, equation):
                 yield result, equation, Known(self.meaning)
@@ -151,6 +151,12 @@ class NearDerivation(WithMemory):
     def is_value(self, left: Expr) -> bool:
         """Whether a side is a letter without dots."""
         return isinstance(left, Symbol) and left not in self.meaning.derivatives and not self.known.is_rate(left)
+
+    def knows_letters(self, row: Row, section: Section) -> bool:
+        """Whether the derivation contains the letters of a row, except for letters that only this row contains."""
+        known = set[Symbol]().union(*(each.symbols | {each.symbol} for each in section.results.values()))
+        letters = [self.meaning.symbols.get(each) for each in row.difference.free_symbols - known]
+        return all(each is not None and self.accuser.changes.written[each.identity] == 1 for each in letters)
 
     def is_other_place(self, one: Expr, other: Expr) -> bool:
         """Whether two equations differ in one letter, such as v_0 and v_1: they are about different instants."""
