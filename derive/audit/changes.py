@@ -287,6 +287,52 @@ class Changes(WithMemory):
                 return edit if edit is not None and self.may_change(edit, claim, self.claims[number]) else None
         return None
 
+    def change_of_motions(self, claim: Claim) -> tuple[Claim, Edit] | None:
+        """Return one change of a motion, or of the value of another coordinate in the same sentence, after which both
+        satisfy the equations of motion that contain no other coordinates; None if they satisfy them already, or if no
+        change is found."""
+        assert claim.values is not None
+        place, motion = claim.values[0], motion_of(*claim.values, self.meaning)
+        for other in reversed(self.claims[: claim.number] if motion else []):
+            if other.row.block.sentence != claim.row.block.sentence or other.row.block.part != claim.row.block.part:
+                break
+            if other.values is None or other.is_step or not moving_letters({other.values[0]}, self.meaning):
+                continue
+            if other.values[0] == place or other.values[1].is_number:
+                continue
+            equations = self.equations_of_both(place, other.values[0])
+            motion_of_other = motion_of(*other.values, self.meaning)
+            if not equations or self.are_satisfied(equations, motion | motion_of_other):
+                continue
+            for changed, fixed in ((claim, motion_of_other), (other, motion)):
+                assert changed.right is not None and changed.values is not None
+                side = self.memory.reading(changed.right)
+                letters = [*letters_in(claim.right, other.right)]
+                for edit in Nearness(self.meaning, self.known, letters, self.memory.shown).edits(side):
+                    with suppress(*FAULTS, Meaningless):
+                        new = motion_of(changed.values[0], self.meaning.of(edit.node), self.meaning)
+                        if new and fixed and self.are_satisfied(equations, new | fixed):
+                            return changed, edit
+        return None
+
+    def equations_of_both(self, one: Symbol, other: Symbol) -> list[Expr]:
+        """Return the earlier equations with rates of one of two coordinates, and of no other coordinate; the list is
+        empty if no equation contains both coordinates."""
+        letters = {self.meaning.symbols[each].identity for each in (one, other) if each in self.meaning.symbols}
+        found, are_coupled = [], False
+        for equation, number in self.known.equations:
+            moving = [self.meaning.symbols[each] for each in moving_letters(equation.free_symbols, self.meaning)]
+            if number in self.known.conditions or not any(each.dots for each in moving):
+                continue
+            if {each.identity for each in moving} <= letters:
+                found.append(equation)
+                are_coupled = are_coupled or len({each.identity for each in moving}) == 2
+        return found if are_coupled else []
+
+    def are_satisfied(self, equations: Sequence[Expr], motion: dict[Symbol, Expr]) -> bool:
+        values = [each.xreplace(motion) for each in equations]
+        return all(any(is_zero(expanded(self.known, each, sure=sure)[0]) for sure in (True, False)) for each in values)
+
     def may_change(self, edit: Edit, claim: Claim, motion: Claim) -> bool:
         """Whether a change that an equation of motion suggests is probably right; in another part, a number may be
         different."""
