@@ -250,7 +250,8 @@ class _Auditor(WithMemory):
             return Verdict(Outcome.UNDECIDED, "the side before this one has no value")
         cues = claim.row.block.cues
         pairs = product(readings(left_side, self.memory.facts), readings(claim.right, self.memory.facts))
-        for (left_node, left_choices), (right_node, right_choices) in islice(pairs, MOST_READINGS):
+        for number, ((left_node, left_choices), (right_node, right_choices)) in enumerate(islice(pairs, MOST_READINGS)):
+            is_likely = number == 0  # a statement that only an unlikely reading allows is not believed
             for plain in PLAIN:
                 meaning = self.memory.meaning_of(self.meaning.scope, plain)
                 try:
@@ -268,7 +269,7 @@ class _Auditor(WithMemory):
                     reason = reason or f"SymPy cannot handle it: {error}"
                     continue
                 verdict.choices = (*left_choices, *right_choices)
-                if verdict.outcome in GOOD:
+                if verdict.outcome in GOOD and (is_likely or first is None or verdict.outcome is not Outcome.DEFINES):
                     claim.values, claim.decimals = (left, right), tuple(meaning.decimals)
                     return verdict
                 if first is None or (first.outcome is Outcome.DIFFERS and verdict.outcome is Outcome.UNDECIDED):

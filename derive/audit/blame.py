@@ -24,7 +24,7 @@ from derive.audit.reading import scope_of
 from derive.audit.slips import WHY, Edit, edits_of_side
 from derive.audit.time_limit import time_limited
 from derive.documents.source import Span
-from derive.documents.syntax import Fun, Letter, Node, Sum
+from derive.documents.syntax import Fun, Letter, Node, Num, Sum
 
 MOST_FIXED = 5  # at most this many earlier rows are searched for a slip other than a lost term
 ENERGIES = ("L", "T", "K", "U", "V", "H")
@@ -382,8 +382,10 @@ class Blame(WithMemory):
         give."""
         named = named_quantities(self.memory.document, lambda row: scope_of(self.memory.document, row))
         by_scope: dict[int, list[Claim]] = {}
+        zero = {id(each.statement) for each in self.claims if isinstance(each.right, Num) and each.right.text == "0"}
         for claim in self.claims:
-            by_scope.setdefault(self.memory.scope_of(claim), []).append(claim)
+            if id(claim.statement) not in zero or len(claim.statement.relations) == 1:  # x' = x'' = 0 has no dimension
+                by_scope.setdefault(self.memory.scope_of(claim), []).append(claim)
         for scope, claims in by_scope.items():
             odd = odd_claims(claims, self.meaning, named.get(scope, {}))
             if odd:

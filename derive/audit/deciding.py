@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import combinations, product
 from random import Random
@@ -233,6 +233,9 @@ class Decision:
                     return Verdict(Outcome.HOLDS, "it follows from an earlier equation of motion", (*used, number))
             return None
         plain, equation, number = found
+        put_in, used = expanded(self.known, value, plain, sure=True)
+        if any(map(self.known.is_rate, put_in.free_symbols)):
+            put_in, used = value, ()
         holds = vanishes(equation, plain, put_in, self.meaning, self.known)
         if holds is None:
             return None
@@ -423,7 +426,8 @@ class Decision:
                 words = " and ".join(_word(each) for each in letters)
                 if power > degree(right, letters):
                     return Verdict(Outcome.APPROXIMATES, f"the error is of order {power} in {words}", used)
-                if letters == changing_letters(left.free_symbols, self.meaning):
+                is_series = right.free_symbols <= left.free_symbols  # cot(x) = a/b may be small for another reason
+                if is_series and letters == changing_letters(left.free_symbols, self.meaning):
                     because = f"the terms of order {power} in {words} are not those of the left side"
                     return Verdict(Outcome.DIFFERS, because, used)
         if self.claim.relation in ("~", "prop"):
@@ -608,6 +612,8 @@ class Decision:
             return self.stated()
         if self.claim.relation != "=":
             return Verdict(Outcome.UNDECIDED, "this relation is not checked")
+        if (instant := self.instant_in(left, right)) is not None:
+            return Verdict(Outcome.HOLDS, f"the value at {_word(instant)}")
         if self.holds_in_motion_only(left, right):
             return Verdict(Outcome.UNDECIDED, "this may hold only because of the equations of motion")
         if (left.free_symbols ^ right.free_symbols) & set(self.meaning.sums):
@@ -646,6 +652,19 @@ class Decision:
             because = f"the formula before it gives a different value of {_word(above.symbol)}"
             return Verdict(Outcome.DIFFERS, because, counterexample=example)
         return Verdict(Outcome.DIFFERS, "the two sides are not equal", counterexample=example)
+
+    def instant_in(self, left: Expr, right: Expr) -> Symbol | None:
+        """Return the instant t_1 that the right side contains if the right side is the value of the left side at this
+        instant; otherwise None."""
+        if self.claim.is_step:
+            return None
+        for symbol in self.right.free_symbols - self.left.free_symbols:
+            named = self.meaning.symbols.get(symbol)
+            if named is not None and named.base == "t" and named.sub:
+                time = self.meaning.symbol(replace(named, sub=""))
+                if same(left.subs(time, expanded(self.known, symbol)[0]), right):
+                    return symbol
+        return None
 
     def is_computed(self) -> bool:
         """Whether the left side is a rate or derivative whose value follows from a definition that always holds."""

@@ -331,8 +331,10 @@ class Section:
         """Whether the value that a claim gives contradicts the derived value."""
         if claim.values is None or claim.relation not in ("=", "~"):
             return False
-        if result.relation == "~" and claim.relation == "=":
-            return False  # an approximation does not contradict an exact value
+        if result.relation != claim.relation and not claim.decimals:
+            return False  # an approximation and an exact value do not contradict each other
+        if claim.number in self.known.conditions:
+            return False  # a value at one place or instant, or in a special case
         value = claim.values[1]
         if not _comparable(value, result.right):
             return False
@@ -340,8 +342,9 @@ class Section:
         written, wanted = pairs[-1]
         if bool(written.free_symbols) != bool(wanted.free_symbols):
             return False
-        if not claim.row.block.display and written.free_symbols < wanted.free_symbols:
-            return False  # perhaps a value at one instant, or in a special case
+        named = {each.symbol for each in self.results.values()}
+        if (wanted.free_symbols & named) - self.known.seen:
+            return False  # the document has other letters for these quantities
         return any(one.free_symbols <= self.allowed for one, _ in pairs)
 
     def blame(self, result: Result, claim: Claim) -> None:

@@ -166,8 +166,14 @@ class Known:
         found = self.latest(symbol)
         if found is None or found.claim in self.conditions:
             at = [*self.numbers.get(symbol, ()), *self.definitions.get(symbol, ())]
-            return next((each for each in reversed(at) if each.claim in self.here), None)
+            here = next((each for each in reversed(at) if each.claim in self.here), None)
+            return here or self.general_value(symbol)
         return found
+
+    def general_value(self, symbol: Symbol) -> Definition | None:
+        """Return the last value of a letter that does not hold in one case or at one instant only, or None."""
+        found = reversed(self.definitions.get(symbol, ()))
+        return next((each for each in found if each.claim not in self.conditions - self.here), None)
 
     def computed(self, symbol: Symbol) -> Definition | None:
         """Return the value of a rate, of a derivative or of a function at a place, computed from the definition of its
@@ -313,14 +319,13 @@ class Known:
         """Return the last equations, and forms of them in which zeros and derivatives are substituted."""
         last = self.equations[-LAST_EQUATIONS:]
         last_values = {symbol: each[-1] for symbol, each in self.numbers.items()}
-        zeros = {
-            s: each.value for s, each in last_values.items() if each.value == 0 and not self.is_elsewhere(each.claim)
-        }
-        put_in = (
-            [(each.subs(zeros), number) for each, number in last[-6:] if each.free_symbols & set(zeros)]
-            if zeros
-            else []
-        )
+        zeros = {s: each for s, each in last_values.items() if each.value == 0 and not self.is_elsewhere(each.claim)}
+        put_in = []
+        for equation, number in last[-6:] if zeros else ():
+            used = [zeros[each].claim for each in sorted(equation.free_symbols & set(zeros), key=str)]
+            if used:
+                special = next((each for each in used if each in self.conditions), number)
+                put_in.append((equation.subs(dict.fromkeys(zeros, 0)), special))
         last = last + [(each, number) for each, number in put_in if each != 0 and each.free_symbols]
         return last + [pair for each in last[-6:] for pair in self.with_derivatives(*each)]
 

@@ -329,6 +329,8 @@ class Memory:
         if verdict.outcome is not Outcome.DEFINES or claim.values is None:
             return True
         letter, value = claim.values
+        if isinstance(letter, Symbol) and self.is_time(letter):
+            return True
         if value == 0 and letter.is_Symbol and letter.name in ("U", "V") and letter not in self.known.seen:
             return False  # the choice of the zero of a potential energy
         if not isinstance(letter, Symbol) or isinstance(value, MatrixBase) or value.is_number:
@@ -351,6 +353,27 @@ class Memory:
         named = [self.meaning.symbols.get(each) for each in value.free_symbols]
         depends_on_time = any(each is None or each.base == "t" for each in named)
         return not depends_on_time and not moving_letters(value.free_symbols, self.meaning)
+
+    def is_value_at_place(self, claim: Claim) -> bool:
+        """Whether a display gives another value to a letter at the place or instant that its sentence names: `At the
+        bottom, where theta = 0, N = 3 m g`."""
+        if claim.values is None or claim.is_step or not claim.row.block.display:
+            return False
+        letter = claim.values[0]
+        if not isinstance(letter, Symbol):
+            return False
+        places = [each for each in self.known.sentence if each in self.known.conditions and self.is_place(each)]
+        return bool(places) and self.known.general_value(letter) is not None
+
+    def is_place(self, number: int) -> bool:
+        """Whether a claim gives a constant value to a coordinate, or to the time."""
+        values = self.claims[number].values
+        is_time = values is not None and isinstance(values[0], Symbol) and self.is_time(values[0])
+        return is_time or number in self.known.instants
+
+    def is_time(self, symbol: Symbol) -> bool:
+        named = self.meaning.symbols.get(symbol)
+        return named is not None and named.base == "t" and not named.sub
 
     def is_equilibrium(self, claim: Claim) -> bool:
         """Whether an equation contains one coordinate and no rates, although earlier rows contain rates of this
@@ -389,7 +412,7 @@ class Memory:
             self.known.conditions.add(claim.number)
             self.known.special.setdefault(letter, []).append(Definition(letter, value, claim.number))
             return
-        if self.is_condition(claim, claim.verdict, believed):
+        if self.is_condition(claim, claim.verdict, believed) or self.is_value_at_place(claim):
             self.known.conditions.add(claim.number)
         elif self.is_equilibrium(claim):
             self.known.conditions.add(claim.number)

@@ -72,7 +72,7 @@ class NearDerivation(WithMemory):
             if verdict.outcome is Outcome.DIFFERS and not claim.is_step:
                 claim.verdict = Verdict(Outcome.HOLDS, "the derivation gives the same")
         elif not self.accuser.is_left_alone(claim):
-            self.compare(row, verdict, similar)
+            self.compare(row, section, similar)
 
     def agrees(self, row: Row, result: Result, equation: Expr, known: Known) -> bool:
         """Whether a row states a result, perhaps after the definitions of the document are substituted."""
@@ -95,35 +95,62 @@ class NearDerivation(WithMemory):
             return None
         return Row(claim, self.memory.reading(first.left), self.memory.reading(claim.right), values)
 
-    def compare(self, row: Row, verdict: Verdict, similar: Sequence[tuple[Result, Expr, Known]]) -> None:
-        """Report a row that would agree with one of these results after one change."""
+    def compare(self, row: Row, section: Section, similar: Sequence[tuple[Result, Expr, Known]]) -> None:
+        """Report a row that would agree with a result after one change, or with one more term."""
+        complete = bool(row.claim.row.block.display) and not self.memory.may_be_special(row.claim)
+        is_repeated = self.is_repeated(row.claim)
         for result, equation, known in similar:
+            if is_repeated and not result.expected.asked:
+                continue  # the letter may have another meaning than in the derivation
             known.state(equation, ASSUMED)
             letters = {(e.identity, e.dots): e for e in letters_in(row.left, row.right, result.name, result.node)}
-            complete = row.claim.row.block.display and not self.memory.may_be_special(row.claim)
             near = Nearness(
                 self.meaning, known, list(letters.values()), self.memory.shown, written=True,
                 terms=[] if complete else None,
             )  # fmt: skip
             edit = near.of_claim(row.left, row.right, None, is_step=False)
-            lost = near.lost_term(row.difference) if edit is None else None
-            if edit is not None and self.accuser.may_be_right(row.claim, edit):
-                continue
-            if edit is not None or lost is not None:
-                self.accused.add(row.claim.number)
-                verdict.outcome, verdict.inherits, verdict.counterexample = Outcome.DIFFERS, None, ""
-                verdict.because = f"the derivation of {result.expected.problem} gives ${result.expected.latex}$"
-                if edit is not None:
-                    verdict.suggest(edit)
-                else:
-                    verdict.suggestion, verdict.why_plausible = f"with the term {lost}", WHY["lost term"]
+            if edit is not None and not self.accuser.may_be_right(row.claim, edit):
+                self.accuse(row.claim, result).suggest(edit)
+                return
+        for result, equation in self.comparable_results(row, section) if complete else ():
+            known = Known(self.meaning)
+            known.state(equation, ASSUMED)
+            lost = Nearness(self.meaning, known, [], self.memory.shown, written=True, terms=[]).lost_term(
+                row.difference
+            )
+            if lost is not None:
+                verdict = self.accuse(row.claim, result)
+                verdict.suggestion, verdict.why_plausible = f"with the term {lost}", WHY["lost term"]
                 return
 
+    def is_repeated(self, claim: Claim) -> bool:
+        """Whether the next side of the same chain agrees with the right side of a claim."""
+        later = self.claims[claim.number + 1 : claim.number + 2]
+        return any(each.before is claim and each.verdict and each.verdict.outcome is Outcome.HOLDS for each in later)
+
+    def accuse(self, claim: Claim, result: Result) -> Verdict:
+        because = f"the derivation of {result.expected.problem} gives ${result.expected.latex}$"
+        claim.verdict = Verdict(Outcome.DIFFERS, because, choices=claim.verdict.choices if claim.verdict else ())
+        self.accused.add(claim.number)
+        return claim.verdict
+
     def similar_results(self, row: Row, section: Section) -> Iterator[tuple[Result, Expr, Known]]:
-        """Yield the results with which a row may be compared, each with its equation (left side minus right side) and
-        with the definitions of the document that the comparison needs."""
+        """Yield the results with similar letters as a row, each with its equation and with the definitions of the
+        document that the comparison needs."""
+        for result, equation in self.comparable_results(row, section):
+            if have_similar_letters(row.difference, equation):
+                yield result, equation, Known(self.meaning)
+            elif result.symbol == row.values[0]:
+                known = self.definitions_for(row, section)
+                expanded = list(known.expanded(row.values[1], result.right))
+                if expanded and have_similar_letters(*expanded[-1][0]):
+                    yield result, equation, known
+
+    def comparable_results(self, row: Row, section: Section) -> Iterator[tuple[Result, Expr]]:
+        """Yield the results about the same letter as a row, or the equations if the row is an equation; each with its
+        equation, left side minus right side."""
         names_value = self.is_value(row.values[0])
-        for result in section.results.values():
+        for result in section.results.values() if self.knows_letters(row, section) else ():
             if result.relation != "=" or isinstance(result.right, MatrixBase):
                 continue
             left = self.meaning.of(result.name)
@@ -133,16 +160,8 @@ class NearDerivation(WithMemory):
                 continue
             if isinstance(left, Symbol) and left not in row.difference.free_symbols:
                 continue
-            equation = left - result.right
-            if not self.knows_letters(row, section) or self.is_other_place(row.difference, equation):
-                continue
-            if have_similar_letters(row.difference, equation):
-                yield result, equation, Known(self.meaning)
-            elif left == row.values[0]:
-                known = self.definitions_for(row, section)
-                expanded = list(known.expanded(row.values[1], result.right))
-                if expanded and have_similar_letters(*expanded[-1][0]):
-                    yield result, equation, known
+            if not self.is_other_place(row.difference, left - result.right):
+                yield result, left - result.right
 
     def has_rates(self, result: Result) -> bool:
         """Whether a result is an equation with rates, which a row may solve for a force."""

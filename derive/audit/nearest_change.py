@@ -186,7 +186,7 @@ class Nearness:
     def of_root(self, side: Node, letter: Symbol, equation: Expr) -> Edit | None:
         """Return the cheapest change after which a side would be a root of an equation for `letter`; None if no change
         is found."""
-        value = self.defined(None)
+        value = self.defined(letter)
 
         def fixed(symbol: Symbol) -> Expr:  # a momentum counts as a number, because its definition contains rates
             return symbol if any(map(self.known.is_rate, value(symbol).free_symbols)) else value(symbol)

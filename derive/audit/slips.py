@@ -229,6 +229,6 @@ def _other_numbers(text: str) -> Iterator[str]:
         others = [value + 1, value - 1, 2 * value, 10 * value, *([value // 2] if value % 2 == 0 else [])]
         others += [int(text[:i] + text[i + 1 :]) for i in range(len(text)) if len(text) > 1]
         for other in others:
-            if other >= 0 and str(other) not in seen:
+            if other > 0 and str(other) not in seen:
                 seen.add(str(other))
                 yield str(other)

@@ -476,11 +476,11 @@ def values_with(place: Expr, meaning: Meaning, known: Known, rates: bool) -> lis
     if not (place.is_Symbol or (place.is_Function and len(place.args) == 1 and place.args[0].is_Symbol)):
         return []
     found = []
-    for symbol, definitions in known.definitions.items():
-        last = definitions[-1]
-        if not rates and known.is_rate(symbol):
+    for symbol in known.definitions:
+        last = known.general_value(symbol)
+        if symbol == place or last is None or isinstance(last.value, MatrixBase):
             continue
-        if symbol == place or last.claim in known.conditions - known.here or isinstance(last.value, MatrixBase):
+        if not rates and known.is_rate(symbol):
             continue
         value, _ = expanded(known, last.value, place if place.is_Symbol else None, sure=True)
         if isinstance(place, sympy.cos):

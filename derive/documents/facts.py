@@ -36,6 +36,7 @@ UNKNOWN: Identity = ("?", "", frozenset(), 0, "")  # the variable of a function 
 VARIABLES = frozenset({"t", "x", "y", "z", "r", "s", "theta", "phi", "q", "u", "tau"})
 KINDS = ("positive", "real", "integer", "constant", "changes", "vector", "tensor")
 TENSORS = ("I", "J", "Theta")
+E, I = (("e", "", frozenset[str](), 0, ""), ("i", "", frozenset[str](), 0, ""))  # the letters e and i
 ANGLES = frozenset({"theta", "phi", "psi", "alpha", "beta", "gamma", "chi"})
 
 
@@ -56,6 +57,7 @@ class Facts:
     has_brackets: bool = False  # whether {f, g} or <f, g> can be a Poisson bracket or an inner product
     has_lagrange: bool = False  # whether the text speaks of Lagrange's equations
     indices: set[str] = field(default_factory=set)  # indices of sums
+    phases: int = 0  # the number of exponents with a factor i, as in e^{i w t}
     declared: dict[Identity, str] = field(default_factory=dict)  # the kinds that the reader of the document declares
 
     def declare(self, kinds: Mapping[Identity, str]) -> None:
@@ -78,7 +80,8 @@ class Facts:
     def variables_of(self, letter: Letter) -> Counter[Identity]:
         bare = (letter.base, letter.sub, letter.marks, 0, letter.label)
         found = self.functions.get(letter.identity) or self.functions.get(bare) or Counter()
-        return Counter({each: count for each, count in found.items() if each != UNKNOWN}) if UNKNOWN in found else found
+        places = {each for each in found if each[1] and (each[0], "", *each[2:]) in found}  # r_0, if r is a variable
+        return Counter({each: count for each, count in found.items() if each != UNKNOWN and each not in places})
 
     def is_variable(self, letter: Letter) -> bool:
         """Whether the document differentiates with respect to a letter or its rate: y in dF/dy and in dF/dy'."""
@@ -103,6 +106,11 @@ class Facts:
         if shape is None:
             return "vec" in letter.marks and "hat" not in letter.marks and letter.identity not in self.tensors
         return shape[1] == 1
+
+    @property
+    def has_imaginary_unit(self) -> bool:
+        """Whether the letter i is the imaginary unit: it is in exponents, and it is neither an index nor a quantity."""
+        return self.phases > 0 and "i" not in self.indices and not self.alone[I]
 
     @property
     def has_axes(self) -> bool:
@@ -195,7 +203,17 @@ def _preferred(node: Node) -> Iterable[Node]:
         yield from _preferred(kid)
 
 
+def _has_phase(node: Node) -> bool:
+    """Whether a node is an exponential function whose exponent contains the letter i."""
+    if isinstance(node, Pow):
+        exponent = node.exponent if isinstance(node.base, Letter) and node.base.identity == E else None
+    else:
+        exponent = node.argument if isinstance(node, Fun) and node.name == "exp" else None
+    return exponent is not None and any(isinstance(each, Letter) and each.identity == I for each in exponent.walk())
+
+
 def _look_at(node: Node, facts: Facts) -> None:
+    facts.phases += _has_phase(node)
     if isinstance(node, Letter):
         facts.seen[node.identity] += 1
         facts.subscripts[node.sub] += 1

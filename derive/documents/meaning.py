@@ -39,6 +39,7 @@ from sympy import (
 
 from derive.algebra.integrals import definite
 from derive.documents.facts import ANGLES, Facts
+from derive.documents.facts import I as IMAGINARY
 from derive.documents.source import Span
 from derive.documents.syntax import (
     Abs,
@@ -154,7 +155,7 @@ class Meaning:
             return pi
         if node.base == "infty":
             return sympy.oo
-        if node.base == "imaginary unit":
+        if node.base == "imaginary unit" or (node.identity == IMAGINARY and self.facts.has_imaginary_unit):
             return sympy.I
         if "hat" in node.marks or "bb" in node.marks:
             return self.unit_vector(node)
