@@ -61,6 +61,7 @@ class Verdict:
     repeated: Definition | None = None  # the earlier value that this row claims to repeat
     contradicts: int | None = None  # the number of an earlier claim that gives a different value
     too_long: bool = False  # whether the time limit was reached
+    at_place: bool = False  # whether the claim gives a value at one place or instant only
     or_lines: tuple[int, ...] = ()  # lines of earlier rows that may contain the slip instead
 
     def suggest(self, edit: Edit) -> None:

@@ -613,7 +613,7 @@ class Decision:
         if self.claim.relation != "=":
             return Verdict(Outcome.UNDECIDED, "this relation is not checked")
         if (instant := self.instant_in(left, right)) is not None:
-            return Verdict(Outcome.HOLDS, f"the value at {_word(instant)}")
+            return Verdict(Outcome.HOLDS, f"the value at {_word(instant)}", at_place=True)
         if self.holds_in_motion_only(left, right):
             return Verdict(Outcome.UNDECIDED, "this may hold only because of the equations of motion")
         if (left.free_symbols ^ right.free_symbols) & set(self.meaning.sums):
@@ -752,7 +752,7 @@ class Decision:
             for place, number, there in values_at_place(before.value, self.right, self.meaning):
                 if same(there, self.right):
                     because = f"the earlier value at {_word(place)} = {number}"
-                    return Verdict(Outcome.HOLDS, because, (before.claim,))
+                    return Verdict(Outcome.HOLDS, because, (before.claim,), at_place=True)
             if before.part not in (-1, self.claim.row.block.part):
                 return Verdict(Outcome.DEFINES, f"a different value for {_word(self.left)} in another part")
             if self.cues & {Cue.DEFINED, Cue.GIVEN}:

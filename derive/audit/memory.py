@@ -319,6 +319,8 @@ class Memory:
 
     def is_condition(self, claim: Claim, verdict: Verdict, believed: bool = False) -> bool:
         """Whether a claim may hold in one case or at one instant only, as a formula in a sentence may."""
+        if verdict.at_place:
+            return True
         if believed and self.is_general(claim):
             return False
         if verdict.outcome in (Outcome.HOLDS, Outcome.APPROXIMATES):

@@ -30,7 +30,7 @@ FEWEST_OPERATIONS = 3  # a shorter result is one change away from too many other
 
 
 @dataclass(frozen=True)
-class Row:
+class Chain:
     """The first and the last side of a chain up to one claim."""
 
     claim: Claim
@@ -71,10 +71,14 @@ class NearDerivation(WithMemory):
             self.confirmed.add(claim.number)
             if verdict.outcome is Outcome.DIFFERS and not claim.is_step:
                 claim.verdict = Verdict(Outcome.HOLDS, "the derivation gives the same")
-        elif not self.accuser.is_left_alone(claim):
+        elif not self.accuser.is_left_alone(claim) and not self.is_special(claim):
             self.compare(row, section, similar)
 
-    def agrees(self, row: Row, result: Result, equation: Expr, known: Known) -> bool:
+    def is_special(self, claim: Claim) -> bool:
+        """Whether a display gives a value at the place or instant that its sentence names."""
+        return bool(claim.row.block.display) and claim.number in self.known.conditions
+
+    def agrees(self, row: Chain, result: Result, equation: Expr, known: Known) -> bool:
         """Whether a row states a result, perhaps after the definitions of the document are substituted."""
         if result.symbol is not None and is_solved_by(*row.values, result.symbol, result.right):
             return True
@@ -84,7 +88,7 @@ class NearDerivation(WithMemory):
             return False
         return any(same(one, other) for (one, other), _ in known.expanded(row.values[1], result.right))
 
-    def row_of(self, claim: Claim) -> Row | None:
+    def row_of(self, claim: Claim) -> Chain | None:
         first = claim
         while first.before is not None:
             first = first.before
@@ -93,9 +97,9 @@ class NearDerivation(WithMemory):
         values = first.values[0], claim.values[1]
         if any(isinstance(each, MatrixBase) for each in values):
             return None
-        return Row(claim, self.memory.reading(first.left), self.memory.reading(claim.right), values)
+        return Chain(claim, self.memory.reading(first.left), self.memory.reading(claim.right), values)
 
-    def compare(self, row: Row, section: Section, similar: Sequence[tuple[Result, Expr, Known]]) -> None:
+    def compare(self, row: Chain, section: Section, similar: Sequence[tuple[Result, Expr, Known]]) -> None:
         """Report a row that would agree with a result after one change, or with one more term."""
         complete = bool(row.claim.row.block.display) and not self.memory.may_be_special(row.claim)
         is_repeated = self.is_repeated(row.claim)
@@ -134,7 +138,7 @@ class NearDerivation(WithMemory):
         self.accused.add(claim.number)
         return claim.verdict
 
-    def similar_results(self, row: Row, section: Section) -> Iterator[tuple[Result, Expr, Known]]:
+    def similar_results(self, row: Chain, section: Section) -> Iterator[tuple[Result, Expr, Known]]:
         """Yield the results with similar letters as a row, each with its equation and with the definitions of the
         document that the comparison needs."""
         for result, equation in self.comparable_results(row, section):
@@ -146,7 +150,7 @@ class NearDerivation(WithMemory):
                 if expanded and have_similar_letters(*expanded[-1][0]):
                     yield result, equation, known
 
-    def comparable_results(self, row: Row, section: Section) -> Iterator[tuple[Result, Expr]]:
+    def comparable_results(self, row: Chain, section: Section) -> Iterator[tuple[Result, Expr]]:
         """Yield the results about the same letter as a row, or the equations if the row is an equation; each with its
         equation, left side minus right side."""
         names_value = self.is_value(row.values[0])
@@ -171,7 +175,7 @@ class NearDerivation(WithMemory):
         """Whether a side is a letter without dots."""
         return isinstance(left, Symbol) and left not in self.meaning.derivatives and not self.known.is_rate(left)
 
-    def knows_letters(self, row: Row, section: Section) -> bool:
+    def knows_letters(self, row: Chain, section: Section) -> bool:
         """Whether the derivation contains the letters of a row, except for letters that only this row contains."""
         known = set[Symbol]().union(*(each.symbols | {each.symbol} for each in section.results.values()))
         letters = [self.meaning.symbols.get(each) for each in row.difference.free_symbols - known]
@@ -184,7 +188,7 @@ class NearDerivation(WithMemory):
         second = [letters[each].base for each in other.free_symbols - one.free_symbols if each in letters]
         return len(first) == 1 and first == second
 
-    def definitions_for(self, row: Row, section: Section) -> Known:
+    def definitions_for(self, row: Chain, section: Section) -> Known:
         """Return the definitions of the document, except those of the letter on the left side of a row, and with the
         values of the derivation for the letters that it names once."""
         named = Counter(result.symbol for result in section.results.values())

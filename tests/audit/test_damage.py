@@ -723,3 +723,68 @@ def test_one_change_makes_a_row_follow(right: str, written: str, slip: str, line
 )
 def test_values_and_equations_of_other_cases_are_right(right: str) -> None:
     assert wrong(right) == []
+
+
+# Rows of right solutions that the audit took for slips.
+RIGHT = {
+    "an equation holds only if the accelerations vanish": r"""
+The equations of motion are
+\begin{align} m \ddot x &= q B \dot y \\ m \ddot y &= q E - q B \dot x \end{align}
+If $\ddot x = \ddot y = 0$, then
+$$ q B \dot y = 0, \qquad q E - q B \dot x = 0 $$
+
+so
+$$ \dot x = \frac E B, \qquad \dot y = 0 $$
+
+At the start, $p_x = 0$, so
+$$ \dot x = \frac{q B}{m} y $$
+Then
+$$ \ddot y + \left(\frac{q B}{m}\right)^2 y = \frac{q E}{m} $$
+This is an oscillator about the point $y = m E/(q B^2)$. With $y(0) = 0$ and $\dot y(0) = 0$,
+$$ y = \frac{m E}{q B^2} \left(1 - \cos\frac{q B t}{m}\right) $$
+""",
+    "a force has another value at one place": r"""
+The equation of motion and the forces are
+$$ l \ddot\theta = \frac32 g \sin\theta $$
+$$ l \dot\theta^2 = 3 g (1 - \cos\theta) $$
+$$ R_x = \frac34 M g (3 \cos\theta - 2) \sin\theta $$
+$$ R_y = \frac14 M g (1 - 3 \cos\theta)^2 $$
+The horizontal force changes its sign at
+$$ \cos\theta = \frac23 $$
+where $R_y = \frac14 M g$. The vertical force vanishes at
+$$ \cos\theta = \frac13 $$
+When the rod hits the ground, at $\theta = \frac{\pi}{2}$,
+$$ R_x = -\frac32 M g, \qquad R_y = \frac14 M g $$
+In all positions
+$$ R_x \sin\theta + R_y \cos\theta = M g \cos\theta - \frac12 M l \dot\theta^2 $$
+""",
+    "a rate at an instant": r"""
+The flight is
+$$ y = v_1 t \sin\alpha - \frac12 g t^2 $$
+It ends at
+$$ t_2 = \frac{4 v_1 \sin\alpha}{g} $$
+The velocity is then
+$$ \dot y = v_1 \sin\alpha - g t_2 = -3 v_1 \sin\alpha $$
+""",
+    "a function is small because a length is great": r"""
+The motion is steady if
+$$ R = \frac{2 g \cot\theta}{3 \Omega^2} - \frac{a}{6} \cos\theta $$
+In a large circle, the speed $v = R \Omega$ is related to the inclination by
+$$ \cot\theta \approx \frac{3 v^2}{2 g R} $$
+""",
+    "a constant momentum has two names": r"""
+The momentum is
+$$ p_\phi = m r^2 \dot\phi = l $$
+With $p_\phi = l$ we have
+$$ H_r = \frac{p_r^2}{2 m} + U(r), \qquad U = \frac{l^2}{2 m r^2} - \frac{k}{r} $$
+The potential is minimal where
+$$ U'(r) = -\frac{l^2}{m r^3} + \frac{k}{r^2} = 0, \qquad\text{that is, at}\quad r_c = \frac{l^2}{m k} $$
+The energy is
+$$ E = U(r_c) = -\frac{k}{2 r_c} = -\frac{m k^2}{2 l^2} $$
+""",
+}
+
+
+@pytest.mark.parametrize("case", RIGHT)
+def test_a_right_solution_has_no_slips(case: str) -> None:
+    assert wrong(RIGHT[case]) == []
