@@ -726,7 +726,7 @@ def test_values_and_equations_of_other_cases_are_right(right: str) -> None:
 
 
 # Rows of right solutions that the audit took for slips.
-RIGHT = {
+RIGHT_SOLUTIONS = {
     "an equation holds only if the accelerations vanish": r"""
 The equations of motion are
 \begin{align} m \ddot x &= q B \dot y \\ m \ddot y &= q E - q B \dot x \end{align}
@@ -785,6 +785,6 @@ $$ E = U(r_c) = -\frac{k}{2 r_c} = -\frac{m k^2}{2 l^2} $$
 }
 
 
-@pytest.mark.parametrize("case", RIGHT)
+@pytest.mark.parametrize("case", RIGHT_SOLUTIONS)
 def test_a_right_solution_has_no_slips(case: str) -> None:
-    assert wrong(RIGHT[case]) == []
+    assert wrong(RIGHT_SOLUTIONS[case]) == []
