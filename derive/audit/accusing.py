@@ -55,7 +55,7 @@ class Accuser(WithMemory):
         """Whether no change of a claim is sought, because the document gives too little information about it."""
         assert claim.values is not None
         cues = claim.row.block.cues
-        if Cue.INCORRECT in cues or (Cue.APPROXIMATE in cues and claim.is_step):
+        if cues & {Cue.INCORRECT, Cue.OTHER} or (Cue.APPROXIMATE in cues and claim.is_step):
             return True
         if claim.values[0] in self.meaning.evaluations:
             return True  # the value at one place says nothing about another place

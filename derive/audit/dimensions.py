@@ -155,7 +155,7 @@ def usual(equations: Sequence[Equation], meaning: Meaning, named: Mapping[str, P
             continue
         if symbol.name in named:
             yield Equation(-1, {symbol.name: Fraction(1)}, named[symbol.name])
-        elif letter.base in ANGLES:
+        elif letter.base in ANGLES - {"gamma"}:  # gamma is often a rate
             yield Equation(-1, {symbol.name: Fraction(1)})
         elif letter.base in USUAL and (not letter.sub or letter.sub in "0123"):
             yield Equation(-1, {symbol.name: Fraction(1)}, tuple(map(Fraction, USUAL[letter.base])))

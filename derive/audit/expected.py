@@ -292,7 +292,18 @@ class Section:
         assert claim.values is not None
         same_letters = claim.values[1].free_symbols == result.right.free_symbols
         others = [each for each in self.results.values() if each.is_named and each.symbol == result.symbol]
-        return bool(claim.row.block.display) and same_letters and not any(_is_equal(each, claim) for each in others)
+        if not claim.row.block.display or not same_letters or self.has_condition(claim):
+            return False
+        return not any(_is_equal(each, claim) for each in others)
+
+    def has_condition(self, claim: Claim) -> bool:
+        """Whether the text between a display and the display before it names a special case: `For alpha = pi/4, ...`"""
+        for each in reversed([each for each in self.claims if each.number < claim.number]):
+            if each.row.block.display and each.row.block is not claim.row.block:
+                return False
+            if each.number in self.known.conditions and not each.row.block.display:
+                return True
+        return False
 
     def entries_of(self, result: Result) -> Claim | None:
         """Return the claim that states the last entry of a list or matrix, if each entry is stated by itself; otherwise

@@ -364,8 +364,11 @@ class Memory:
         letter = claim.values[0]
         if not isinstance(letter, Symbol):
             return False
+        if any(map(self.is_time, claim.values[1].free_symbols)):
+            return False  # a motion with these initial values
         places = [each for each in self.known.sentence if each in self.known.conditions and self.is_place(each)]
-        return bool(places) and self.known.general_value(letter) is not None
+        is_place = bool(moving_letters({letter}, self.meaning)) and not self.known.is_rate(letter)
+        return bool(places) and (is_place or self.known.general_value(letter) is not None)
 
     def is_place(self, number: int) -> bool:
         """Whether a claim gives a constant value to a coordinate, or to the time."""

@@ -15,6 +15,7 @@ import sympy
 from sympy import Expr, MatrixBase, Symbol
 
 from derive.audit.accusing import Accuser
+from derive.audit.blame import ENERGIES
 from derive.audit.changes import SECONDS_OF_SEARCH
 from derive.audit.claims import Claim, Definition, Outcome, Verdict
 from derive.audit.deciding import is_multiple, same
@@ -190,12 +191,13 @@ class NearDerivation(WithMemory):
 
     def definitions_for(self, row: Chain, section: Section) -> Known:
         """Return the definitions of the document, except those of the letter on the left side of a row, and with the
-        values of the derivation for the letters that it names once."""
+        values of the derivation for energies and momenta."""
         named = Counter(result.symbol for result in section.results.values())
-        definitions = dict(self.known.definitions)
+        general = {symbol: self.known.general_value(symbol) for symbol in self.known.definitions}
+        definitions = {symbol: [found] for symbol, found in general.items() if found is not None}
         for result in section.results.values():
             symbol = result.symbol
-            if symbol is not None and named[symbol] == 1 and self.is_value(symbol):
+            if symbol is not None and named[symbol] == 1 and self.meaning.symbols[symbol].base in (*ENERGIES, "p"):
                 if result.relation == "=" and isinstance(result.right, Expr):
                     definitions[symbol] = [Definition(symbol, result.right, ASSUMED)]
         definitions.pop(row.values[0], None)
