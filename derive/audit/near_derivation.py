@@ -196,10 +196,11 @@ class NearDerivation(WithMemory):
         general = {symbol: self.known.general_value(symbol) for symbol in self.known.definitions}
         definitions = {symbol: [found] for symbol, found in general.items() if found is not None}
         for result in section.results.values():
-            symbol = result.symbol
-            if symbol is not None and named[symbol] == 1 and self.meaning.symbols[symbol].base in (*ENERGIES, "p"):
-                if result.relation == "=" and isinstance(result.right, Expr):
-                    definitions[symbol] = [Definition(symbol, result.right, ASSUMED)]
+            letter = self.meaning.symbols.get(result.symbol)
+            if letter is None or letter.dots or letter.base not in (*ENERGIES, "p") or named[result.symbol] > 1:
+                continue
+            if result.symbol is not None and result.relation == "=" and isinstance(result.right, Expr):
+                definitions[result.symbol] = [Definition(result.symbol, result.right, ASSUMED)]
         definitions.pop(row.values[0], None)
         return replace(self.known, definitions=definitions, equations=[], slips={}, kept={})
 
