@@ -28,7 +28,7 @@ from derive.documents.parser import Unreadable, parsed
 from derive.documents.source import Format, source_of
 from derive.documents.syntax import Abs, Der, EvalBar, Fun, Letter, Node
 
-SECONDS = 5.0  # seconds of processor time for comparing one result with one section
+SECONDS = 5.0  # seconds of processor time for comparing one result, or for counting the steps in one section
 # The section that states the greatest number of steps of a derivation is compared with the answers, and so are its
 # neighbours if they state any step. Other sections are compared if they state at least this number of steps.
 LEAST_SCORE = 3
@@ -158,7 +158,7 @@ def _of(expected: Expected, sections: list[Section]) -> Compared:
                 section.find(found)
             for section in sections:
                 section.contradict(found)
-    except LimitReached:
+    except (LimitReached, RecursionError):
         found.status = Status.UNREAD if found.status is Status.MISSING else found.status
     return found
 
@@ -260,7 +260,11 @@ class Section:
 
     def score(self) -> int:
         """Return how many steps of the derivation the section states."""
-        return sum(any(_is_equal(result, claim) for claim in self.claims) for result in self.results.values())
+        count = 0
+        with suppress(LimitReached, RecursionError), time_limited(SECONDS):
+            for result in self.results.values():
+                count += any(_is_equal(result, claim) for claim in self.claims)
+        return count
 
     def find(self, found: Compared) -> None:
         """Find the claim that states an answer."""
