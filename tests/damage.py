@@ -4,7 +4,8 @@ r"""Break one row of a right document as people do: the audit must blame this ro
 
 The right documents are our own solutions, derived once into a temporary folder. The side of a claim is damaged only
 where the damage changes what the claim says. The table tells for each kind of damage and for each kind of claim how
-many rows are blamed at their place, named as the other possibility, blamed elsewhere, undecided, and passed silently.
+many rows are blamed at their place, named as the other possibility, blamed elsewhere, undecided, listed as statements
+that nothing confirms, and passed silently.
 Damages that a document itself cannot show are counted apart; `can_be_seen` states the rule. With `--derivation`, each
 document is also compared with the results of its problem, as by `derive audit --problem`.
 """
@@ -34,7 +35,7 @@ from derive.documents.source import Format, source_of
 
 ROOT = Path(__file__).resolve().parent.parent
 FOLDER = Path(tempfile.gettempdir()) / "derive-documents"
-RESULTS = ("blamed", "named", "elsewhere", "undecided", "silent")
+RESULTS = ("blamed", "named", "elsewhere", "undecided", "unconfirmed", "silent")
 
 _GREEK = r"\\(?:alpha|beta|gamma|theta|phi|psi|omega|Omega|lambda|mu|rho|sigma)(?![a-zA-Z])"
 _LETTER = rf"{_GREEK}|(?<![\\a-zA-Z{{])[a-zA-Z](?![a-zA-Z])"
@@ -194,7 +195,8 @@ def judged(audit: Audit, place: int) -> tuple[str, Claim | None]:
         return "elsewhere", here[0] if here else None
     if Outcome.UNDECIDED in outcomes or Outcome.UNREADABLE in outcomes or not here:
         return "undecided", here[0] if here else None
-    return "silent", here[0]
+    unconfirmed = {claim.number for claim in audit.unconfirmed}
+    return "unconfirmed" if any(claim.number in unconfirmed for claim in here) else "silent", here[0]
 
 
 @dataclass(frozen=True)

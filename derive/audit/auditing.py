@@ -62,6 +62,16 @@ class Audit:
     claims: list[Claim]
     unread: list[tuple[Row, str]] = field(default_factory=list)
     compared: list[Compared] = field(default_factory=list)  # the results of a derivation, compared with the document
+    confirmed: set[int] = field(default_factory=set)  # the numbers of claims that a derivation confirms
+
+    @property
+    def unconfirmed(self) -> list[Claim]:
+        """The statements that no other row uses, continues or confirms, and that agree with no derivation."""
+        good = [each for each in self.claims if each.verdict is not None and each.verdict.outcome in GOOD]
+        used = {number for each in good if each.verdict is not None for number in each.verdict.given}
+        used |= {each.before.number for each in self.claims if each.before is not None}  # the chain goes on
+        stated = [each for each in good if each.verdict is not None and each.verdict.outcome is Outcome.DEFINES]
+        return [each for each in stated if each.number not in used | self.confirmed]
 
 
 def audited(
@@ -98,7 +108,7 @@ def audited(
     for section in comparison.sections:
         derivation.examine(section)
     blame.blame_all(derivation.confirmed, derivation.accused)
-    return Audit(document, facts, claims, unread, comparison.answers())
+    return Audit(document, facts, claims, unread, comparison.answers(), derivation.confirmed)
 
 
 class _Auditor(WithMemory):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from html import escape
 from typing import Any
 
@@ -42,7 +42,8 @@ def as_text(audit: Audit, every: bool) -> str:
     counted = summary(audit)
     parts = [f"{counted[str(outcome)]} {words}" for outcome, words in WORDS.items() if counted[str(outcome)]]
     total = f"{audit.document.source.path}: {len(audit.claims)} claims: {', '.join(parts)}"
-    return "\n\n".join([*shown, "\n".join([total, *_not_read(audit, every), *_of_answers(audit, every)])])
+    more = [*_not_read(audit, every), *_unconfirmed(audit), *_of_answers(audit, every)]
+    return "\n\n".join([*shown, "\n".join([total, *more])])
 
 
 def _not_read(audit: Audit, every: bool) -> Iterator[str]:
@@ -50,6 +51,15 @@ def _not_read(audit: Audit, every: bool) -> Iterator[str]:
     unread = {line: verdict.because for line, verdict in verdicts if verdict.outcome is Outcome.UNREADABLE}
     if not every:
         yield from (f"  line {line} is not read: {because}" for line, because in unread.items())
+
+
+def _lines_of(claims: Iterable[Claim]) -> list[int]:
+    return list(dict.fromkeys(claim.row.line for claim in claims))
+
+
+def _unconfirmed(audit: Audit) -> Iterator[str]:
+    if lines := _lines_of(audit.unconfirmed):
+        yield f"  no other row confirms what is stated in line{'s' * (len(lines) > 1)} {', '.join(map(str, lines))}"
 
 
 def _of_answers(audit: Audit, every: bool) -> Iterator[str]:
@@ -138,6 +148,7 @@ def as_json(audit: Audit) -> str:
 
 
 def _rows(audit: Audit) -> Iterator[dict[str, Any]]:
+    unconfirmed = {claim.number for claim in audit.unconfirmed}
     for claim in audit.claims:
         verdict = _verdict(claim)
         inherits = audit.claims[verdict.inherits].row.line if verdict.inherits is not None else None
@@ -153,6 +164,7 @@ def _rows(audit: Audit) -> Iterator[dict[str, Any]]:
             "counterexample": verdict.counterexample,
             "suggestion": verdict.suggestion,
             "inherits": inherits,
+            "confirmed": claim.number not in unconfirmed,
         }
 
 
@@ -201,6 +213,8 @@ def _summary_as_html(audit: Audit, marked: list[int]) -> str:
     look = ", ".join(f'<a href="#L{number}">{number}</a>' for number in marked)
     told = f"<p>{len(audit.claims)} claims: {', '.join(parts)}.</p>"
     told += f"<p>Please look at line {look}.</p>" if marked else "<p>I found nothing to correct.</p>"
+    alone = ", ".join(f'<a href="#L{number}">{number}</a>' for number in _lines_of(audit.unconfirmed))
+    told += f"<p>No other row confirms what is stated in line {alone}.</p>" if alone else ""
     answers = "<br>".join(f"<code>{escape(line)}</code>" for line in _of_answers(audit, every=True))
     return told + (f"<details><summary>Answers of the derivation</summary>{answers}</details>" if answers else "")
 

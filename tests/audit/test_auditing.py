@@ -333,6 +333,14 @@ def test_a_wrong_row_lists_the_rows_that_repeat_it_and_the_summary_the_rows_that
     assert "  line 5 is not read: " in told
 
 
+def test_the_summary_lists_the_statements_that_nothing_confirms() -> None:
+    text = "$$ N = m g \\cos\\alpha $$\n\n$$ v = \\sqrt{2 g h} $$\n\n$$ p = m v = m \\sqrt{2 g h} $$\n"
+    found = audit(text)
+    assert [claim.row.line for claim in found.unconfirmed] == [1]
+    assert "no other row confirms what is stated in line 1" in as_text(found, every=False)
+    assert [row["confirmed"] for row in as_data(found)["rows"]] == [False, True, True, True]
+
+
 def test_a_letter_with_another_value_in_another_part_has_other_derivatives() -> None:
     text = """(a) The bead is free.
 $$L = \\frac12 m \\dot x^2 - \\frac12 k x^2$$
