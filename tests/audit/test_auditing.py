@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from derive.audit.claims import Claim
-from derive.audit.report import as_html, as_json, as_text, exit_code
+from derive.audit.report import as_data, as_html, as_json, as_text, exit_code
 from derive.cli.options import main
 from tests.documents.reading import audit, outcomes
 
@@ -303,6 +303,7 @@ def test_json_has_each_row_with_its_verdict() -> None:
         "counterexample",
         "suggestion",
         "inherits",
+        "confirmed",
     } == set(data["rows"][0])
 
 
