@@ -191,6 +191,8 @@ class Changes(WithMemory):
         if letter is not None:
             edit = self.near_zero(claim, near, right_node, letter) or self.near_motion(claim, near, right_node, letter)
         edit = edit or self.near_vanishing(claim, near, right_node)
+        if edit is None and letter is not None and self.may_be_other_mode(claim):
+            return None
         edit = edit or self.near_equation(claim, near, left_node, right_node, letter)
         return None if edit is not None and claim.is_step and self.repeats_a_side(claim, edit.node) else edit
 
@@ -281,11 +283,33 @@ class Changes(WithMemory):
                 if self.may_change(edit, claim, self.claims[number]):
                     return edit
         for equation, number in reversed(equations_of_motion(*claim.values, self.meaning, near.known)):
+            if self.has_older_motion(equation.free_symbols, claim):
+                continue
             if self.belongs_to(claim, self.claims[number]) or self.is_motion(self.claims[number]):
                 near.letters = self.with_letters_of(equation, near.letters)
                 edit = near.of_motion(right_node, letter, equation)
                 return edit if edit is not None and self.may_change(edit, claim, self.claims[number]) else None
         return None
+
+    def may_be_other_mode(self, claim: Claim) -> bool:
+        """Whether a claim states a motion, and an earlier display states a motion of another coordinate."""
+        assert claim.values is not None
+        moving = moving_letters(set(self.known.definitions), self.meaning)
+        return bool(motion_of(*claim.values, self.meaning)) and self.has_older_motion(set(moving), claim)
+
+    def has_older_motion(self, symbols: set[Symbol], claim: Claim) -> bool:
+        """Whether an earlier display gives one of these letters, other than the letter of a claim, as a function of
+        time: perhaps the claim is about another mode."""
+        assert claim.values is not None
+        named = self.meaning.symbols.get(claim.values[0])
+        for each in moving_letters(symbols, self.meaning):
+            found = self.known.definitions.get(each, ())
+            if found and (named is None or self.meaning.symbols[each].identity != named.identity):
+                row = found[-1].row
+                is_older = row is not None and row.block.display and row.block is not claim.row.block
+                if is_older and motion_of(each, found[-1].value, self.meaning):
+                    return True
+        return False
 
     def change_of_motions(self, claim: Claim) -> tuple[Claim, Edit] | None:
         """Return one change of a motion, or of the value of another coordinate in the same sentence, after which both

@@ -211,7 +211,7 @@ def form_of(value: Expr, meaning: Meaning, found: list[Form]) -> Form | None:
     """Return the form of an expression, None for zero; add to `found` the products that must be dimensionless."""
     if value == 0:
         return None
-    if value.is_Number or value.is_NumberSymbol:
+    if value.is_Number or value.is_NumberSymbol or value is sympy.I:
         return {}
     if value.is_Symbol:
         return of_symbol(value, meaning)

@@ -489,6 +489,11 @@ class Meaning:
         if of is not None and not self.facts.is_vector(of, self.scope) and not self.facts.is_tensor(of, self.scope):
             return self.of_lone_letter(of, tuple(by), node.partial)
         value = self._of(node.of)
+        if isinstance(value, Symbol) and value in self.evaluations and len(by) == 1:
+            function, variable, at = self.evaluations[value]
+            head = self.symbols.get(function)
+            if head is not None and variable == by[0][0] and not at.has(variable):  # d V(a)/dr is V'(r) at r = a
+                return self.evaluated(self.of_lone_letter(head, tuple(by), node.partial), variable, at)
         if isinstance(value, Expr) and value in self.derivatives and len(by) == 1 and by[0][1] == 1:
             return self.rate_of(value, by[0][0], node.partial) or self.derivative_of_symbol(value, by[0][0])
         for symbol, order in by:
