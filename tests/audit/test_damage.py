@@ -727,6 +727,19 @@ def test_values_and_equations_of_other_cases_are_right(right: str) -> None:
 
 # Rows of right solutions that the audit took for slips.
 RIGHT_SOLUTIONS = {
+    "another equation with the same letter": r"""
+The equation of motion is
+$$ \ddot r = \omega^2 r - g \sin\omega t $$
+The homogeneous equation $\ddot r = \omega^2 r$ has the solutions $\cosh\omega t$ and $\sinh\omega t$.
+""",
+    "a growth rate with the name of an angle": r"""
+The small displacement $\eta$ obeys
+$$ (I + M a^2) \ddot\eta - M g a \eta = 0 $$
+where $M$ is the mass of the body and $a$ its radius. The kinetic energy is
+$$ T = \frac12 (I + M a^2) \dot\eta^2 $$
+The displacement grows like $e^{\gamma t}$ with
+$$ \gamma = \sqrt{\frac{M g a}{I + M a^2}} $$
+""",
     "an equation holds only if the accelerations vanish": r"""
 The equations of motion are
 \begin{align} m \ddot x &= q B \dot y \\ m \ddot y &= q E - q B \dot x \end{align}
