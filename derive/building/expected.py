@@ -14,12 +14,15 @@ from derive.steps.homogeneity import dimension_table
 
 
 def expected_results(root: Path, problem_id: str) -> list[Expected]:
-    """Derive a problem and return its steps; the steps that answer a part are marked as asked."""
+    """Derive a problem and return its steps; the steps that answer a part are marked as asked. A result that several
+    steps give, such as an equation of motion by two methods, is returned once."""
     problem = load_problem(root, problem_id)
     derivation, *_ = derived(problem)
     notation = Notation(dimension_table(problem.dimensions, derivation.steps)[0])
     asked = {step.key for part in problem.parts for step in derivation.answering(part.answers)}
-    return [
-        Expected(problem_id, step.key, latex(named_result(step, notation)), step.key in asked)
-        for step in derivation.steps
-    ]
+    found: dict[str, Expected] = {}
+    for step in derivation.steps:
+        written = latex(named_result(step, notation))
+        if written not in found or (step.key in asked and not found[written].asked):
+            found[written] = Expected(problem_id, step.key, written, step.key in asked)
+    return list(found.values())
