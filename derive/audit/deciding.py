@@ -427,7 +427,9 @@ class Decision:
                 if power > degree(right, letters):
                     return Verdict(Outcome.APPROXIMATES, f"the error is of order {power} in {words}", used)
                 is_series = right.free_symbols <= left.free_symbols  # cot(x) = a/b may be small for another reason
-                if is_series and letters == changing_letters(left.free_symbols, self.meaning):
+                small = {self.known.small[each] for each in self.known.sentence if each in self.known.small}
+                is_small = letters == changing_letters(left.free_symbols, self.meaning) or set(letters) <= small
+                if is_series and is_small:
                     because = f"the terms of order {power} in {words} are not those of the left side"
                     return Verdict(Outcome.DIFFERS, because, used)
         if self.claim.relation in ("~", "prop"):

@@ -32,6 +32,7 @@ class Known:
     numbers: dict[Symbol, list[Definition]] = field(default_factory=dict)  # values without letters
     equations: list[tuple[Expr, int]] = field(default_factory=list)
     bounds: list[tuple[Symbol, str, Expr, int]] = field(default_factory=list)  # letter, relation, number, claim
+    small: dict[int, Symbol] = field(default_factory=dict)  # claims `a << b`, with the small letter
     special: dict[Symbol, list[Definition]] = field(default_factory=dict)  # values in one case, `if R = a/2`
     slips: dict[Symbol, Definition] = field(default_factory=dict)  # the values that wrong rows give
     seen: set[Symbol] = field(default_factory=set)  # the letters of earlier claims

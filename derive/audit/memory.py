@@ -314,6 +314,8 @@ class Memory:
         assert claim.values is not None
         left, right = claim.values
         block = claim.row.block
+        if claim.relation not in ("=", ":="):
+            return False
         simple = isinstance(left, Symbol) and left in self.known.seen and isinstance(right, sympy.Expr)
         return bool(simple and not block.display and Cue.GIVEN in block.cues and right.as_coeff_Mul()[1].is_Symbol)
 
@@ -427,6 +429,10 @@ class Memory:
             if len(claim.values[1].free_symbols) > 1:
                 self.known.places.add(claim.number)
         self.known.seen |= claim.values[0].free_symbols | claim.values[1].free_symbols
+        if claim.relation in ("<<", ">>"):
+            small = claim.values[claim.relation == ">>"]
+            if isinstance(small, Symbol):
+                self.known.small[claim.number] = small
         if claim.relation not in ("=", ":="):
             start = claim
             while start.before is not None:

@@ -801,3 +801,25 @@ $$ E = U(r_c) = -\frac{k}{2 r_c} = -\frac{m k^2}{2 l^2} $$
 @pytest.mark.parametrize("case", RIGHT_SOLUTIONS)
 def test_a_right_solution_has_no_slips(case: str) -> None:
     assert wrong(RIGHT_SOLUTIONS[case]) == []
+
+
+SERIES = r"""
+The place is
+$$ x_1 = \frac{l + \sqrt{l^2 + 8 x_0^2}}{4} $$
+CASE,
+$$ x_1 \approx \frac{l}{2} + \frac{x_0^2}{l} $$
+"""
+
+
+@pytest.mark.parametrize(
+    ("case", "lines"), [(r"For $x_0 \ll l$", [5]), (r"For $l \gg x_0$", [5]), (r"For $l \ll x_0$", []), ("So", [])]
+)
+def test_an_approximation_is_compared_if_the_sentence_says_which_letter_is_small(case: str, lines: list[int]) -> None:
+    text = SERIES.replace("CASE", case)
+    assert wrong(text) == []
+    assert [each.row.line for each in wrong(text.replace(r"{2} +", "{2} -"))] == lines
+
+
+def test_a_small_letter_is_not_equal_to_the_greater_one() -> None:
+    text = "The length is $$ b = a + 2 c $$\n\nFor $a \\ll c$ the length is nearly 2 c. In general,\n$$ b - a = 2 c $$"
+    assert wrong(text) == [] and audit(text).claims[-1].verdict.outcome is Outcome.HOLDS  # type: ignore[union-attr]
