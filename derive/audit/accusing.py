@@ -121,7 +121,8 @@ class Accuser(WithMemory):
     def holds_at_place(self, claim: Claim) -> bool:
         """Whether two sides are equal for the values that the sentence of a display gives: `At x = a, E = ...`."""
         assert claim.values is not None
-        named = [self.claims[each].values for each in self.known.sentence]
+        stated = [self.claims[each] for each in self.known.sentence]
+        named = [each.values for each in stated if each.relation in ("=", ":=")]
         put_in = {each[0]: each[1] for each in named if each is not None and isinstance(each[0], Symbol)}
         left, right = (self.memory.expanded(each) for each in claim.values)
         return left.free_symbols & put_in.keys() != set() and same(left.xreplace(put_in), right)

@@ -821,5 +821,5 @@ def test_an_approximation_is_compared_if_the_sentence_says_which_letter_is_small
 
 
 def test_a_small_letter_is_not_equal_to_the_greater_one() -> None:
-    text = "The length is $$ b = a + 2 c $$\n\nFor $a \\ll c$ the length is nearly 2 c. In general,\n$$ b - a = 2 c $$"
-    assert wrong(text) == [] and audit(text).claims[-1].verdict.outcome is Outcome.HOLDS  # type: ignore[union-attr]
+    found = audit("The length is\n$$ b = a + 2 c $$\nFor $a \\ll c$,\n$$ b = 3 c $$").claims[-1].verdict
+    assert found is not None and found.outcome is not Outcome.HOLDS
