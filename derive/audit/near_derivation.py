@@ -190,11 +190,15 @@ class NearDerivation(WithMemory):
         return len(first) == 1 and first == second
 
     def definitions_for(self, row: Chain, section: Section) -> Known:
-        """Return the definitions of the document, except those of the letter on the left side of a row, and with the
+        """Return the definitions before a row, except those of the letter on the left side of the row, and with the
         values of the derivation for energies and momenta."""
         named = Counter(result.symbol for result in section.results.values())
-        general = {symbol: self.known.general_value(symbol) for symbol in self.known.definitions}
-        definitions = {symbol: [found] for symbol, found in general.items() if found is not None}
+        earlier = set(range(row.claim.number)) - self.known.conditions
+        definitions = {
+            symbol: general
+            for symbol, found in self.known.definitions.items()
+            if (general := [each for each in found if each.claim in earlier])
+        }
         for result in section.results.values():
             letter = self.meaning.symbols.get(result.symbol)
             if letter is None or letter.dots or letter.base not in (*ENERGIES, "p") or named[result.symbol] > 1:
