@@ -305,7 +305,7 @@ class Section:
         for each in reversed([each for each in self.claims if each.number < claim.number]):
             if each.row.block.display and each.row.block is not claim.row.block:
                 return False
-            if each.number in self.known.conditions and not each.row.block.display:
+            if each.number in self.known.conditions and each.values is not None and isinstance(each.values[0], Symbol):
                 return True
         return False
 

@@ -186,3 +186,20 @@ $$ U = 0, \qquad L = T - U = \frac12 m \dot r^2 $$
         each.verdict for each in compare(text, *steps).claims if each.verdict and each.verdict.outcome == "differs"
     )
     assert "or the slip" not in known.because
+
+
+@pytest.mark.parametrize(
+    ("before", "status"),
+    [
+        ("Another way is", Status.DIFFERS),
+        (r"This has the form $\ddot\theta + \omega_0^2 \theta = 0$, so the frequency is", Status.DIFFERS),
+        (r"For $l = 2 a$ the frequency of the other rod is", Status.FOUND),
+    ],
+)
+def test_a_second_value_of_an_answer_is_compared_unless_it_may_hold_in_a_special_case(
+    before: str, status: Status
+) -> None:
+    right = r"$$ I \ddot\theta = - k l \theta $$ Hence $$ \omega_0 = \sqrt{\frac{3 g}{2 l}} $$"
+    text = right + f"\n\n{before}\n" + r"$$ \omega_0 = \sqrt{\frac{6 g}{l}} $$"
+    (found,) = compare(text, FREQUENCY).compared
+    assert found.status is status
