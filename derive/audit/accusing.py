@@ -43,10 +43,11 @@ class Accuser(WithMemory):
             if self.holds_at_place(claim):
                 verdict.outcome, verdict.given = Outcome.HOLDS, tuple(sorted(self.known.sentence))
                 verdict.because = "the two sides are equal at the place that the sentence names"
-            elif (found := self.changes.change_of_motions(claim)) is not None and found[0].verdict is not None:
-                self.accuse(found[0], found[0].verdict, found[1])
             elif not self.is_left_alone(claim):
-                if verdict.outcome is Outcome.DEFINES and self.may_have_other_value(claim):
+                found = self.changes.change_of_motions(claim)
+                if found is not None and found[0].verdict is not None:
+                    self.accuse(found[0], found[0].verdict, found[1])
+                elif verdict.outcome is Outcome.DEFINES and self.may_have_other_value(claim):
                     self.accuse_value(claim, verdict)
                 else:
                     self.accuse_equation(claim, verdict)

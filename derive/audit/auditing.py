@@ -67,11 +67,11 @@ class Audit:
     @property
     def unconfirmed(self) -> list[Claim]:
         """The statements that no other row uses, continues or confirms, and that agree with no derivation."""
-        good = [each for each in self.claims if each.verdict is not None and each.verdict.outcome in GOOD]
-        used = {number for each in good if each.verdict is not None for number in each.verdict.given}
+        verdicts = {each.number: each.verdict for each in self.claims if each.verdict is not None}
+        used = {number for verdict in verdicts.values() for number in verdict.given}
         used |= {each.before.number for each in self.claims if each.before is not None}  # the chain goes on
-        stated = [each for each in good if each.verdict is not None and each.verdict.outcome is Outcome.DEFINES]
-        return [each for each in stated if each.number not in used | self.confirmed]
+        stated = {number for number, verdict in verdicts.items() if verdict.outcome is Outcome.DEFINES}
+        return [self.claims[number] for number in sorted(stated - used - self.confirmed)]
 
 
 def audited(
@@ -273,9 +273,11 @@ class _Auditor(WithMemory):
                         claim.values, claim.decimals = (left, right), tuple(meaning.decimals)
                     verdict = self.of_values(claim, left, right, meaning, cues, thorough=len(seen) == 1)
                 except Meaningless as error:
+                    claim.values = None if first is None else claim.values
                     reason = reason or error.reason
                     continue
                 except FAULTS as error:
+                    claim.values = None if first is None else claim.values
                     reason = reason or f"SymPy cannot handle it: {error}"
                     continue
                 verdict.choices = (*left_choices, *right_choices)

@@ -384,7 +384,10 @@ class Blame(WithMemory):
         by_scope: dict[int, list[Claim]] = {}
         zero = {id(each.statement) for each in self.claims if isinstance(each.right, Num) and each.right.text == "0"}
         for claim in self.claims:
-            if id(claim.statement) not in zero or len(claim.statement.relations) == 1:  # x' = x'' = 0 has no dimension
+            both_vanish = (
+                id(claim.statement) in zero and isinstance(claim.left, Letter) and isinstance(claim.right, Letter)
+            )
+            if not both_vanish:  # x' = x'' = 0 says nothing about dimensions
                 by_scope.setdefault(self.memory.scope_of(claim), []).append(claim)
         for scope, claims in by_scope.items():
             odd = odd_claims(claims, self.meaning, named.get(scope, {}))

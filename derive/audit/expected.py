@@ -351,7 +351,7 @@ class Section:
         if claim.number in self.known.conditions:
             return False  # a value at one place or instant, or in a special case
         value = claim.values[1]
-        if not _comparable(value, result.right):
+        if not _comparable(value, result.right) or _is_equal(result, claim) or self.states(result, claim):
             return False
         pairs = [(value, result.right), *((right, wanted) for _, right, _, wanted in self.expanded(result, claim))]
         written, wanted = pairs[-1]

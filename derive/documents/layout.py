@@ -108,7 +108,7 @@ CUES = {
     r"|\bconditions?\b|\bNewton\w*|\bLagrange\w*|\bHamilton\w*|\bEuler\w*|\bidentit\w+|\btry\b|\bformula\b|\bmodel\w*",
     Cue.REPEATED: r"\brepeat\w*|\bonce more\b|\brecall\w*|\bwe (?:already )?found\b|\bfound (?:above|earlier|before)\b"
     r"|\bfrom (?:above|before|part)\b|\bcopied\b",
-    Cue.OTHER: r"\b(?:in)?homogeneous\b|\bcomplementary\b|\bunperturbed\b",
+    Cue.OTHER: r"\b(?:homogeneous|complementary|unperturbed) (?:differential )?(?:equation|solution|part|motion)s?\b",
     Cue.INCORRECT: r"\bincorrect\b|\bwrong\b|\bnot true\b|\bguess\b|\bmistak\w+|\bcontradict\w+",
 }
 _CUES = {cue: re.compile(pattern, re.IGNORECASE) for cue, pattern in CUES.items()}

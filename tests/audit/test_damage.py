@@ -823,3 +823,11 @@ def test_an_approximation_is_compared_if_the_sentence_says_which_letter_is_small
 def test_a_small_letter_is_not_equal_to_the_greater_one() -> None:
     found = audit("The length is\n$$ b = a + 2 c $$\nFor $a \\ll c$,\n$$ b = 3 c $$").claims[-1].verdict
     assert found is not None and found.outcome is not Outcome.HOLDS
+
+
+def test_a_homogeneous_body_is_not_a_homogeneous_equation() -> None:
+    text = "The Lagrangian of the homogeneous rod is\n$$ L = \\frac16 M l^2 \\dot\\theta^2 + \\frac12 M g l \\cos\\theta $$\n"
+    text += "The equation of motion of the homogeneous rod is\n"
+    text += "$$ \\frac13 M l^2 \\ddot\\theta = - \\frac12 M g l \\sin\\theta $$"
+    assert wrong(text) == []
+    assert [each.row.line for each in wrong(text.replace("- \\frac12", "\\frac12"))] == [4]

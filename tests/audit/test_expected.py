@@ -203,3 +203,11 @@ def test_a_second_value_of_an_answer_is_compared_unless_it_may_hold_in_a_special
     text = right + f"\n\n{before}\n" + r"$$ \omega_0 = \sqrt{\frac{6 g}{l}} $$"
     (found,) = compare(text, FREQUENCY).compared
     assert found.status is status
+
+
+@pytest.mark.parametrize(("number", "status"), [("1.932", Status.FOUND), ("1.732", Status.DIFFERS)])
+def test_an_answer_that_is_stated_again_may_be_rounded(number: str, status: Status) -> None:
+    expected = Expected("set/string", "speed", r"v_{p}=\sqrt{(2+\sqrt{3})\,gl}")
+    text = r"$$ v_p = \sqrt{(2+\sqrt{3}) g l} $$ so that $$ v_p = NUMBER \sqrt{g l} $$".replace("NUMBER", number)
+    (found,) = compare(text, expected).compared
+    assert found.status is status
