@@ -351,9 +351,11 @@ class Section:
         if claim.number in self.known.conditions:
             return False  # a value at one place or instant, or in a special case
         value = claim.values[1]
-        if not _comparable(value, result.right) or _is_equal(result, claim) or self.states(result, claim):
+        if not _comparable(value, result.right) or self.is_rounded(result, claim):
             return False
         pairs = [(value, result.right), *((right, wanted) for _, right, _, wanted in self.expanded(result, claim))]
+        if any(_comparable(one, other) and same(one, other) for one, other in pairs):
+            return False
         written, wanted = pairs[-1]
         if bool(written.free_symbols) != bool(wanted.free_symbols):
             return False

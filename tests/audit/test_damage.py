@@ -826,7 +826,7 @@ def test_a_small_letter_is_not_equal_to_the_greater_one() -> None:
 
 
 def test_a_homogeneous_body_is_not_a_homogeneous_equation() -> None:
-    text = "The Lagrangian of the homogeneous rod is\n$$ L = \\frac16 M l^2 \\dot\\theta^2 + \\frac12 M g l \\cos\\theta $$\n"
+    text = "The homogeneous rod has\n$$ L = \\frac16 M l^2 \\dot\\theta^2 + \\frac12 M g l \\cos\\theta $$\n"
     text += "The equation of motion of the homogeneous rod is\n"
     text += "$$ \\frac13 M l^2 \\ddot\\theta = - \\frac12 M g l \\sin\\theta $$"
     assert wrong(text) == []
