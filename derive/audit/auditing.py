@@ -269,7 +269,7 @@ class _Auditor(WithMemory):
                     if (left, right) in seen:
                         continue
                     seen.append((left, right))
-                    if claim.values is None:  # known also if the time limit is reached
+                    if claim.values is None:  # so that later rows can use them even if the time limit is reached
                         claim.values, claim.decimals = (left, right), tuple(meaning.decimals)
                     verdict = self.of_values(claim, left, right, meaning, cues, thorough=len(seen) == 1)
                 except Meaningless as error:
